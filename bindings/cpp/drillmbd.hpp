@@ -49,31 +49,41 @@ namespace drillmbd {
 template <typename T>
 class span {
 public:
+    // Of nothing.
     span() noexcept : data_(nullptr), size_(0) {}
+    // Of a pointer with a number.
     span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    // Of an array.
     template <std::size_t N>
     span(T (&array)[N]) noexcept : data_(array), size_(N)
     {
     }
+    // Of a list in braces, within the call that it is written in.
     span(std::initializer_list<typename std::remove_const<T>::type> list) noexcept : span()
     {
         data_ = list.begin();
         size_ = list.size();
     }
+    // Of whatever has data() and size().
     template <typename Container, typename = typename std::enable_if<std::is_convertible<
                                       decltype(std::declval<Container &>().data()), T *>::value>::type>
     span(Container &&container) noexcept : data_(container.data()), size_(container.size())
     {
     }
+    // The first of them.
     DRILLMBD_NODISCARD T *data() const noexcept { return data_; }
+    // Number of values.
     DRILLMBD_NODISCARD std::size_t size() const noexcept { return size_; }
     // As the C functions count; what is beyond is refused by them.
     DRILLMBD_NODISCARD std::uint32_t count() const noexcept
     {
         return size_ < UINT32_MAX ? static_cast<std::uint32_t>(size_) : UINT32_MAX;
     }
+    // For loops over them.
     DRILLMBD_NODISCARD T *begin() const noexcept { return data_; }
+    // Behind the last.
     DRILLMBD_NODISCARD T *end() const noexcept { return data_ + size_; }
+    // Value i, which is not checked.
     DRILLMBD_NODISCARD T &operator[](std::size_t i) const noexcept { return data_[i]; }
 
 private:
@@ -87,18 +97,25 @@ private:
 // it.
 class error : public std::runtime_error {
 public:
+    // Of a status < 0 and the message of who failed; without one the text of the status.
     explicit error(std::int32_t failed, const char *message = nullptr)
         : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(failed, message)), status_(failed)
     {
         take_apart(text_of(failed, message));
     }
+    // DMB_ERR_...
     DRILLMBD_NODISCARD std::int32_t status() const noexcept { return status_; }
+    // Name of the status, "DMB_ERR_VALUE".
     DRILLMBD_NODISCARD const char *name() const noexcept { return dmb_status_name(status_); }
-    // "pipe 3", "length", "-1 m", "be > 0", "give ...": empty where the message has no such part.
+    // Such as "pipe 3"; as the others empty where the message has no such part.
     DRILLMBD_NODISCARD const std::string &part() const noexcept { return part_; }
+    // Such as "length".
     DRILLMBD_NODISCARD const std::string &field() const noexcept { return field_; }
+    // Such as "-1 m".
     DRILLMBD_NODISCARD const std::string &value() const noexcept { return value_; }
+    // Such as "be > 0".
     DRILLMBD_NODISCARD const std::string &bound() const noexcept { return bound_; }
+    // Such as "give ...".
     DRILLMBD_NODISCARD const std::string &advice() const noexcept { return advice_; }
 
 private:
@@ -138,6 +155,7 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 // call fails with DMB_ERR_CALLBACK. Not for threads: sims on several threads call one object at once.
 template <typename Function, typename Result, typename... Arguments>
 struct guarded {
+    // The C function, whose context is the function object.
     static Result call(void *context, Arguments... arguments) noexcept
     {
         return run(std::is_void<decltype((*static_cast<Function *>(context))(arguments...))>(), context, arguments...);
@@ -165,6 +183,7 @@ private:
     static Result failed(std::false_type) noexcept { return static_cast<Result>(-1); }
 };
 
+// Puts a function object into a field for a C function and the one for its context.
 template <typename Function, typename Result, typename... Arguments>
 void bind(Result (*&slot)(void *, Arguments...), void *&context, Function &function) noexcept
 {
@@ -203,6 +222,7 @@ public:
                   ? "pool: memory = NULL, must be a block of the caller's; give one"
                   : "pool: size [byte] must be at least 256 and end within the addresses; give more memory");
     }
+    // For the options of models and sims.
     DRILLMBD_NODISCARD const dmb_allocator *get() const noexcept { return &allocator_; }
     // [byte] in use at most, the pool's own 64 included.
     DRILLMBD_NODISCARD std::size_t peak() const noexcept { return dmb_pool_peak(&allocator_); }
@@ -213,6 +233,7 @@ private:
 #endif
 
 // ---- Model ----------------------------------------------------------------------------------------------------------
+// A description of a rig, its string and its hole, and the scene that it is compiled to.
 class model {
 public:
     // An owner of nothing.
@@ -334,8 +355,9 @@ public:
     }
     // The pipes added under that name.
     struct pipe_range {
-        dmb_id string;
-        std::uint32_t first, count;
+        dmb_id string;       // the string that has them
+        std::uint32_t first; // number of the first, from the rig end on
+        std::uint32_t count; // [-] of them
     };
     DRILLMBD_NODISCARD pipe_range find_pipes(const char *name) const
     {
@@ -445,8 +467,10 @@ private:
 // Result of sim::modes.
 class modes {
 public:
+    // Of a part in one mode.
     struct energies {
-        double kinetic, strain;
+        double kinetic; // [J]
+        double strain;  // [J]
     };
 
     explicit modes(dmb_modes *handle = nullptr) noexcept : handle_(handle) {}
@@ -635,9 +659,11 @@ public:
     }
 
 #if defined(DRILLMBD_EXCEPTIONS)
+    // Entries of a sparse matrix.
     struct triplets {
-        std::vector<std::uint32_t> rows, columns;
-        std::vector<double> values;
+        std::vector<std::uint32_t> rows;    // of each entry
+        std::vector<std::uint32_t> columns; // of each entry
+        std::vector<double> values;         // of each entry
     };
     DRILLMBD_NODISCARD dmb_state_space_info info() const
     {
@@ -788,8 +814,8 @@ private:
 #if defined(DRILLMBD_EXCEPTIONS)
 // Result of sim::sine.
 struct sine_response {
-    std::int32_t status; // DMB_OK, or DMB_NOTE_STOPPED: not settled
-    dmb_stepped_sine_report report;
+    std::int32_t status;            // DMB_OK, or DMB_NOTE_STOPPED: not settled
+    dmb_stepped_sine_report report; // how it settled
     // Of each output its mean and then its harmonics.
     std::vector<std::vector<std::complex<double>>> amplitudes;
 };
@@ -797,13 +823,14 @@ struct sine_response {
 // Result of sim::speeds.
 struct speed_bands {
     std::int32_t status; // DMB_OK; DMB_NOTE_FULL: there are more bands than there was room for; DMB_NOTE_INCOMPLETE
-    std::vector<dmb_speed_band> bands;
-    std::vector<double> severity; // at the speeds of the grid
-    dmb_speeds_report report;     // orders that excite nothing, no damping, bands truncated at an end of the range
+    std::vector<dmb_speed_band> bands; // ascending, as dmb_analysis_speeds gives them
+    std::vector<double> severity;      // at the speeds of the grid
+    dmb_speeds_report report;          // orders that excite nothing, no damping, bands truncated at an end of the range
 };
 #endif
 
 // ---- Sim ------------------------------------------------------------------------------------------------------------
+// A simulation of a compiled model, which has to outlive it.
 class sim {
 public:
     // An owner of nothing.
