@@ -79,6 +79,33 @@ name = "fast"
 quantity = "bit-speed"
 level = "3 rad/s"
 """
+MOVED = SCENE.replace('static = true', 'static = false') + """[[load]]
+name = "pull"
+place = {part = "main", pipe = 7, fraction = 1}
+force = ["10 N", "5 N", "0 N"]
+[[input]]
+name = "advance"
+part = "feed"
+rate_limit = "0.1 m/s2"
+[[input]]
+name = "pull factor"
+target = "load-factor"
+part = "pull"
+[[input]]
+name = "weight"
+target = "bit-load"
+part = "bit"
+[[channel]]
+name = "head speed"
+quantity = "drive-speed"
+place = "head"
+""" + "".join(f"""[[channel]]
+name = "{quantity}"
+quantity = "{quantity}"
+place = {{part = "main", pipe = 4, fraction = 0.3}}
+""" for quantity in ("position-x", "position-z", "velocity-x", "velocity-y", "spin", "rotation", "bit-depth", "rotary-speed",
+                      "feed-speed", "stretch", "wind-up", "contacts-deepest", "energy-kinetic", "momentum-x", "centre-y",
+                      "world-velocity-x", "body-velocity-ry", "world-acceleration-x"))
 
 
 class Unit3:
@@ -239,6 +266,58 @@ class Fmu(FolderTest):
         self.assertEqual(units["rad/s"], {"rad": "1", "s": "-1"})
         used = {one.get("unit") for one in root.find("ModelVariables").iter() if one.get("unit")}
         self.assertEqual(used, set(units))
+
+    def test_dependencies(self):
+        """What the structure calls independent of inputs stays, to the bit, whatever is set at a communication point."""
+        loaded, root, folder = self.unpacked(3, MOVED)
+        free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
+                if one.get("dependencies") == ""}
+        outputs = [200000 + number for number in range(len(loaded.channels))]
+        inputs = [100000 + number for number in range(len(loaded.model.inputs()))]
+        self.assertEqual(len(free), len(outputs) - 4)  # not of forces and accelerations
+        unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+        unit.begin()
+        changed = set()
+        for number in range(12):
+            before = dict(zip(outputs, unit.get(*outputs)))
+            for reference in inputs:
+                unit.set(reference, 0.3 * (number % 5) + 0.01)
+                after = dict(zip(outputs, unit.get(*outputs)))
+                changed |= {one for one in outputs if after[one] != before[one]}
+            unit.step(1e-3 * number, 1e-3)
+        unit.close()
+        self.assertFalse(changed & free)
+        self.assertLessEqual({outputs[0], outputs[-1]}, changed)  # torque of the head, acceleration
+
+    def test_dependencies_by_version(self):
+        for version, names in ((3, ("Output", "InitialUnknown")), (2, ("Outputs", "InitialUnknowns"))):
+            _, root, _ = self.unpacked(version, SCENE + EVENT)
+            structure = root.find("ModelStructure")
+            found = [[one.get("dependencies") for one in (structure.findall(tag) if version == 3 else structure.find(tag))]
+                     for tag in names]
+            self.assertEqual(found, [[None, "", None, ""], [None, None, None, ""]])  # torque, bit speed, wall force, events
+
+    def test_why_no_directional_derivatives(self):
+        """At a communication point the bit's speed does not depend on the input; over the coming step it does."""
+        _, root, folder = self.unpacked()
+        self.assertEqual(root.find("CoSimulation").get("providesDirectionalDerivatives"), "false")
+        unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+        unit.begin()
+        unit.step(0.0, 2e-2)
+        state = c_void_p()
+        unit.call("GetFMUState", byref(state))
+        at_once, over_the_step = [], []
+        for speed in (5.0, 6.0, 5.0):
+            unit.call("SetFMUState", state)
+            unit.set(100000, speed)
+            at_once += unit.get(200001)
+            unit.step(2e-2, 1e-2)
+            over_the_step += unit.get(200001)
+        unit.call("FreeFMUState", byref(state))
+        unit.close()
+        self.assertEqual(at_once[0], at_once[1])
+        self.assertGreater(over_the_step[1] - over_the_step[0], 1e-3)
+        self.assertEqual(over_the_step[0], over_the_step[2])
 
     def test_description2(self):
         _, root, folder = self.unpacked(2, SCENE + EVENT)

@@ -40,6 +40,20 @@ BINARY = "drillmbd_fmu"
 INPUTS, OUTPUTS, EVENTS = 100000, 200000, 300000  # value references, as bindings/fmi/unit.h says
 CONTROLLED = (enums.TARGET_SET_POINT, enums.TARGET_LOAD_FACTOR, enums.TARGET_BIT_LOAD)  # the others are parameters
 
+# Channels of poses and speeds: an input changes forces and accelerations at once, but these by the coming step only.
+OF_THE_STATE = frozenset((
+    enums.CHANNEL_POSITION_X, enums.CHANNEL_POSITION_Y, enums.CHANNEL_POSITION_Z, enums.CHANNEL_VELOCITY_X,
+    enums.CHANNEL_VELOCITY_Y, enums.CHANNEL_VELOCITY_Z, enums.CHANNEL_SPIN, enums.CHANNEL_ROTATION,
+    enums.CHANNEL_KINETIC_ENERGY, enums.CHANNEL_BIT_SPEED, enums.CHANNEL_BIT_DEPTH, enums.CHANNEL_ROTARY_SPEED,
+    enums.CHANNEL_FEED_SPEED, enums.CHANNEL_STRETCH, enums.CHANNEL_WIND_UP, enums.CHANNEL_BIT_ADVANCE,
+    enums.CHANNEL_SITE_GAP, enums.CHANNEL_CONTACTS_DEEPEST, enums.CHANNEL_ENERGY_KINETIC,
+    enums.CHANNEL_SPRING_LENGTH, enums.CHANNEL_SPRING_ELONGATION, enums.CHANNEL_SPRING_SPEED,
+    *range(enums.CHANNEL_MOMENTUM_X, enums.CHANNEL_CENTRE_Z + 1),
+    *range(enums.CHANNEL_JOINT_POSITION, enums.CHANNEL_JOINT_POSITION + 6),
+    *range(enums.CHANNEL_JOINT_SPEED, enums.CHANNEL_JOINT_SPEED + 6),
+    *range(enums.CHANNEL_WORLD_VELOCITY, enums.CHANNEL_WORLD_VELOCITY + 6),
+    *range(enums.CHANNEL_BODY_VELOCITY, enums.CHANNEL_BODY_VELOCITY + 6)))
+
 
 class CannotExport(ValueError):
     """A scene that cannot become a unit, or a unit without its binary: what it is, and what to do."""
@@ -192,6 +206,7 @@ class Variable:
     high: float | None = None
     about: str = ""
     integer: bool = False
+    of_state: bool = False  #: an output that no input changes at a communication point
 
 
 def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
@@ -245,10 +260,11 @@ def variables(scene: Scene) -> list[Variable]:
         for number, (name, place, quantity) in enumerate(scene.channels):
             sim.channel(quantity, place)  # raises where it cannot be asked
             found.append(Variable(re.sub(r"\s*\[[^\]]*\]\s*$", "", name), OUTPUTS + number, "output", "continuous",
-                                  _output_unit(quantity, place, drives), about=_channel_about(quantity)))
+                                  _output_unit(quantity, place, drives), about=_channel_about(quantity),
+                                  of_state=quantity in OF_THE_STATE))
     for number, name in enumerate(scene.model.events()):
         found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete",
-                              about="how often this event was told", integer=True))
+                              about="how often this event was told", integer=True, of_state=True))
     _check_names(found)
     return found
 
@@ -327,11 +343,18 @@ def _variables2(parent: Any, found: list[Variable]) -> None:
         ElementTree.SubElement(variable, "Integer" if one.integer else "Real", _variable_attributes(one))
 
 
+def _known(one: Variable, at_start: bool) -> Attributes:
+    """On what an output depends: without the attribute on all that is known. At the start all goes into the state,
+    but counts of events are 0."""
+    return {"dependencies": ""} if (one.integer if at_start else one.of_state) else {}
+
+
 def _structure3(parent: Any, found: list[Variable]) -> None:
     for tag in ("Output", "InitialUnknown"):
         for one in found:
             if one.causality == "output":
-                ElementTree.SubElement(parent, tag, {"valueReference": str(one.reference)})
+                ElementTree.SubElement(parent, tag, {"valueReference": str(one.reference),
+                                                     **_known(one, tag == "InitialUnknown")})
 
 
 def _structure2(parent: Any, found: list[Variable]) -> None:
@@ -339,7 +362,8 @@ def _structure2(parent: Any, found: list[Variable]) -> None:
         group = ElementTree.SubElement(parent, tag)
         for number, one in enumerate(found, 1):
             if one.causality == "output":
-                ElementTree.SubElement(group, "Unknown", {"index": str(number)})
+                ElementTree.SubElement(group, "Unknown", {"index": str(number),
+                                                          **_known(one, tag == "InitialUnknowns")})
 
 
 def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
