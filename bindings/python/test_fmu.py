@@ -268,7 +268,7 @@ class Fmu(FolderTest):
         self.assertEqual(used, set(units))
 
     def test_dependencies(self):
-        """What the structure calls independent of inputs stays, to the bit, whatever is set at a communication point."""
+        """Outputs that the structure calls independent of inputs stay to the bit whatever is set at a communication point."""
         loaded, root, folder = self.unpacked(3, MOVED)
         free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
                 if one.get("dependencies") == ""}
