@@ -1,5 +1,5 @@
 /* A string hangs in mud, full of the same mud, of a lighter one, or of air: hook load, and its
- * lowest bending frequency with the mud that goes along in the annulus. */
+ * lowest bending frequency with the mud that goes along in the annulus, around a stabiliser and a bit too. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
@@ -11,6 +11,8 @@ static int32_t describe(dmb_model *model, double inside)
     dmb_wall_def hole = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def rod = dmb_pipe_def_default();
+    dmb_ring_def collar = dmb_ring_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
     mud.fluid_density = 1400.0;
     mud.inner_density = inside;
     mud.added_mass = -1.0; /* of the annulus */
@@ -20,10 +22,16 @@ static int32_t describe(dmb_model *model, double inside)
     string.start_free = DMB_FREE_NONE;
     rod.length = 9.0;
     rod.elements = 2;
+    collar.pipe = 4; /* its mud is that of the annulus too */
+    collar.outer_diameter = 0.11;
+    bit.diameter = 0.0;
+    bit.added_mass[1] = 1.2; /* kg */
     int32_t status = dmb_model_set_environment(model, &mud);
     if (status >= 0) status = dmb_model_add_wall(model, &hole, NULL);
     if (status >= 0) status = dmb_model_add_string(model, &string, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 5, NULL);
+    if (status >= 0) status = dmb_model_add_ring(model, &collar, NULL);
+    if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 

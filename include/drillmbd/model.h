@@ -67,11 +67,11 @@ typedef struct dmb_environment_def {
     double torsional_damping; /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
     double inner_density;     /* [kg/m3] of the mud inside pipes and tool joints, where fluid_density is that outside of
                                  them:     weight and pressure by both; 0 .. ; -1 (default): as outside */
-    double added_mass; /* [-] of the mud outside flexible pipes that goes along sideways over what they displace (1: far
-                          from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz
-                          1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe;
-                          refused with rigid pipes; bodies, bits and rings have none. 0 (default): mud has no
-                          inertia */
+    double added_mass; /* [-] of the mud outside pipes that goes along sideways over what they displace (1: far from any
+                          wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972).
+                          Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings
+                          have that of what they displace beyond the pipe; bodies and bits have fields of their own. 0
+                          (default): mud has no inertia */
     double flow_rate;  /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
                           annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
                           nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests */
@@ -261,6 +261,9 @@ typedef struct dmb_body_def {
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
     char name[24];           /* for messages and look-up (names.h), ends with 0; default "" */
     double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
+    double added_mass[2]; /* [kg] of mud that goes along with it where it speeds up along body x, and across, at the x
+                             of the centre of mass: as of a body of revolution in mud at rest (a sphere: half of what it
+                             displaces; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2) */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -305,6 +308,8 @@ typedef struct dmb_bit_def {
     double
         inner_radius; /* [m] b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core
                          of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
+    double added_mass[2]; /* [kg] likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default
+                             0, shape (2) */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);

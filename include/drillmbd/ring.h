@@ -27,6 +27,9 @@ typedef struct dmb_ring_def {
                               0 (default): of that cylinder with its mass; shape (2) */
     double density;        /* [kg/m3] > 0, also for its buoyancy: its volume is mass/density; default 7850 */
     char name[24];         /* for messages, ends with 0; default "" */
+    double added_mass[2];  /* [kg] of mud that goes along with it, besides that of the pipe under it, along its axis and
+                              across, >= 0; default 0, and -1 across: by added_mass of the environment, of what it
+                              displaces beyond the pipe, its ends left out; shape (2) */
 } dmb_ring_def;
 DMB_SIZED_STRUCT(dmb_ring_def)
 /* Adds a ring; pipes may be added before or after. ring may be NULL. Errors: DMB_ERR_VALUE, _NOT_FINITE, _ID,

@@ -43,4 +43,12 @@ typedef struct dmb_rigid_mass {
     uint32_t reserved;
 } dmb_rigid_mass;
 
+/* Mud that goes along with what is rigid on a node, along its x axis and sideways (element/added_mass.h). */
+typedef struct dmb_added_mass {
+    double along;     /* [kg] */
+    double across[3]; /* [kg, kg m, kg m2] integrals of 1, x, x^2 over slices, x from the node */
+    uint32_t node;
+    uint32_t reserved;
+} dmb_added_mass;
+
 #endif

@@ -33,6 +33,7 @@ static int32_t check_body(dmb_model *model, const dmb_body_def *def)
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
     dmb_check_within(&check, "displaced_volume", def->displaced_volume, 0.0, DMB_MASS_MAX);
+    dmb_check_each_within(&check, "added_mass", def->added_mass, 2, 0.0, DMB_MASS_MAX);
     dmb_check_each_within(&check, "centre", def->centre, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
     check_inertia(&check, def);
     check_pose(&check, def);
@@ -66,6 +67,7 @@ static void check_rock(dmb_check *check, const dmb_bit_def *def)
     dmb_check_within(check, "bottom", def->bottom, 0.0, DMB_LENGTH_MAX);
     dmb_check_within(check, "side_cutting", def->side_cutting, 0.0, 1e3);
     dmb_check_within(check, "displaced_volume", def->displaced_volume, 0.0, DMB_MASS_MAX);
+    dmb_check_each_within(check, "added_mass", def->added_mass, 2, 0.0, DMB_MASS_MAX);
     dmb_check_within(check, "walk_angle", def->walk_angle, -1.5, 1.5);
     dmb_check_count(check, "blades", def->blades, 1, BLADES_MAX);
     dmb_check_count(check, "history", def->history, HISTORY_MIN, HISTORY_MAX);
@@ -117,7 +119,8 @@ int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
     if (status >= 0) status = check_bit(model, &read);
     if (status >= 0 && dmb_id_is_none(read.ring))
         status = dmb_string_is_open(model, "bit", string_of_bit(model, &read));
-    if (!dmb_id_is_none(read.ring)) read.diameter = read.displaced_volume = 0.0; /* those of the ring */
+    if (!dmb_id_is_none(read.ring)) /* those of the ring */
+        read.diameter = read.displaced_volume = read.added_mass[0] = read.added_mass[1] = 0.0;
     if (status >= 0) status = dmb_describe_append(model, &model->bits, &read, sizeof read, DMB_PART_BIT, bit);
     return dmb_describe_end(model, "bit", &given, sizeof given, status);
 }

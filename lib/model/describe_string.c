@@ -186,7 +186,8 @@ int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, uint32_t 
 
 /* ---- Rings ------------------------------------------------------------------------------------------------------- */
 
-DMB_DEFINE_INIT(dmb_ring_def, 96, {.fraction = 0.5, .outer_diameter = 0.09, .length = 0.3, .density = 7850.0})
+DMB_DEFINE_INIT(dmb_ring_def, 96,
+                {.fraction = 0.5, .outer_diameter = 0.09, .length = 0.3, .density = 7850.0, .added_mass = {0.0, -1.0}})
 
 /* One of the two inertias may be that of the cylinder, whose inner diameter is known when the string is: it is judged
  * with none, where its share about the axis is least. */
@@ -212,6 +213,9 @@ static int32_t check_ring(dmb_model *model, const dmb_ring_def *def)
     dmb_check_within(&check, "outer_diameter", def->outer_diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
     dmb_check_within(&check, "length", def->length, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
     check_mass(&check, def);
+    dmb_check_within(&check, "added_mass along", def->added_mass[0], 0.0, DMB_MASS_MAX);
+    if (def->added_mass[1] != -1.0)
+        dmb_check_within(&check, "added_mass across", def->added_mass[1], 0.0, DMB_MASS_MAX);
     return check.status;
 }
 

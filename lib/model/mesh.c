@@ -25,6 +25,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .types = {.item_size = sizeof(dmb_element_type)},
         .batches = {.item_size = sizeof(dmb_batch)},
         .rigid_masses = {.item_size = sizeof(dmb_rigid_mass)},
+        .added_masses = {.item_size = sizeof(dmb_added_mass)},
         .sites = {.item_size = sizeof(dmb_site)},
         .inside = {.item_size = sizeof(dmb_scene_point)},
         .path_sites = {.item_size = sizeof(dmb_path_site)},
@@ -68,7 +69,7 @@ void dmb_mesh_release(dmb_mesh *mesh)
         &mesh->constraints, &mesh->clusters,    &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
         &mesh->bodies,      &mesh->inputs,      &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
         &mesh->events,      &mesh->forces,      &mesh->ring_order,    &mesh->rings,        &mesh->inside,
-        &mesh->stuck,       &mesh->flow_pieces, &mesh->gain_tables};
+        &mesh->stuck,       &mesh->flow_pieces, &mesh->gain_tables,   &mesh->added_masses};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

@@ -10,7 +10,7 @@
  *   rings           ring_order, elements       bodies, rings
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
  *   types           runs, elements             types, elements (type, kernel), batches
- *   masses          runs, bodies, bits         rigid_masses, nodes (weight, damped)
+ *   masses          runs, bodies, bits         rigid_masses, added_masses, nodes (weight, damped)
  *   sites           pipes, bodies              sites, path_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
@@ -44,6 +44,7 @@ typedef struct dmb_mesh_node {
     uint32_t string;         /* DMB_NONE: free body `body` */
     uint32_t body;
     uint32_t rigid_mass; /* in rigid_masses; DMB_NONE: none */
+    uint32_t added_mass; /* in added_masses; DMB_NONE: none */
     uint8_t size;        /* DMB_NODE_FULL or DMB_NODE_PATH */
     uint8_t free;        /* mask of free components; of a PATH node X and RX count */
     uint8_t prescribed;  /* mask of components moved by MOTION drives */
@@ -84,6 +85,7 @@ typedef struct dmb_mesh {
     dmb_vector types;         /* dmb_element_type */
     dmb_vector batches;       /* dmb_batch */
     dmb_vector rigid_masses;  /* dmb_rigid_mass */
+    dmb_vector added_masses;  /* dmb_added_mass */
     dmb_vector sites;         /* dmb_site */
     dmb_vector inside;        /* dmb_scene_point: of the last of them */
     dmb_vector path_sites;    /* dmb_path_site */
@@ -241,6 +243,8 @@ void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *fie
 dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                                const double offset[3]);
 
+/* added_mass = -1 of the environment needs a wall around the pipes. */
+int32_t dmb_mesh_check_mud(const dmb_mesh *mesh, const dmb_pipe_def *def);
 /* Rigid masses of nodes: bodies added to a spatial inertia, and pipes whose centre of mass is off their axis. */
 
 /* Adds a body of that mass [kg], centre [m] from the node and inertia [kg m2] xx, yy, zz, xy, xz, yz at its centre. */

@@ -100,6 +100,22 @@ static void fill_rigid_masses(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+static void fill_added_masses(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    dmb_added_mass *next = scene->added_masses;
+    for (uint32_t i = 0; i < scene->node_count && scene->added_mass_count > 0; ++i) {
+        const uint32_t added = dmb_mesh_node_at(mesh, i)->added_mass;
+        if (added != DMB_NONE) *next++ = *DMB_VECTOR_AT(dmb_added_mass, &mesh->added_masses, added);
+    }
+}
+
+static uint32_t added_mass_on(const dmb_scene *scene, uint32_t node)
+{
+    for (uint32_t i = 0; i < scene->added_mass_count; ++i)
+        if (scene->added_masses[i].node == node) return i;
+    return DMB_NONE;
+}
+
 /* A chain of its own; before elements are filled in. */
 static int is_alone(const dmb_scene *scene, uint32_t node)
 {
@@ -122,6 +138,7 @@ static void fill_free_rigids(dmb_scene *scene)
         dmb_vec3_scale(1.0 / rigid_mass->mass, rigid_mass->moment, next->centre);
         next->node = rigid_mass->node;
         next->rigid_mass = i;
+        next->added_mass = added_mass_on(scene, rigid_mass->node);
         ++next;
     }
 }
@@ -147,6 +164,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
     }
     fill_chains(mesh, scene);
     fill_rigid_masses(mesh, scene);
+    fill_added_masses(mesh, scene);
     fill_free_rigids(scene);
 }
 

@@ -113,6 +113,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->chain_count =
         (uint32_t)(mesh->nodes.count - mesh->elements.count); /* a chain has one node more than elements */
     scene->rigid_mass_count = (uint32_t)mesh->rigid_masses.count;
+    scene->added_mass_count = (uint32_t)mesh->added_masses.count;
     scene->site_count = (uint32_t)mesh->sites.count;
     scene->inside_count = (uint32_t)mesh->inside.count;
     scene->path_site_count = (uint32_t)mesh->path_sites.count;
@@ -168,6 +169,8 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
     to->node_chain = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->rigid_masses = DMB_ARENA_ARRAY(arena, dmb_rigid_mass, counts->rigid_mass_count);
+    if (counts->added_mass_count > 0)
+        to->added_masses = DMB_ARENA_ARRAY(arena, dmb_added_mass, counts->added_mass_count);
     to->free_rigids = DMB_ARENA_ARRAY(arena, dmb_free_rigid, counts->free_rigid_count);
 }
 

@@ -16,12 +16,23 @@ static uint32_t index_of(const dmb_model *model, dmb_id part)
     return DMB_NONE;
 }
 
+static bool any(const double mass[2])
+{
+    return mass[0] > 0.0 || mass[1] > 0.0;
+}
+
 /* The order of description is free, so what the target needs of the scene is looked for here. */
 static int32_t check_density(const dmb_mesh *mesh, const dmb_input_def *def)
 {
     const dmb_model *model = mesh->model;
     const char *why = NULL;
     if (model->environment.added_mass > 0.0 || model->environment.added_mass < 0.0) why = "added_mass is 0";
+    for (uint32_t i = 0; i < model->bodies.count; ++i)
+        if (any(DMB_LIST_AT(const dmb_body_def, model->bodies, i)->added_mass)) why = "the added_mass of bodies is 0";
+    for (uint32_t i = 0; i < model->bits.count; ++i)
+        if (any(DMB_LIST_AT(const dmb_bit_def, model->bits, i)->added_mass)) why = "the added_mass of bits is 0";
+    for (uint32_t i = 0; i < model->rings.count; ++i)
+        if (any(DMB_LIST_AT(const dmb_ring_def, model->rings, i)->added_mass)) why = "the added_mass of rings is 0";
     if (model->environment.flow_rate > 0.0) why = "flow_rate is 0";
     for (uint32_t i = 0; i < model->inputs.count; ++i)
         if (DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target == DMB_TARGET_FLOW_RATE)

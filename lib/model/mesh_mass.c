@@ -79,6 +79,35 @@ static dmb_rigid_mass *rigid_mass_of(dmb_mesh *mesh, uint32_t node)
     return DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, n->rigid_mass);
 }
 
+/* The mud that goes along with a node, likewise. */
+static dmb_added_mass *added_mass_of(dmb_mesh *mesh, uint32_t node)
+{
+    dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
+    if (n->added_mass == DMB_NONE) {
+        const dmb_added_mass added = {.node = node};
+        if (dmb_vector_append(&mesh->added_masses, &mesh->model->allocator, &added, 1) < 0) return NULL;
+        n->added_mass = (uint32_t)mesh->added_masses.count - 1;
+    }
+    return DMB_VECTOR_AT(dmb_added_mass, &mesh->added_masses, n->added_mass);
+}
+
+/* Parts without any leave no trace. */
+static int32_t add_mud(dmb_mesh *mesh, uint32_t node, const dmb_added_mass *part)
+{
+    if (!(part->along > 0.0) && !(part->across[0] > 0.0)) return DMB_OK;
+    dmb_added_mass *sum = added_mass_of(mesh, node);
+    if (sum == NULL) return DMB_ERR_NO_MEMORY;
+    sum->along += part->along;
+    dmb_vec3_add(sum->across, part->across, sum->across);
+    return DMB_OK;
+}
+
+static bool mud_has_inertia(const dmb_mesh *mesh)
+{
+    const double added = mesh->model->environment.added_mass;
+    return added > 0.0 || added < 0.0;
+}
+
 /* Gravity on a mass at a place of the node's frame. */
 static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
 {
@@ -197,19 +226,6 @@ static double joint_volume(const run_mass *mass, double length)
     return mass->joint.mass / mass->def->density + mass->joint_inside * length;
 }
 
-/* A rigid body has one mass along and across. */
-static int32_t refuse_added(const dmb_mesh *mesh)
-{
-    const double added = mesh->model->environment.added_mass;
-    if (!(added > 0.0 || added < 0.0)) return DMB_OK;
-    dmb_message_set(
-        &mesh->model->message,
-        "environment: added_mass = %g, must be 0 with rigid pipes, whose mass is the same along and across; "
-        "describe flexible pipes, or leave it out",
-        added);
-    return DMB_ERR_UNSUPPORTED;
-}
-
 /* The joint ends where the pipe does, and the far node may stand further on, behind rigid pipes. */
 static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
 {
@@ -229,12 +245,23 @@ static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const 
     return status;
 }
 
+static int32_t add_rigid_mud(dmb_mesh *mesh, uint32_t node, const dmb_pipe_def *def, double x)
+{
+    const dmb_environment_def *e = &mesh->model->environment;
+    dmb_added_mass part = {.along = 0.0};
+    if (!mud_has_inertia(mesh)) return DMB_OK;
+    const int32_t status = dmb_mesh_check_mud(mesh, def);
+    if (status < 0) return status;
+    dmb_rigid_pipe_mud(def, e, mesh->model->wall.diameter, x, &part);
+    return add_mud(mesh, node, &part);
+}
+
 static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
 {
     const double body = dmb_pipe_body_length(mass->def);
     const double pipe_at = pipe->start + 0.5 * body, joint_at = pipe->start + body + 0.5 * pipe->joint;
     const double volume = mass->pipe.mass / mass->def->density + mass->inside * body;
-    int32_t status = refuse_added(mesh);
+    int32_t status = add_rigid_mud(mesh, pipe->node, mass->def, pipe_at);
     if (status >= 0) status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy, volume);
     if (status >= 0 && pipe->joint > 0.0)
         status =
@@ -247,6 +274,24 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
 }
 
 /* ---- Rings ------------------------------------------------------------------------------------------------------- */
+
+static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *map, double pipe_diameter)
+{
+    const dmb_environment_def *e = &mesh->model->environment;
+    const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
+    const double hole = mesh->model->wall.diameter;
+    dmb_added_mass part = {.along = 0.0};
+    dmb_message text;
+    if (def->added_mass[1] < 0.0 && e->added_mass < 0.0 && !(hole > def->outer_diameter)) {
+        dmb_message_set(&mesh->model->message,
+                        "%s: outer_diameter = %g m, must be < %g m, the wall's diameter, with added_mass = -1 of the "
+                        "environment; give the ring an added_mass across",
+                        dmb_model_part_text(mesh->model, DMB_PART_RING, ring, &text), def->outer_diameter, hole);
+        return DMB_ERR_GEOMETRY;
+    }
+    dmb_ring_mud(def, pipe_diameter, e, hole, map->arm, &part);
+    return add_mud(mesh, map->node, &part);
+}
 
 static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t string, uint32_t number)
 {
@@ -263,6 +308,7 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
         dmb_pipe_diameters(pipe, rings.first[i].along > dmb_pipe_body_length(pipe), diameters);
         dmb_ring_body_of(def, diameters[0], &part);
         status = add_part(mesh, map->node, &part, map->arm, buoyancy, part.mass / def->density);
+        if (status >= 0) status = add_ring_mud(mesh, ring, map, diameters[0]);
     }
     return status;
 }
@@ -302,6 +348,10 @@ static int32_t add_described_body(dmb_mesh *mesh, uint32_t i)
     const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, i);
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, i);
     const double centre[3] = {map->arm + def->centre[0], def->centre[1], def->centre[2]};
+    dmb_added_mass mud = {.along = 0.0};
+    dmb_given_mud(def->added_mass, centre[0], &mud);
+    const int32_t status = add_mud(mesh, map->node, &mud);
+    if (status < 0) return status;
     add_displaced(dmb_mesh_node_at(mesh, map->node), def->displaced_volume, centre[0]);
     return add_body(mesh, map->node, def->mass, centre, def->inertia, lifted(mesh, def->displaced_volume, def->mass));
 }
@@ -311,7 +361,11 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
     dmb_rigid_part part;
+    dmb_added_mass mud = {.along = 0.0};
     if (!dmb_id_is_none(def->ring)) return DMB_OK;
+    dmb_given_mud(def->added_mass, map->arm + 0.5 * def->length, &mud);
+    const int32_t status = add_mud(mesh, map->node, &mud);
+    if (status < 0) return status;
     dmb_bit_body_of(def, &part);
     return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length,
                     lifted(mesh, def->displaced_volume, def->mass), def->displaced_volume);

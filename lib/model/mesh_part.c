@@ -34,12 +34,10 @@ static bool alike(const dmb_mesh_element *a, const dmb_mesh_element *b)
     return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2) && dmb_same_numbers(&a->length, &b->length, 1);
 }
 
-/* The mud that goes along sideways. */
-static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_mud *mud, dmb_element_type *type)
+int32_t dmb_mesh_check_mud(const dmb_mesh *mesh, const dmb_pipe_def *def)
 {
     const dmb_model *model = mesh->model;
     const double added = model->environment.added_mass, hole = model->wall.diameter;
-    if (!(added > 0.0 || added < 0.0)) return DMB_OK;
     if (added < 0.0 && (model->wall_count == 0 || !(hole > fmax(def->outer_diameter, dmb_joint_diameter(def))))) {
         dmb_message_set(&mesh->model->message,
                         "environment: added_mass = -1, must be with a wall whose diameter is above that of the pipes, "
@@ -47,8 +45,17 @@ static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_
                         fmax(def->outer_diameter, dmb_joint_diameter(def)));
         return DMB_ERR_VALUE;
     }
-    dmb_element_add_sideways(def, dmb_mud_inertia(def, mud, added, hole), type);
     return DMB_OK;
+}
+
+/* The mud that goes along sideways. */
+static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_mud *mud, dmb_element_type *type)
+{
+    const double added = mesh->model->environment.added_mass, hole = mesh->model->wall.diameter;
+    if (!(added > 0.0 || added < 0.0)) return DMB_OK;
+    const int32_t status = dmb_mesh_check_mud(mesh, def);
+    if (status >= 0) dmb_element_add_sideways(def, dmb_mud_inertia(def, mud, added, hole), type);
+    return status;
 }
 
 static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)
@@ -124,8 +131,12 @@ static const dmb_pipe_run *run_at(const string_walk *walk, uint32_t place)
 /* Room was reserved for all of them by the counting step. */
 static uint32_t push_node(string_walk *walk, uint8_t size, double at)
 {
-    const dmb_mesh_node node = {
-        .at = at, .string = walk->string, .rigid_mass = DMB_NONE, .size = size, .free = DMB_FREE_ALL};
+    const dmb_mesh_node node = {.at = at,
+                                .string = walk->string,
+                                .rigid_mass = DMB_NONE,
+                                .added_mass = DMB_NONE,
+                                .size = size,
+                                .free = DMB_FREE_ALL};
     (void)dmb_vector_append(&walk->mesh->nodes, &walk->mesh->model->allocator, &node, 1);
     return (uint32_t)walk->mesh->nodes.count - 1;
 }
@@ -357,6 +368,7 @@ static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def
     const dmb_mesh_node node = {.string = DMB_NONE,
                                 .body = body,
                                 .rigid_mass = DMB_NONE,
+                                .added_mass = DMB_NONE,
                                 .size = DMB_NODE_FULL,
                                 .free = (uint8_t)def->free_mask,
                                 .rigid = 1};

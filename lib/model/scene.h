@@ -156,6 +156,8 @@ typedef struct dmb_chain {
 typedef struct dmb_free_rigid {
     double centre[3]; /* [m] of mass, from the node, body frame */
     uint32_t node, rigid_mass;
+    uint32_t added_mass; /* DMB_NONE: none */
+    uint32_t reserved;
 } dmb_free_rigid;
 
 /* Nodes that a force acts on: within one node, or the two of an element, its tangent has room in the blocks of the
@@ -223,6 +225,7 @@ typedef struct dmb_scene {
     int32_t beams_only;                /* 1: every element has two FULL nodes */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
+    uint32_t added_mass_count, added_reserved;
     uint32_t inside_count; /* of the sites the last ones, inside elements */
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
@@ -285,6 +288,7 @@ typedef struct dmb_scene {
     dmb_chain *chains;
     uint32_t *node_chain;         /* chain of each node, shape (node) */
     dmb_rigid_mass *rigid_masses; /* at most one a node, by node */
+    dmb_added_mass *added_masses; /* likewise */
     dmb_free_rigid *free_rigids;  /* by node, none in scenes with joints; shape (free_rigid_count) */
 
     /* wall */

@@ -125,13 +125,19 @@ double dmb_weighing_mass(const dmb_pipe_def *def, const dmb_mud *mud)
     return dmb_buoyancy_factor(def, 0, mud) * body.mass + of_joint;
 }
 
+/* [m2] times what a cylinder displaces; added < 0: (D^2 + d^2)/(D^2 - d^2) of the annulus. */
+static double moved_outside(double d, double added, double hole)
+{
+    const double factor = added < 0.0 ? (hole * hole + d * d) / ((hole - d) * (hole + d)) : added;
+    return factor * dmb_ring_area(d, 0.0);
+}
+
 static double mud_at(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud, double added, double hole)
 {
     double d[2];
     dmb_pipe_diameters(def, in_tool_joint, d);
     const double inside = mud->inside < 0.0 ? mud->outside : mud->inside;
-    const double factor = added < 0.0 ? (hole * hole + d[0] * d[0]) / ((hole - d[0]) * (hole + d[0])) : added;
-    return inside * dmb_ring_area(d[1], 0.0) + factor * mud->outside * dmb_ring_area(d[0], 0.0);
+    return inside * dmb_ring_area(d[1], 0.0) + mud->outside * moved_outside(d[0], added, hole);
 }
 
 double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole)
@@ -140,6 +146,41 @@ double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added
     double sum = mud_at(def, 0, mud, added, hole) * body;
     if (def->joint_length > 0.0) sum += mud_at(def, 1, mud, added, hole) * def->joint_length;
     return sum / body;
+}
+
+/* Slices along a length around x. */
+static void add_slices(double mass, double x, double length, dmb_added_mass *sum)
+{
+    sum->across[0] += mass;
+    sum->across[1] += mass * x;
+    sum->across[2] += mass * (x * x + length * length / 12.0);
+}
+
+void dmb_rigid_pipe_mud(const dmb_pipe_def *def, const dmb_environment_def *e, double hole, double x,
+                        dmb_added_mass *sum)
+{
+    const dmb_mud mud = {e->fluid_density, e->inner_density};
+    const double length = dmb_pipe_body_length(def);
+    add_slices(dmb_mud_inertia(def, &mud, e->added_mass, hole) * length, x, length, sum);
+}
+
+void dmb_ring_mud(const dmb_ring_def *def, double pipe_diameter, const dmb_environment_def *e, double hole, double x,
+                  dmb_added_mass *sum)
+{
+    const double added = e->added_mass;
+    double across = def->added_mass[1];
+    if (across < 0.0) across = 0.0;
+    if (def->added_mass[1] < 0.0 && (added > 0.0 || added < 0.0))
+        across = e->fluid_density * def->length *
+                 (moved_outside(def->outer_diameter, added, hole) - moved_outside(pipe_diameter, added, hole));
+    add_slices(across, x, def->length, sum);
+    sum->along += def->added_mass[0];
+}
+
+void dmb_given_mud(const double mass[2], double x, dmb_added_mass *sum)
+{
+    add_slices(mass[1], x, 0.0, sum);
+    sum->along += mass[0];
 }
 
 double dmb_shear_ratio(double EI, double GA, double length)

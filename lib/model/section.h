@@ -57,6 +57,14 @@ double dmb_inner_area(const dmb_pipe_def *def, int in_tool_joint);
 /* [kg/m] of mud that goes along sideways with a pipe's body: that inside, and `added` times what pipe and tool joint
  * displace; added < 0: that of the annulus to a hole of this diameter [m]. */
 double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole);
+/* Mud that goes along with a rigid pipe, tool joint spread over it, with a ring, by what it displaces beyond the pipe
+ * or tool joint of that outer diameter, and with kilograms given along and across at a place; x [m] of the middle from
+ * the node, hole [m]: diameter, for added_mass < 0. */
+void dmb_rigid_pipe_mud(const dmb_pipe_def *def, const dmb_environment_def *e, double hole, double x,
+                        dmb_added_mass *sum);
+void dmb_ring_mud(const dmb_ring_def *def, double pipe_diameter, const dmb_environment_def *e, double hole, double x,
+                  dmb_added_mass *sum);
+void dmb_given_mud(const double mass[2], double x, dmb_added_mass *sum);
 /* [kg/m] sideways more in the mass of an element. */
 void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_type *type);
 

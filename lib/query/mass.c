@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "element/added_mass.h"
 #include "element/beam.h"
 #include "element/rigid_mass.h"
 #include "model/field_check.h"
@@ -89,15 +90,21 @@ static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
     add_part(share, &part, arm + 0.5 * def->length, NULL);
 }
 
+/* [m] outer diameter of the pipe or tool joint that a ring sits on. */
+static double diameter_under(const dmb_model *model, const dmb_ring_def *def)
+{
+    const uint32_t named = dmb_model_part_index(model, def->string, DMB_PART_STRING);
+    const dmb_pipe_def *pipe = &dmb_pipe_run_of(model, named == DMB_NONE ? 0 : named, def->pipe)->def;
+    double diameters[2];
+    dmb_pipe_diameters(pipe, def->fraction * pipe->length > dmb_pipe_body_length(pipe), diameters);
+    return diameters[0];
+}
+
 static void ring_share(const dmb_model *model, uint32_t ring, double arm, dmb_rigid_mass *share)
 {
     const dmb_ring_def *def = (const dmb_ring_def *)model->rings.items + ring;
-    const uint32_t named = dmb_model_part_index(model, def->string, DMB_PART_STRING);
-    const dmb_pipe_def *pipe = &dmb_pipe_run_of(model, named == DMB_NONE ? 0 : named, def->pipe)->def;
     dmb_rigid_part part;
-    double diameters[2];
-    dmb_pipe_diameters(pipe, def->fraction * pipe->length > dmb_pipe_body_length(pipe), diameters);
-    dmb_ring_body_of(def, diameters[0], &part);
+    dmb_ring_body_of(def, diameter_under(model, def), &part);
     add_part(share, &part, arm, NULL);
 }
 
@@ -120,6 +127,37 @@ void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
     dmb_vec3_copy(def->centre, centre);
     centre[0] += map->arm;
     dmb_rigid_mass_add(share, def->mass, centre, def->inertia);
+}
+
+/* Mud that goes along with rings, bodies and bits, and with rigid pipes, by their descriptions. */
+static double body_mud_energy(const dmb_sim *sim, uint32_t body)
+{
+    const dmb_model *model = sim->model;
+    const dmb_body_map *map = &sim->scene->bodies[body];
+    const uint32_t bodies = model->bodies.count, rings = bodies + model->bits.count;
+    dmb_added_mass part = {.node = map->node};
+    if (sim->scene->added_mass_count == 0) return 0.0;
+    if (body < bodies) {
+        const dmb_body_def *def = (const dmb_body_def *)model->bodies.items + body;
+        dmb_given_mud(def->added_mass, map->arm + def->centre[0], &part);
+    } else if (body < rings) {
+        const dmb_bit_def *def = (const dmb_bit_def *)model->bits.items + (body - bodies);
+        dmb_given_mud(def->added_mass, map->arm + 0.5 * def->length, &part);
+    } else {
+        const dmb_ring_def *def = (const dmb_ring_def *)model->rings.items + (body - rings);
+        dmb_ring_mud(def, diameter_under(model, def), &model->environment, model->wall.diameter, map->arm, &part);
+    }
+    return dmb_added_mass_kinetic_energy(sim->scene, &sim->now, &part);
+}
+
+static double rigid_pipe_mud_energy(const dmb_sim *sim, const dmb_described_pipe *pipe)
+{
+    const dmb_environment_def *e = &sim->model->environment;
+    dmb_added_mass part = {.node = pipe->map->node};
+    if (!(e->added_mass > 0.0 || e->added_mass < 0.0)) return 0.0;
+    dmb_rigid_pipe_mud(pipe->def, e, sim->model->wall.diameter,
+                       pipe->map->start + 0.5 * dmb_pipe_body_length(pipe->def), &part);
+    return dmb_added_mass_kinetic_energy(sim->scene, &sim->now, &part);
 }
 
 /* On the hole's axis only mass and the inertia about it are felt. */
@@ -230,6 +268,20 @@ static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, c
     add_mass(&at, rigid_mass->mass, rigid_mass->moment, sum);
 }
 
+/* Mud has no part in mass and centre. */
+static void add_added_mass(const dmb_scene *scene, const dmb_configuration *c, const dmb_added_mass *added,
+                           dmb_momentum *sum)
+{
+    carrier at;
+    double p[6] = {0.0};
+    carrier_of(scene, c, added->node, 0.0, &at);
+    if (is_path(scene, added->node))
+        p[0] = added->along * at.velocity[0];
+    else
+        dmb_added_mass_times(added, at.velocity, p);
+    add_momentum(&at, p, sum);
+}
+
 int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum)
 {
     const int32_t status = dmb_ask(sim, momentum);
@@ -239,6 +291,8 @@ int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum)
     for (uint32_t i = 0; i < sim->scene->rigid_mass_count; i++) {
         add_rigid_mass(sim->scene, &sim->now, &sim->scene->rigid_masses[i], &answer);
     }
+    for (uint32_t i = 0; i < sim->scene->added_mass_count; i++)
+        add_added_mass(sim->scene, &sim->now, sim->scene->added_masses + i, &answer);
     if (answer.mass > 0.0) dmb_vec3_scale(1.0 / answer.mass, answer.centre, answer.centre);
     return dmb_momentum_write(momentum, &answer);
 }
@@ -326,7 +380,7 @@ static double rigid_body(const dmb_sim *sim, const dmb_described_pipe *pipe)
 {
     dmb_rigid_mass share;
     dmb_rigid_pipe_share(pipe, &share);
-    return dmb_share_kinetic_energy(sim, &share);
+    return dmb_share_kinetic_energy(sim, &share) + rigid_pipe_mud_energy(sim, pipe);
 }
 
 static double joint_energy(const dmb_sim *sim, const dmb_described_pipe *pipe)
@@ -341,7 +395,7 @@ static double body_energy(const dmb_sim *sim, uint32_t body)
 {
     dmb_rigid_mass share;
     dmb_body_share(sim, body, &share);
-    return dmb_share_kinetic_energy(sim, &share);
+    return dmb_share_kinetic_energy(sim, &share) + body_mud_energy(sim, body);
 }
 
 /* Bodies and bits fixed to one end of a string; an id that names nothing is the first string. */

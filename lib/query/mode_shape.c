@@ -85,6 +85,10 @@ static void add_kinetic_parts(const dmb_sim *view, double sum[3])
         dmb_rigid_mass_kinetic_parts(view->scene, &view->now, i, parts);
         for (int k = 0; k < 3; k++) sum[k] += parts[k];
     }
+    for (uint32_t i = 0; i < view->scene->added_mass_count; i++) {
+        dmb_added_mass_kinetic_parts(view->scene, &view->now, i, parts);
+        for (int k = 0; k < 3; k++) sum[k] += parts[k];
+    }
 }
 
 static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)

@@ -54,6 +54,11 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
         h = DMB_NUMBERS(h, rigid_mass->moment);
         h = DMB_NUMBERS(h, rigid_mass->inertia);
     }
+    for (uint32_t i = 0; i < s->added_mass_count; ++i) {
+        h = dmb_fnv_word(h, s->added_masses[i].node);
+        h = dmb_fnv_number(h, s->added_masses[i].along);
+        h = DMB_NUMBERS(h, s->added_masses[i].across);
+    }
     return h;
 }
 

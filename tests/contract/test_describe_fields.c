@@ -88,12 +88,13 @@ typedef struct kind_of_def {
 #define FIELDS(array) array, sizeof array / sizeof array[0]
 
 static const field environment_fields[] = {
-    F(dmb_environment_def, reserved, COUNT, 1),     F(dmb_environment_def, gravity, REAL, 3),
-    F(dmb_environment_def, fluid_density, REAL, 1), F(dmb_environment_def, lateral_damping, REAL, 1),
-    F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1),
-    F(dmb_environment_def, inner_density, REAL, 1), F(dmb_environment_def, added_mass, REAL, 1),
-    F(dmb_environment_def, flow_rate, REAL, 1),     F(dmb_environment_def, consistency, REAL, 1),
-    F(dmb_environment_def, flow_exponent, REAL, 1), F(dmb_environment_def, nozzle_area, REAL, 1)};
+    F(dmb_environment_def, reserved, COUNT, 1),        F(dmb_environment_def, gravity, REAL, 3),
+    F(dmb_environment_def, fluid_density, REAL, 1),    F(dmb_environment_def, lateral_damping, REAL, 1),
+    F(dmb_environment_def, axial_damping, REAL, 1),    F(dmb_environment_def, torsional_damping, REAL, 1),
+    F(dmb_environment_def, inner_density, REAL, 1),    F(dmb_environment_def, added_mass, REAL, 1),
+    F(dmb_environment_def, flow_rate, REAL, 1),        F(dmb_environment_def, consistency, REAL, 1),
+    F(dmb_environment_def, flow_exponent, REAL, 1),    F(dmb_environment_def, nozzle_area, REAL, 1),
+    F(dmb_environment_def, flow_eccentricity, REAL, 1)};
 static void fill_environment(const scene_under_test *s, any_def *def)
 {
     (void)s;
@@ -236,7 +237,9 @@ static const field body_fields[] = {F(dmb_body_def, attach, WHOLE, 1),
                                     F(dmb_body_def, free_mask, WHOLE, 1),
                                     F(dmb_body_def, reserved, WHOLE, 1),
                                     F(dmb_body_def, contact_diameter, REAL, 1),
-                                    F(dmb_body_def, contact_length, REAL, 1)};
+                                    F(dmb_body_def, contact_length, REAL, 1),
+                                    F(dmb_body_def, displaced_volume, REAL, 1),
+                                    F(dmb_body_def, added_mass, REAL, 2)};
 static void fill_body(const scene_under_test *s, any_def *def)
 {
     (void)s;
@@ -270,7 +273,8 @@ static const field bit_fields[] = {F(dmb_bit_def, rock_law, WHOLE, 1),
                                    F(dmb_bit_def, blades, COUNT, 1),
                                    F(dmb_bit_def, history, COUNT, 1),
                                    F(dmb_bit_def, side_cutting, REAL, 1),
-                                   F(dmb_bit_def, walk_angle, REAL, 1)};
+                                   F(dmb_bit_def, walk_angle, REAL, 1),
+                                   F(dmb_bit_def, added_mass, REAL, 2)};
 static void fill_bit(const scene_under_test *s, any_def *def)
 {
     def->bit = dmb_bit_def_default();
@@ -450,9 +454,9 @@ static int32_t add_force(dmb_model *model, const any_def *def)
 }
 
 static const field ring_fields[] = {
-    F(dmb_ring_def, pipe, COUNT, 1),   F(dmb_ring_def, fraction, REAL, 1), F(dmb_ring_def, outer_diameter, REAL, 1),
-    F(dmb_ring_def, length, REAL, 1),  F(dmb_ring_def, mass, REAL, 1),     F(dmb_ring_def, inertia, REAL, 2),
-    F(dmb_ring_def, density, REAL, 1),
+    F(dmb_ring_def, pipe, COUNT, 1),   F(dmb_ring_def, fraction, REAL, 1),   F(dmb_ring_def, outer_diameter, REAL, 1),
+    F(dmb_ring_def, length, REAL, 1),  F(dmb_ring_def, mass, REAL, 1),       F(dmb_ring_def, inertia, REAL, 2),
+    F(dmb_ring_def, density, REAL, 1), F(dmb_ring_def, added_mass, REAL, 2),
 };
 static void fill_ring(const scene_under_test *s, any_def *def)
 {

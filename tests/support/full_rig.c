@@ -101,6 +101,7 @@ static void add_full_bit(rig *s, dmb_id string, const full_rig_choice *choice)
     bit.contact_strength = 150.0;
     bit.wear_length = 0.1;
     bit.intrusion_depth = 0.05;
+    if (choice->sections & 8) bit.added_mass[0] = 0.4, bit.added_mass[1] = 0.9;
     (void)dmb_model_add_bit(s->model, &bit, NULL);
 }
 
@@ -135,7 +136,7 @@ static void add_full_drives(rig *s, dmb_id string)
     (void)add_drive(s, &drive);
 }
 
-static void add_free_body(rig *s)
+static void add_free_body(rig *s, const full_rig_choice *choice)
 {
     dmb_body_def body = dmb_body_def_default();
     body.mass = 1.2;
@@ -148,6 +149,7 @@ static void add_free_body(rig *s)
     body.inertia[5] = -0.03;
     body.contact_diameter = 0.3;
     body.contact_length = 0.5;
+    if (choice->sections & 8) body.added_mass[0] = 0.7, body.added_mass[1] = 1.3;
     (void)add_body(s, &body);
 }
 
@@ -160,6 +162,7 @@ void full_rig_open(rig *s, const full_rig_choice *choice)
     environment.gravity[1] = -0.4;
     environment.fluid_density = 20.0;
     environment.flow_rate = choice->sections & 4 ? 0.05 : 0.0;
+    environment.added_mass = choice->sections & 8 ? -1.0 : 0.0;
     environment.consistency = 0.1;
     environment.lateral_damping = 0.5;
     environment.axial_damping = 0.3;
@@ -173,11 +176,12 @@ void full_rig_open(rig *s, const full_rig_choice *choice)
     head.mass = 2.0;
     head.centre[1] = 0.1;
     for (int i = 0; i < 3; i++) head.inertia[i] = 0.1 + 0.02 * i;
+    if (choice->sections & 8) head.centre[0] = -0.2, head.added_mass[0] = 0.6, head.added_mass[1] = 1.1;
     (void)add_body(s, &head);
     add_full_bit(s, string, choice);
     add_full_loads(s, string, choice);
     add_full_drives(s, string);
-    add_free_body(s);
+    add_free_body(s, choice);
     options.energy_ledger = choice->ledger;
     (void)rig_start(s, &options);
 }

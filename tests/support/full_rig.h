@@ -13,7 +13,7 @@ typedef struct full_rig_choice {
     int32_t ledger;       /* 1: with the energy ledger */
     int32_t rings_only;   /* 1: no axial-torsional pipes, no loads in the frame of the hole, no bottom-hole load */
     int32_t sections; /* bit 0: every constant of the wall changes along the hole; bit 1: contact along the pipes; bit
-                         2: mud flows */
+                         2: mud flows; bit 3: mud has inertia */
 } full_rig_choice;
 
 /* Rig head - flexible pipe in 2 elements with tool joint - 2 axial-torsional pipes - flexible pipe - rigid pipe -

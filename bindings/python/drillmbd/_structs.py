@@ -83,7 +83,7 @@ class EnvironmentDef(Sized):
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "of the mud inside pipes and tool joints, where fluid_density is that outside of them: weight and pressure by both; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside flexible pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe; refused with rigid pipes; bodies, bits and rings have none. 0 (default): mud has no inertia"),
+        "added_mass": ("-", "of the mud outside pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings have that of what they displace beyond the pipe; bodies and bits have fields of their own. 0 (default): mud has no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
         "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity"),
@@ -2127,6 +2127,7 @@ class BodyDef(Sized):
     contact_length: float
     name: bytes
     displaced_volume: float
+    added_mass: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("attach", c_int32),
@@ -2143,6 +2144,7 @@ class BodyDef(Sized):
         ("contact_length", c_double),
         ("name", c_char * 24),
         ("displaced_volume", c_double),
+        ("added_mass", c_double * 2),
     ]
     field_docs = {
         "attach": ("", "ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own, reference point and axes those of the end; ATTACH_NONE: a body of its own (default)"),
@@ -2158,6 +2160,7 @@ class BodyDef(Sized):
         "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
+        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half of what it displaces; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
     }
 
 
@@ -2187,6 +2190,7 @@ class BitDef(Sized):
     displaced_volume: float
     ring: Id
     inner_radius: float
+    added_mass: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2212,6 +2216,7 @@ class BitDef(Sized):
         ("displaced_volume", c_double),
         ("ring", Id),
         ("inner_radius", c_double),
+        ("added_mass", c_double * 2),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
@@ -2237,6 +2242,7 @@ class BitDef(Sized):
         "displaced_volume": ("m3", "likewise of a body"),
         "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
         "inner_radius": ("m", "b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
+        "added_mass": ("kg", "likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default 0, shape (2)"),
     }
 
 
@@ -2714,6 +2720,7 @@ class RingDef(Sized):
     inertia: 'Array[c_double]'
     density: float
     name: bytes
+    added_mass: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("pipe", c_uint32),
@@ -2725,6 +2732,7 @@ class RingDef(Sized):
         ("inertia", c_double * 2),
         ("density", c_double),
         ("name", c_char * 24),
+        ("added_mass", c_double * 2),
     ]
     field_docs = {
         "pipe": ("-", "number along the string; default 0"),
@@ -2736,6 +2744,7 @@ class RingDef(Sized):
         "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
         "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
         "name": ("", "for messages, ends with 0; default \"\""),
+        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of what it displaces beyond the pipe, its ends left out; shape (2)"),
     }
 
 

@@ -17,6 +17,7 @@ void dmb_gather_elements(dmb_evaluation *evaluation);
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 
 void dmb_gather_nodes(dmb_evaluation *evaluation);
+void dmb_gather_added_masses(dmb_evaluation *evaluation);
 void dmb_gather_loads(dmb_evaluation *evaluation);
 void dmb_gather_flow(dmb_evaluation *evaluation);
 

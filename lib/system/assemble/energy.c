@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "element/added_mass.h"
 #include "element/beam.h"
 #include "element/rigid_mass.h"
 #include "sim/node.h"
@@ -94,12 +95,34 @@ void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuratio
     parts[2] = dmb_rigid_mass_kinetic_energy(scene, configuration, rigid_mass) - parts[0] - parts[1];
 }
 
+double dmb_added_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
+                                     const dmb_added_mass *added)
+{
+    const double *v = configuration->velocity + scene->layout.row[added->node];
+    double p[6];
+    if (is_path(scene, added->node)) return 0.5 * added->along * v[0] * v[0];
+    dmb_added_mass_times(added, v, p);
+    return 0.5 * dmb_vec6_dot(v, p);
+}
+
+void dmb_added_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t added,
+                                  double parts[3])
+{
+    const dmb_added_mass *a = scene->added_masses + added;
+    const double along = configuration->velocity[scene->layout.row[a->node]];
+    parts[0] = 0.5 * a->along * along * along;
+    parts[1] = 0.0;
+    parts[2] = dmb_added_mass_kinetic_energy(scene, configuration, a) - parts[0];
+}
+
 double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     double sum = 0.0;
     for (uint32_t e = 0; e < scene->element_count; e++) sum += dmb_element_kinetic_energy(scene, configuration, e);
     for (uint32_t i = 0; i < scene->rigid_mass_count; i++)
         sum += dmb_rigid_mass_kinetic_energy(scene, configuration, i);
+    for (uint32_t i = 0; i < scene->added_mass_count; i++)
+        sum += dmb_added_mass_kinetic_energy(scene, configuration, scene->added_masses + i);
     return sum;
 }
 

@@ -8,6 +8,8 @@
 double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element);
 double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
                                      uint32_t rigid_mass);
+double dmb_added_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
+                                     const dmb_added_mass *added);
 double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Potential of the weights less that of the pose at time 0 as described. */
@@ -23,6 +25,8 @@ void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *co
 void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double parts[3]);
 void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
+                                  double parts[3]);
+void dmb_added_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t added,
                                   double parts[3]);
 /* Section forces at the element's two flexible ends in the frame of that end, as force on the near side from the far
  * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */

@@ -112,6 +112,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     dmb_gather_elements(evaluation);
     if (evaluation->status < 0) return evaluation->status;
     dmb_gather_nodes(evaluation);
+    if (scene->added_mass_count && evaluation->dynamic) dmb_gather_added_masses(evaluation);
     if (scene->site_count) dmb_gather_contacts(evaluation);
     if (scene->path_site_count) dmb_gather_path_friction(evaluation);
     if (scene->load_count) dmb_gather_loads(evaluation);

@@ -7,11 +7,13 @@
  *     W = E (u + w x c),   W' = E (u' + w' x c + w x (u + w x c)),   x1 = x0 + R0 (z + c - E c),
  * generalized-alpha is applied to (W, w) and its increments (z, theta) instead of (u, w). Then m W' = f, so that linear
  * momentum is kept to rounding, and a parabola is one. The rotation is integrated as before: angular momentum to second
- * order. Only in scenes without joints, where nothing holds or leads the part. */
+ * order. So is the translation where mud goes along with the part, since its mass depends on the direction. Only in
+ * scenes without joints, where nothing holds or leads the part. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
 
+#include "element/added_mass.h"
 #include "element/rigid_mass.h"
 #include "math/so3.h"
 
@@ -205,13 +207,14 @@ static void acceleration_derivative(const rigid_end *end, double m, double s, do
 }
 
 /* The mass matrix M. */
-static void mass_of(const dmb_rigid_mass *rigid_mass, double M[36])
+static void mass_of(const dmb_scene *scene, const dmb_free_rigid *body, double M[36])
 {
     const double rest[6] = {0.0};
     dmb_rigid_mass_constants c;
-    dmb_rigid_mass_load(rigid_mass, 0, &c);
+    dmb_rigid_mass_load(scene->rigid_masses + body->rigid_mass, 0, &c);
     dmb_mat6_zero(M);
     dmb_rigid_mass_add_tangent(&c, rest, rest, 1.0, 0.0, M);
+    if (body->added_mass != DMB_NONE) dmb_added_mass_add(scene->added_masses + body->added_mass, 1.0, M);
 }
 
 static void add_product(const double A[36], const double B[36], double sum[36])
@@ -232,7 +235,7 @@ void dmb_free_rigids_matrix(const dmb_evaluation *evaluation)
         double D[36], M[36], J[36];
         rigid_end end;
         end_of(sim, i, &end);
-        mass_of(sim->scene->rigid_masses + body->rigid_mass, M);
+        mass_of(sim->scene, body, M);
         dmb_mat6_zero(D);
         pose_derivative(&end, J);
         add_product(stiffness, J, D);

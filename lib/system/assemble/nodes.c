@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "element/added_mass.h"
 #include "element/beam.h"
 #include "kernel/kernels.h"
 #include "math/mat6.h"
@@ -124,6 +125,48 @@ void dmb_gather_nodes(dmb_evaluation *evaluation)
             gather_path(evaluation, i, has ? scene->rigid_masses + rigid_mass : NULL);
             count = 1;
         }
+    }
+}
+
+/* ---- Mud --------------------------------------------------------------------------------------------------------- */
+
+static void gather_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
+{
+    dmb_sim *sim = evaluation->sim;
+    double v[6], a[6], p[6], f[6], turning[6];
+    dmb_node_vector(sim->scene, &sim->trial, added->node, sim->trial.velocity, v);
+    dmb_node_vector(sim->scene, &sim->trial, added->node, sim->trial.acceleration, a);
+    dmb_added_mass_times(added, v, p);
+    dmb_added_mass_times(added, a, f);
+    dmb_ad_transpose(v, p, turning);
+    for (int i = 0; i < 6; i++) f[i] = turning[i] - f[i];
+    evaluation->power[DMB_POWER_INERTIA] += dmb_vec6_dot(v, f);
+    dmb_apply_wrench(sim, added->node, f);
+    if (evaluation->tangent)
+        dmb_added_mass_add_tangent(added, v, p, evaluation->mass_factor, evaluation->velocity_factor,
+                                   dmb_inertia_of(sim, added->node));
+}
+
+/* A PATH node moves along its x axis. */
+static void gather_path_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[added->node];
+    const double f[6] = {-added->along * sim->trial.acceleration[row]};
+    evaluation->power[DMB_POWER_INERTIA] += sim->trial.velocity[row] * f[0];
+    dmb_apply_wrench(sim, added->node, f);
+    if (evaluation->tangent) dmb_inertia_of(sim, added->node)[0] += evaluation->mass_factor * added->along;
+}
+
+void dmb_gather_added_masses(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    for (uint32_t i = 0; i < scene->added_mass_count; i++) {
+        const dmb_added_mass *added = scene->added_masses + i;
+        if (scene->layout.size[added->node] == DMB_NODE_FULL)
+            gather_added_mass(evaluation, added);
+        else
+            gather_path_added_mass(evaluation, added);
     }
 }
 

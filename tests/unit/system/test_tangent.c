@@ -229,6 +229,16 @@ static void mud_that_flows(void **state)
     check_tangent("flow, sections, curved", choice + 2);
 }
 
+/* Around flexible and rigid pipes, rig head, bit and a body of its own. */
+static void mud_that_goes_along(void **state)
+{
+    (void)state;
+    const full_rig_choice choice[2] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 8},
+                                       {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1, 8}};
+    check_tangent("added mass, straight", choice);
+    check_tangent("added mass, curved", choice + 1);
+}
+
 /* Force times curvature of the hole is left out of the tangent at a seam between flexible and axial-torsional pipes, at
  * a bit and for loads in the frame of the hole: with 0.1 rad/m here 0.006 of a column; a real hole bends 10 to 100
  * times less. The residual itself has it all. Velocity and acceleration are exact. */
@@ -321,13 +331,14 @@ static void check_power(const full_rig_choice *choice)
 static void powers_cancel_at_an_accepted_state(void **state)
 {
     (void)state;
-    const full_rig_choice choice[6] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
+    const full_rig_choice choice[7] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
                                        {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 1, 1, 0, 4},
                                        {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 2},
                                        {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0, 0},
                                        {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_RATE, 1, 1, 0, 0},
-                                       {DMB_FRICTION_STRIBECK, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 1}};
-    for (int i = 0; i < 6; i++) check_power(choice + i);
+                                       {DMB_FRICTION_STRIBECK, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 1},
+                                       {DMB_FRICTION_STRIBECK, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 8}};
+    for (int i = 0; i < 7; i++) check_power(choice + i);
 }
 
 int main(void)
@@ -340,6 +351,7 @@ int main(void)
         cmocka_unit_test(rings_in_sections),
         cmocka_unit_test(rings_along_the_elements),
         cmocka_unit_test(mud_that_flows),
+        cmocka_unit_test(mud_that_goes_along),
         cmocka_unit_test(everything_in_a_curved_hole),
         cmocka_unit_test(static_residual_is_the_gradient_of_the_energies),
         cmocka_unit_test(powers_cancel_at_an_accepted_state),
