@@ -18,6 +18,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "force/hole.h"
 #include "math/mat6.h"
 #include "sim/own_scene.h"
 #include "system/assemble/drives.h"
@@ -25,6 +26,7 @@
 
 #define DMB_ROTATION_ROUNDING 1e-6 /* [-] of lengths and products of unit vectors: more than a run ever gathers */
 #define DMB_REST_ROUNDING 1e-9     /* [-] of the largest speed, that is none */
+#define DMB_RADIUS_ROUNDING 1e-9   /* [-] of a radius, that is none */
 #define DMB_TIME_LEEWAY 1e-5       /* [-] of the time: a corner that a step nearly reached counts as reached */
 
 static int32_t refuse(dmb_sim *sim, const char *field, size_t item, double value, const char *bound)
@@ -246,7 +248,22 @@ static int32_t check_settings(dmb_sim *sim)
     return status < 0 ? status : check_marks(sim);
 }
 
-/* ---- The cut surface --------------------------------------------------------------------------------------------- */
+/* ---- What is cut ------------------------------------------------------------------------------------------------- */
+
+/* No station is wider than the widest cutter leaves it. */
+static int32_t check_widening(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double widest = 0.0;
+    for (uint32_t k = 0; k < scene->bit_count; k++) widest = fmax(widest, scene->bits[k].law.radius);
+    for (uint32_t j = 0; j < scene->hole.cuts; j++) {
+        const double more = sim->hole_widening[j];
+        const double radius = dmb_hole_described_radius(&scene->hole, dmb_hole_cut_depth(&scene->hole, j)) + more;
+        if (more < 0.0 || (more > 0.0 && radius > (1.0 + DMB_RADIUS_ROUNDING) * widest))
+            return refuse(sim, "hole_widening", j, more, "from 0 to what the widest cutter leaves");
+    }
+    return DMB_OK;
+}
 
 /* Samples fill the ring before they go round it, and their angles increase. */
 static int32_t check_history(dmb_sim *sim, uint32_t k)
@@ -266,7 +283,7 @@ static int32_t check_history(dmb_sim *sim, uint32_t k)
 
 static int32_t check_histories(dmb_sim *sim)
 {
-    int32_t status = DMB_OK;
+    int32_t status = check_widening(sim);
     for (uint32_t k = 0; k < sim->scene->bit_count && status >= 0; k++)
         if (sim->scene->bits[k].history_capacity > 0) status = check_history(sim, k);
     return status;

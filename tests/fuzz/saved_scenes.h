@@ -305,13 +305,15 @@ static inline void saved_describe_joints(saved_scene *s)
 
 /* ---- Sideways ---------------------------------------------------------------------------------------------------- */
 
-/* In a straight hole, with pipes on its axis and a bit that cuts sideways beyond it. */
+/* In a straight hole, with pipes on its axis and a bit that cuts sideways beyond it and leaves a wider hole. */
 static inline void saved_describe_sideways(saved_scene *s)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
+    wall.cut_spacing = 0.1;
+    wall.cut_end = 4.0;
     SAVED_MUST(s, dmb_model_add_wall(s->model, &wall, NULL));
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     SAVED_MUST(s, dmb_model_add_pipes(s->model, &pipe, 2, &s->string));

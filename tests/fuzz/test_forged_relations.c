@@ -348,6 +348,17 @@ static void histories_increase(void **state)
     close_subject(&s);
 }
 
+static void cutters_leave_no_more_than_their_size(void **state)
+{
+    (void)state;
+    subject s = open_subject(SAVED_SIDEWAYS);
+    put(&s, "hole_widening", 3, -1e-3);
+    refused(&s, "hole_widening");
+    put(&s, "hole_widening", 0, 0.5);
+    refused(&s, "hole_widening");
+    close_subject(&s);
+}
+
 /* ---- Taken, and harmless ----------------------------------------------------------------------------------------- */
 
 static void contacts_that_are_not_there(void **state)
@@ -519,6 +530,7 @@ int main(void)
         cmocka_unit_test(settings_fit),
         cmocka_unit_test(joints_are_held_where_they_are_locked),
         cmocka_unit_test(histories_increase),
+        cmocka_unit_test(cutters_leave_no_more_than_their_size),
         cmocka_unit_test(contacts_that_are_not_there),
         cmocka_unit_test(factors_of_nothing),
         cmocka_unit_test(parts_that_are_apart),
