@@ -29,7 +29,9 @@
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
     X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
-    X(double, pseudo_acceleration, r, NUMBERS)    /* [m/s2, rad/s2] the a of generalized-alpha */                     \
+    X(double, pseudo_acceleration, r, NUMBERS) /* [m/s2, rad/s2] the a of generalized-alpha; in load steps of statics \
+                                                  the increments of the one reached:                                 \
+                                                  analysis/static/static_newton */                                   \
     /* system/assemble/wall_contact, from pose and velocity: */                                                       \
     X(double, site_normal, 3 * s, NUMBERS)        /* [-] world, last normal that was defined */                       \
     X(double, site_depth, s, NUMBERS)             /* [m] measured depth of the closest axis point */                  \
@@ -133,9 +135,6 @@
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
     X(double, turned_squared, 1) /* [rad2] of the node that turned most in the step: system/assemble/evaluation */     \
-    X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_newton */  \
-    X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_lay */          \
-    X(double, pull_stretch, ns)         /* [m] of a string up to each node, analysis/static/static_lay */             \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
        system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
@@ -143,7 +142,7 @@
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
-                                analysis/static/static_newton */                                                      \
+                                analysis/static/static_newton; pulls and stretches: analysis/static/static_lay */      \
     X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve */          \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \

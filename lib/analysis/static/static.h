@@ -145,7 +145,17 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
 /* The equilibrium from where a soft string lies under its pull, on a soft wall, then on harder ones. DMB_OK, or why it
  * failed. */
 int32_t dmb_static_from_pull(dmb_static_search *search);
-/* The sim's pull_tension of a string that meets the wall, by the residual of the starting pose; 0: it is not known,
+/* By nodes, before an iteration begins, where its correction will be (a node has two rows at least): [N] pull of the
+ * element after each, [m] stretch up to each. */
+static inline double *dmb_static_pulls(const dmb_sim *sim)
+{
+    return sim->correction;
+}
+static inline double *dmb_static_stretches(const dmb_sim *sim)
+{
+    return sim->correction + sim->scene->node_count;
+}
+/* The pulls of a string that meets the wall, by the residual of the starting pose; 0: it is not known,
  * since the string is free at both ends or at none. */
 int dmb_static_tensions(dmb_sim *sim, uint32_t string);
 int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node);

@@ -81,7 +81,7 @@ int dmb_static_tensions(dmb_sim *sim, uint32_t string)
     for (uint32_t k = first; k < last; k++) {
         const uint32_t i = back ? first + last - k : k;
         sum += (back ? -1.0 : 1.0) * sim->residual[scene->layout.row[i]];
-        sim->pull_tension[back ? i - 1 : i] = sum;
+        dmb_static_pulls(sim)[back ? i - 1 : i] = sum;
     }
     return 1;
 }
@@ -115,7 +115,7 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
     search->evaluation.tangent = 1;
     if (status < 0) return dmb_is_final(status) ? status : 0;
     for (uint32_t s = 0; s < scene->string_count; s++)
-        if (dmb_static_tensions(sim, s)) take(scene, s, sim->pull_tension, most);
+        if (dmb_static_tensions(sim, s)) take(scene, s, dmb_static_pulls(sim), most);
     return most->string != DMB_NONE;
 }
 
@@ -143,17 +143,18 @@ static void lay_pressed(const dmb_static_search *search, const dmb_site *site, d
 static void stretch(dmb_sim *sim, const dmb_string_map *string)
 {
     const dmb_scene *scene = sim->scene;
-    const double *tension = sim->pull_tension;
+    const double *tension = dmb_static_pulls(sim);
+    double *along = dmb_static_stretches(sim);
     const uint32_t first = string->first_node, count = string->node_count;
     const int back = dmb_static_is_free_along(scene, first);
     double sum = 0.0;
-    sim->pull_stretch[back ? first + count - 1 : first] = 0.0;
+    along[back ? first + count - 1 : first] = 0.0;
     for (uint32_t k = 1; k < count; k++) {
         const uint32_t i = back ? first + count - 1 - k : first + k, near = back ? i : i - 1;
         const uint32_t e = dmb_element_between(scene, near, 1);
         if (e != DMB_NONE)
             sum += (back ? -1.0 : 1.0) * tension[near] / scene->types[scene->element_type[e]].stiffness[0];
-        sim->pull_stretch[i] = sum;
+        along[i] = sum;
     }
 }
 
@@ -161,7 +162,7 @@ void dmb_static_lay_by_pull(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    const double *tension = sim->pull_tension, *along = sim->pull_stretch;
+    const double *tension = dmb_static_pulls(sim), *along = dmb_static_stretches(sim);
     for (uint32_t i = 0, s = 0; i < scene->string_count; i++) {
         const dmb_string_map *string = scene->strings + i;
         const uint32_t end = string->first_node + string->node_count;

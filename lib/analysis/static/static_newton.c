@@ -322,17 +322,18 @@ int32_t dmb_static_take_back(dmb_static_search *search)
 #define DMB_SHORTEST_FIRST_STEP (1.0 / 16.0)
 #define DMB_EASY_ITERATIONS 12
 
-/* The trial and its increments are set aside as the step reached, and back. */
+/* The trial and its increments are set aside as the step reached, and back. Statics ask for no accelerations, and the
+ * restart from what they find makes them anew. */
 static void keep(dmb_sim *sim)
 {
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    memcpy(sim->load_step_increment, sim->increment, sim->scene->row_count * sizeof(double));
+    memcpy(sim->now.pseudo_acceleration, sim->increment, sim->scene->row_count * sizeof(double));
 }
 
 static void go_back(dmb_sim *sim)
 {
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
-    memcpy(sim->increment, sim->load_step_increment, sim->scene->row_count * sizeof(double));
+    memcpy(sim->increment, sim->now.pseudo_acceleration, sim->scene->row_count * sizeof(double));
 }
 
 int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps)
