@@ -111,7 +111,7 @@ static int32_t measure_growth(int kind)
     memset(&g, 0, sizeof g);
     for (int i = 0; i < SIZES && status >= 0; i++) {
         status = open_scene(kind, sizes[i], &g.scenes[i]);
-        for (int k = 0; k < STRETCHES; k++) g.least[i][k] = INFINITY;
+        for (int k = 0; k < STRETCHES; k++) g.least[i][k] = (double)INFINITY;
     }
     for (int k = 0; k < ROUNDS && status >= 0; k++) status = go_round(&g);
     if (status >= 0) tell(&g, kind);
