@@ -53,7 +53,7 @@ static subject *subject_of(int which)
     s->scene = saved_scene_open(which);
     s->victim = saved_sim(&s->scene);
     saved_run(&s->scene, s->victim);
-    s->victim->options.max_iterations = 3;
+    s->victim->options.max_iterations = 2;
     s->victim->options.max_cuts = 0;
     s->victim->options.step_min = 6e-5;
     MUST(dmb_sim_snapshot_size(s->victim, &s->size) == DMB_OK);
