@@ -189,8 +189,11 @@ typedef struct dmb_kernels {
     /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
     void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES]);
-    /* sum a[i] b[i], in DMB_SQUARES sums side by side */
+    /* sum a[i] b[i], and sum |a[i]|, in DMB_SQUARES sums side by side */
     double (*product)(uint32_t count, const double *a, const double *b);
+    double (*magnitude)(uint32_t count, const double *a);
+    /* to[i] = -from[i] */
+    void (*negate)(uint32_t count, const double *from, double *to);
     void (*powers)(dmb_power_job *job);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);

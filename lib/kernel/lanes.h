@@ -279,6 +279,8 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .matrices = matrices,
                                  .squares = squares,
                                  .product = product,
+                                 .magnitude = magnitude,
+                                 .negate = negate,
                                  .powers = powers,
                                  .factor = factor,
                                  .solve = solve};

@@ -256,6 +256,29 @@ static double product(uint32_t count, const double *a, const double *b)
     return sum_of(&sums);
 }
 
+DMB_LANES_INLINE void add_magnitudes(const double *a, lane_sums *sums)
+{
+    for (int k = 0; k < SUM_LANES; k++) sums->of[k] = sums->of[k] + dmb_real_abs(numbers_at(a, k));
+}
+
+static double magnitude(uint32_t count, const double *a)
+{
+    lane_sums sums;
+    double x[DMB_SQUARES];
+    uint32_t i = 0;
+    begin_sums(&sums);
+    for (; i + DMB_SQUARES <= count; i += DMB_SQUARES) add_magnitudes(a + i, &sums);
+    rest_of(count - i, a + i, x);
+    add_magnitudes(x, &sums);
+    return sum_of(&sums);
+}
+
+/* In place, too. */
+static void negate(uint32_t count, const double *from, double *to)
+{
+    for (uint32_t i = 0; i < count; i++) to[i] = -from[i];
+}
+
 /* [W] of the residual and of the forces without regard to sign, at the speeds given. */
 DMB_LANES_INLINE void add_powers_at(const double *residual, const double *scale, const double *velocity,
                                     lane_sums *left, lane_sums *exchanged)

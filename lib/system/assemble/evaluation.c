@@ -91,14 +91,8 @@ void dmb_system_move(dmb_sim *sim)
 
 static int32_t finite_status(const dmb_sim *sim)
 {
-    double sums[8] = {0.0}; /* side by side */
-    const double *r = sim->residual;
-    const uint32_t rows = sim->scene->row_count, even = rows - rows % 8;
-    for (uint32_t i = 0; i < even; i += 8)
-        for (uint32_t k = 0; k < 8; k++) sums[k] += fabs(r[i + k]);
-    for (uint32_t i = even; i < rows; i++) sums[0] += fabs(r[i]);
-    for (uint32_t k = 1; k < 8; k++) sums[0] += sums[k];
-    return isfinite(sums[0]) ? DMB_OK : DMB_ERR_NOT_FINITE;
+    const double sum = sim->scene->kernels->magnitude(sim->scene->row_count, sim->residual);
+    return isfinite(sum) ? DMB_OK : DMB_ERR_NOT_FINITE;
 }
 
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation)

@@ -183,7 +183,7 @@ void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix matrix = matrix_of(sim);
-    for (uint32_t i = 0; i < scene->row_count; i++) z[i] = -residual[i];
+    scene->kernels->negate(scene->row_count, residual, z);
     clear_held(scene, z);
     if (*sim->factors == DMB_FACTORS_REUSED) {
         dmb_solve_reused(sim, z);
