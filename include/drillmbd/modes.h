@@ -50,6 +50,10 @@ typedef struct dmb_modes_info {
     double residual_of_state; /* [-] relative residual of the state without its body-frame accelerations */
     double asymmetry;         /* [-] of K; above 1e-9 it is treated as unsymmetric (friction, follower loads) */
     double residual;          /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
+    uint32_t double_roots;    /* [-] roots that were told as the mean of two or more with one shape (critical damping,
+                                 the edge of flutter, straight motion seen in axes that spin): rounding parts those by
+                                 its root, and a residual does not show it */
+    uint32_t reserved;
 } dmb_modes_info;
 DMB_SIZED_STRUCT(dmb_modes_info)
 

@@ -27,7 +27,7 @@ static void open_spinning(rig *s, uint32_t elements, double spin)
 static void check_campbell(uint32_t elements, double spin)
 {
     rig s;
-    double w[3];
+    double w[3], growth = 0.0;
     open_spinning(&s, elements, 0.0);
     dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 14);
     for (uint32_t i = 0; i < 3; i++) w[i] = 2.0 * PI * frequency_of_kind(modes, 2, 2 * i);
@@ -45,6 +45,9 @@ static void check_campbell(uint32_t elements, double spin)
         check_below(what, closest_mode(modes, w[i] + spin), 2e-6);
     }
     check_below("straight motion turns with the spin", closest_mode(modes, spin), 1e-6);
+    for (uint32_t i = 0; i < info_of(modes).count; i++)
+        growth = fmax(growth, fabs(mode_at(modes, i).eigenvalue[0]) / spin);
+    check_below("nothing grows or decays", growth, 1e-8);
     dmb_modes_destroy(&modes);
     rig_close(&s);
 }

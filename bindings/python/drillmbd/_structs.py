@@ -1545,6 +1545,8 @@ class ModesInfo(Sized):
     residual_of_state: float
     asymmetry: float
     residual: float
+    double_roots: int
+    reserved: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -1555,6 +1557,8 @@ class ModesInfo(Sized):
         ("residual_of_state", c_double),
         ("asymmetry", c_double),
         ("residual", c_double),
+        ("double_roots", c_uint32),
+        ("reserved", c_uint32),
     ]
     field_docs = {
         "count": ("-", "modes found, by rising frequency"),
@@ -1565,6 +1569,7 @@ class ModesInfo(Sized):
         "residual_of_state": ("-", "relative residual of the state without its body-frame accelerations"),
         "asymmetry": ("-", "of K; above 1e-9 it is treated as unsymmetric (friction, follower loads)"),
         "residual": ("-", "largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it"),
+        "double_roots": ("-", "roots that were told as the mean of two or more with one shape (critical damping, the edge of flutter, straight motion seen in axes that spin): rounding parts those by its root, and a residual does not show it"),
     }
 
 

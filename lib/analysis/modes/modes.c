@@ -87,22 +87,44 @@ static int32_t check_count(const dmb_mode_search *search)
     return DMB_ERR_VALUE;
 }
 
-/* The ones asked for, in order, and what is told about all of them. */
+/* Beside those asked for some of a general problem stay until double roots are joined: so many, so far off a band. */
+enum { DMB_MODES_BESIDE = 4 };
+#define DMB_BESIDE_BAND 1e-2
+
+static void keep_asked(const dmb_mode_search *search, double aside, uint32_t beside)
+{
+    const dmb_modes_options *options = search->options;
+    dmb_modes *modes = search->modes;
+    if (options->select == DMB_MODES_BAND)
+        dmb_modes_keep_band(modes, (1.0 - aside) * options->band[0], (1.0 + aside) * options->band[1]);
+    dmb_modes_sort(modes, options->select == DMB_MODES_LOWEST ? options->count + beside : modes->count);
+}
+
+/* Sharp roots, the ones asked for in order. */
+static int32_t sharpen(dmb_mode_search *search)
+{
+    keep_asked(search, search->general ? DMB_BESIDE_BAND : 0.0, search->general ? DMB_MODES_BESIDE : 0);
+    int32_t status = dmb_modes_polish(search);
+    if (status < 0 || !search->general) return status;
+    status = dmb_modes_join(search);
+    keep_asked(search, 0.0, 0);
+    return status;
+}
+
+/* The ones asked for, and what is told about all of them. */
 static int32_t finish(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
     dmb_modes *modes = search->modes;
-    if (options->select == DMB_MODES_BAND) dmb_modes_keep_band(modes, options->band[0], options->band[1]);
-    dmb_modes_sort(modes, options->select == DMB_MODES_LOWEST ? options->count : modes->count);
+    dmb_modes_weigh_coordinates(search);
+    const int32_t status = sharpen(search);
+    if (status < 0) return status;
     if (modes->count == 0) {
         dmb_message_set(search->message, "modes options: no mode in band = %g .. %g Hz", options->band[0],
                         options->band[1]);
         return DMB_ERR_VALUE;
     }
     modes->info.count = modes->count;
-    dmb_modes_weigh_coordinates(search);
-    const int32_t status = dmb_modes_polish(search);
-    if (status < 0) return status;
     for (uint32_t k = 0; k < modes->count; k++) {
         modes->info.rigid += modes->rigid[k];
         modes->info.residual = fmax(modes->info.residual, dmb_modes_residual(search, k));
@@ -289,6 +311,7 @@ static int32_t find_lowest(dmb_mode_search *search)
 {
     uint32_t wanted = search->options->count;
     if (is_dense(search, wanted)) return dmb_modes_dense(search);
+    if (search->general) wanted++; /* a double root may stand at the end */
     for (int tries = 1;; tries++) {
         const int32_t status = dmb_modes_sparse(search, wanted);
         if (status < 0) return status;

@@ -95,6 +95,8 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k);
 int32_t dmb_modes_check(dmb_mode_search *search);
 /* Makes those sharper that leave more than they may. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_polish(dmb_mode_search *search);
+/* Tells roots of one shape that only rounding parts as their mean. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_join(dmb_mode_search *search);
 void dmb_modes_weigh_coordinates(const dmb_mode_search *search);
 
 /* All modes, by LAPACK on the independent coordinates. */
