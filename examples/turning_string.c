@@ -9,14 +9,13 @@
  * threads changes no digit. */
 #include <drillmbd/drillmbd.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 
 #include "command_line.h"
+#include "share_out.h"
 
 #define PIPES 10
 #define SPEEDS 8
-#define THREADS 64
 #define TURN 6.283185307179586477
 
 enum { OUTPUTS = 3 };
@@ -119,31 +118,9 @@ static void run(turning *t)
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-typedef struct worker {
-    turning *all;
-    int first, step;
-} worker;
-
-static void *work(void *context)
+static void run_number(void *context, int number)
 {
-    const worker *w = context;
-    for (int i = w->first; i < SPEEDS; i += w->step) run(w->all + i);
-    return NULL;
-}
-
-static void run_all(turning *all, int threads)
-{
-    pthread_t started[THREADS];
-    worker workers[THREADS];
-    int running = 0;
-    for (int i = 0; i < threads; i++) {
-        workers[i] = (worker){all, i, threads};
-        if (pthread_create(started + running, NULL, work, workers + i) == 0)
-            running++;
-        else
-            (void)work(workers + i);
-    }
-    for (int i = 0; i < running; i++) (void)pthread_join(started[i], NULL);
+    run((turning *)context + number);
 }
 
 static double amplitude(const turning *t, int output, int harmonic)
@@ -174,7 +151,7 @@ int main(int count, char **words)
         command_line(count, words, "How does a string whip where the linear response does not hold?", options, 1);
     if (stop >= 0) return stop;
     for (int i = 0; i < SPEEDS; i++) all[i].frequency = 2.5 + 0.25 * i;
-    run_all(all, (int)threads);
+    share_out(run_number, all, SPEEDS, (int)threads);
     puts("Middle of the string: sideways and up and down [mm], force of its ring on the wall [N]");
     puts("  rpm               y linear       1x  z linear       1x    linear      1x      2x    mean");
     for (int i = 0; i < SPEEDS; i++) {

@@ -9,12 +9,12 @@
  * rare failures and sensitivities: drillmbd probability. */
 #include <drillmbd/drillmbd.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../command_line.h"
+#include "../share_out.h"
 #include "interval.h"
 #include "stream.h"
 
@@ -27,7 +27,7 @@
 #define STEP 1e-3
 #define SPEED 31.4159265358979 /* [rad/s] 300 rpm */
 
-enum { LIMITS = 2, NUMBERS = LIMITS + 1, MOST_THREADS = 64, MOST_SAMPLES = 1000000 };
+enum { LIMITS = 2, NUMBERS = LIMITS + 1, MOST_SAMPLES = 1000000 };
 
 static const char *const names[LIMITS] = {"torque of the rig > 82 N m", "force of the wall > 4 kN"};
 static const double limits[LIMITS] = {82.0, 4000.0};
@@ -112,28 +112,17 @@ typedef struct study {
     double (*results)[NUMBERS];
 } study;
 
-static void *work(void *context)
+static void compute_number(void *context, int number)
 {
     const study *s = context;
-    for (int i = s->first; i < s->samples; i += s->stride) compute(s->seed, i, s->results[i]);
-    return NULL;
+    const int i = s->first + number * s->stride;
+    compute(s->seed, i, s->results[i]);
 }
 
-static void run_all(const study *mine, int threads)
+static void run_all(study *s, int threads)
 {
-    pthread_t started[MOST_THREADS];
-    study shares[MOST_THREADS];
-    int running = 0;
-    for (int i = threads - 1; i >= 0; i--) { /* the first share is this thread's own */
-        shares[i] = *mine;
-        shares[i].first += i * mine->stride;
-        shares[i].stride *= threads;
-        if (i > 0 && pthread_create(started + running, NULL, work, shares + i) == 0)
-            running++;
-        else
-            (void)work(shares + i);
-    }
-    for (int i = 0; i < running; i++) (void)pthread_join(started[i], NULL);
+    const int count = s->first < s->samples ? (s->samples - s->first - 1) / s->stride + 1 : 0;
+    share_out(compute_number, s, count, threads);
 }
 
 static void tell(const char *name, int failures, int lost, int samples)
@@ -190,7 +179,7 @@ int main(int count, char **words)
          .value = "N",
          .help = "samples at a time (2), which changes no digit",
          .low = 1.0,
-         .high = MOST_THREADS,
+         .high = THREADS,
          .whole = &threads},
         {.name = "seed", .value = "N", .help = "of the random numbers (1)", .low = 0.0, .high = 1e6, .whole = &seed}};
     const int stop = command_line(

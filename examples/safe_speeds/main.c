@@ -21,10 +21,10 @@
 
 #include "../command_line.h"
 #include "../gas_drainage_rig/folder.h"
+#include "../share_out.h"
 #include "campbell.h"
 #include "scene.h"
 #include "tables.h"
-#include "threads.h"
 
 #define BLADES 4
 #define CAMPBELL_DEPTH 100 /* [m] unless one depth is asked for */

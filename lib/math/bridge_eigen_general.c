@@ -1,4 +1,5 @@
-/* Balancing (Parlett, Reinsch, Balancing a matrix, 1969), Hessenberg form by Householder reflections, real Schur form
+/* Balancing (Parlett, Reinsch, Balancing a matrix, 1969; by Euclidean lengths with the diagonal: James, Langou, Lowery,
+ * On matrix balancing and eigenvector computation, 2014), Hessenberg form by Householder reflections, real Schur form
  * by Francis' steps with two shifts, vectors by substitution (Golub, Van Loan, Matrix Computations, 4th ed., 7.4
  * to 7.6). */
 #include <complex.h>
@@ -29,9 +30,8 @@ static int balance_row(schur *s, size_t i)
     const size_t n = s->n;
     double column = 0.0, row = 0.0, factor = 1.0;
     for (size_t j = 0; j < n; j++) {
-        if (j == i) continue;
-        column += fabs(*at(s, j, i));
-        row += fabs(*at(s, i, j));
+        column = hypot(column, *at(s, j, i));
+        row = hypot(row, *at(s, i, j));
     }
     if (!(column > 0.0 && row > 0.0 && column <= DBL_MAX && row <= DBL_MAX)) return 0;
     const double sum = column + row;

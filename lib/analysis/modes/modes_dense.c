@@ -148,12 +148,25 @@ static void put_motions(dmb_dense *d)
 
 /* ---- All modes --------------------------------------------------------------------------------------------------- */
 
+/* [1/s2] Rayleigh's quotient of vector k, whose rows are in d->x: the eigenvalue of LAPACK has the rounding of the
+ * highest one, the quotient that of the forces of its own shape, in which it is off by the square of the vector's. */
+static double quotient(const dmb_mode_search *search, const dmb_dense *d, size_t k)
+{
+    const dmb_linear *linear = search->linear;
+    double *product = search->work;
+    dmb_linear_expand(linear, d->X + d->n * k, d->x);
+    dmb_linear_multiply(linear, &linear->mass, d->x, product);
+    const double mass = dmb_dot(linear->rows, d->x, product);
+    dmb_linear_multiply(linear, &linear->stiffness, d->x, product);
+    return mass > 0.0 ? dmb_dot(linear->rows, d->x, product) / mass : d->square[k];
+}
+
 static int32_t take_symmetric(dmb_mode_search *search, dmb_dense *d)
 {
     int32_t status = DMB_OK;
     for (size_t i = d->m; i < d->n && status >= 0; i++) {
-        dmb_linear_expand(search->linear, d->X + d->n * i, d->x);
-        status = dmb_modes_add_square(search, d->square[i], d->x);
+        const double square = quotient(search, d, i);
+        status = dmb_modes_add_square(search, square, d->x);
     }
     return status;
 }
@@ -218,7 +231,7 @@ static void take_rates(const dmb_mode_search *search, dmb_dense *d)
 {
     double least = 0.0;
     for (size_t i = 0; i < d->n; i++) {
-        dmb_linear_expand(search->linear, d->X + d->n * i, d->x);
+        d->square[i] = quotient(search, d, i);
         d->square[i] = dmb_modes_sharpen(search, d->square[i], d->x);
         d->rate[i] = sqrt(fabs(d->square[i]));
         if (i < d->m) d->square[i] = d->rate[i] = 0.0;
