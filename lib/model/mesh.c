@@ -261,7 +261,8 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     int32_t status = DMB_OK;
     mesh->features = dmb_mesh_features(mesh);
     for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
-    if (status >= 0) status = dmb_mesh_freeze(mesh, scene);
+    if (status < 0) return status;
+    status = dmb_mesh_freeze(mesh, scene);
     if (status == DMB_ERR_UNSUPPORTED && !dmb_has_cholmod())
         dmb_message_set(&mesh->model->message,
                         "compile: joints need the order of elimination of CHOLMOD, which could not be "
