@@ -52,6 +52,11 @@ int32_t dmb_sim_occupy(const dmb_sim *sim)
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
+    if (status == DMB_ERR_CALLBACK && sim->message.text[0] == '\0')
+        dmb_message_set(&sim->message,
+                        "sim: the callback of a programme, force or constraint failed or gave a value beyond +-1e30 on "
+                        "the way from time %g",
+                        sim->clock->time);
     if (status >= 0 || !sim->progress->cancelled) return status;
     dmb_message_set(&sim->message,
                     "sim: the caller's progress function ended the call at time %g, %.0f %% of it done; make "

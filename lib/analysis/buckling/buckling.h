@@ -91,8 +91,8 @@ int32_t dmb_path_evaluate(dmb_path *path, int32_t tangent);
 int32_t dmb_path_correct(dmb_path *path, const double *direction, double rate, double arc);
 /* Tangent of the trial into next, oriented along `towards`; K is left factored. DMB_ERR_SINGULAR with search.block. */
 int32_t dmb_path_tangent(dmb_path *path, const double *towards);
-/* next becomes last, and a state at rest that can be asked. */
-void dmb_path_accept(dmb_path *path);
+/* next becomes last, and a state at rest that can be asked. DMB_ERR_CALLBACK where the caller's function fails now. */
+int32_t dmb_path_accept(dmb_path *path);
 
 /* Event between last and next, when next has been found at `arc`. */
 enum {

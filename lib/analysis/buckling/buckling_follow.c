@@ -109,7 +109,7 @@ static int32_t linearise_before(follower *f, double arc)
             status = dmb_path_correct(path, path->last.tangent, path->last.rate, step_back[k] * arc);
             if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
             if (status >= 0 && path->next.negative != path->last.negative) status = DMB_ERR_ORDER;
-            if (status >= 0) dmb_path_accept(path);
+            if (status >= 0) status = dmb_path_accept(path);
         }
         if (status >= 0) status = linearise_here(f);
     }
@@ -247,7 +247,8 @@ static int32_t step(follower *f)
     if (status < 0) return say_lost(f, status);
     if (ends(path, event)) return end_at_event(f, event);
     if (path->next.negative < 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
-    dmb_path_accept(path);
+    status = dmb_path_accept(path);
+    if (status < 0) return say_lost(f, status);
     if (event == DMB_EVENT_FACTOR) return say_stable(f);
     return path->last.factor < DMB_FOLLOW_THERE * f->target ? 1 : look_ahead(f);
 }

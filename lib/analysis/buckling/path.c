@@ -108,7 +108,8 @@ static int32_t begin(dmb_path *path)
     path->next.rate *= sense;
     for (uint32_t i = 0; i < scene->row_count; i++) path->next.tangent[i] *= sense;
     path->side = path->next.rate;
-    dmb_path_accept(path);
+    status = dmb_path_accept(path);
+    if (status < 0) return status;
     path->begun = 1;
     path->turned = DMB_NONE;
     return DMB_OK;
@@ -202,9 +203,9 @@ static void go_straight_on(dmb_path *path)
 static int32_t leave(dmb_path *path, double *arc)
 {
     if (path->options->branch_size > 0.0) *arc = path->options->branch_size;
-    const int32_t status = dmb_path_leave(path, arc);
+    int32_t status = dmb_path_leave(path, arc);
+    if (status >= 0) status = dmb_path_accept(path);
     if (status < 0) return status;
-    dmb_path_accept(path);
     path->report.points++;
     return tell(path, DMB_PATH_BRANCH);
 }
@@ -248,7 +249,8 @@ static int32_t follow(dmb_path *path)
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return lost(path);
         if (event == DMB_EVENT_BIFURCATION) go_straight_on(path);
-        dmb_path_accept(path);
+        status = dmb_path_accept(path);
+        if (status < 0) return status;
         path->report.points++;
         status = tell(path, event == DMB_EVENT_LIMIT         ? DMB_PATH_LIMIT
                             : event == DMB_EVENT_BIFURCATION ? DMB_PATH_BIFURCATION

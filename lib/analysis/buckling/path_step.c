@@ -152,17 +152,19 @@ int32_t dmb_path_tangent(dmb_path *path, const double *towards)
     return DMB_OK;
 }
 
-void dmb_path_accept(dmb_path *path)
+int32_t dmb_path_accept(dmb_path *path)
 {
     dmb_sim *work = path->work;
     const dmb_path_place place = path->last;
     path->search.evaluation.extrapolated = 0;
-    (void)evaluate(path, 0); /* reactions; it has succeeded before */
+    const int32_t status = evaluate(path, 0); /* reactions */
+    if (status < 0) return status;
     dmb_system_accept(&path->search.evaluation);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->trial, &work->now);
     path->last = path->next;
     path->next = place;
+    return DMB_OK;
 }
 
 /* ---- Events ------------------------------------------------------------------------------------------------------ */
