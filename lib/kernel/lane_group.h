@@ -7,8 +7,8 @@
 
 #include "math/real.h"
 
-/* The number of values that are loaded is a constant at each call; loops over them are unrolled only in place. Where
- * branches are counted (tests/coverage) each stands once. */
+/* The number of values that are loaded is a constant at each call; loops over them are unrolled only in place. They
+ * stand once for tests/coverage, which counts their branches. */
 #if defined(__GNUC__) && !defined(DMB_COUNTED)
 #define DMB_LANES_INLINE static inline __attribute__((always_inline))
 #else
