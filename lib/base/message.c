@@ -72,6 +72,9 @@ void dmb_message_set(dmb_message *message, const char *format, ...)
         } else if (*c == 'z' && c[1] == 'u') {
             ++c;
             put_unsigned(&w, va_arg(arguments, size_t));
+        } else if (*c == 'l' && c[1] == 'l' && c[2] == 'u') {
+            c += 2;
+            put_unsigned(&w, va_arg(arguments, unsigned long long));
         } else if (*c == 'g') {
             put_double(&w, va_arg(arguments, double));
         } else if (*c == '%') {

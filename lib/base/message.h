@@ -19,8 +19,8 @@ typedef struct dmb_message {
 #define DMB_PRINTF_LIKE
 #endif
 
-/* Formats %s %d %u %zu %g %%, without widths or flags; no locale matters. %g gives whole numbers below 1e10 in full and
- * others in six digits. message may be NULL: nothing happens. A NULL string is written as "?". */
+/* Formats %s %d %u %zu %llu %g %%, without widths or flags; no locale matters. %g gives whole numbers below 1e10 in
+ * full and others in six digits. message may be NULL: nothing happens. A NULL string is written as "?". */
 void dmb_message_set(dmb_message *message, const char *format, ...) DMB_PRINTF_LIKE;
 
 /* "<part> <index>: <field> = <value>, must be <bound>". index DMB_NONE: "wall: diameter = ..."; so for components. */

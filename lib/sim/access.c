@@ -59,9 +59,9 @@ int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
                         sim->clock->time);
     if (status >= 0 || !sim->progress->cancelled) return status;
     dmb_message_set(&sim->message,
-                    "sim: the caller's progress function ended the call at time %g, %.0f %% of it done; make "
+                    "sim: the caller's progress function ended the call at time %g, %g %% of it done; make "
                     "it again for its answer",
-                    sim->clock->time, 100.0 * sim->progress->done);
+                    sim->clock->time, floor(100.0 * sim->progress->done + 0.5));
     return DMB_ERR_CANCELLED;
 }
 

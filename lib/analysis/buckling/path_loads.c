@@ -34,10 +34,6 @@ int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_
     pattern->scale = scale;
     pattern->load = pattern->drive = pattern->row = DMB_NONE;
     pattern->base = NULL;
-    if (scale < DMB_SCALE_ALL || scale > DMB_SCALE_PART) {
-        dmb_message_field(&sim->message, who, DMB_NONE, "scale", scale, "a DMB_SCALE_");
-        return DMB_ERR_VALUE;
-    }
     if (scale != DMB_SCALE_PART) return DMB_OK;
     const uint32_t load = dmb_model_part_index(sim->model, part, DMB_PART_LOAD);
     if (load < scene->load_count) {

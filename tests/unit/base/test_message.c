@@ -16,8 +16,8 @@ static void conversions(void **state)
     dmb_message m;
     const char *volatile none = NULL; /* volatile: the compiler warns of what it can see */
     (void)state;
-    dmb_message_set(&m, "%s %d %u %zu %g %%", "pipe", -3, UINT32_MAX, (size_t)12, 0.5);
-    assert_string_equal(m.text, "pipe -3 4294967295 12 0.5 %");
+    dmb_message_set(&m, "%s %d %u %zu %llu %g %%", "pipe", -3, UINT32_MAX, (size_t)12, 1ull << 63, 0.5);
+    assert_string_equal(m.text, "pipe -3 4294967295 12 9223372036854775808 0.5 %");
     dmb_message_set(&m, "plain");
     assert_string_equal(m.text, "plain");
     dmb_message_set(&m, "%s", none);
