@@ -76,7 +76,7 @@ static void open_scene(scene *s, double load)
     (void)find_equilibrium(&s->r, &options);
 }
 
-/* Where a channel of that kind is read; 0: not in this scene. */
+/* The place that a channel of that kind is read at; 0: this scene has none. */
 static int place_of(const scene *s, int32_t kind, dmb_place *place)
 {
     const dmb_id none = {0, 0};
