@@ -354,6 +354,9 @@ typedef struct dmb_drive_def {
     double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
     double gain_force[16]; /* [N, N m] in the place of kp (v* - v), straight between points, constant beyond, shape
                               (gain_count) */
+    double mud_pressure; /* [Pa/(N m)] by which the mud's pressure falls through a motor for each N m that it gives, >=
+                            0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string.
+                            dmb_motor_drive fills it. Default 0: no mud flows through it */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);

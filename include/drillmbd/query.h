@@ -233,7 +233,7 @@ typedef struct dmb_flow_state {
     uint32_t struct_size;
     uint32_t reserved;
     double rate;             /* [m3/s] flow_rate of the environment */
-    double pump_pressure;    /* [Pa] at the rig end, inside over outside: losses and the difference of the columns */
+    double pump_pressure;    /* [Pa] at the rig end, inside over outside: losses, motors and difference of columns */
     double bore_loss;        /* [Pa] of pressure down the string, by friction */
     double bit_loss;         /* [Pa] through nozzle_area, rho Q^2/(2 0.95^2 A^2) (Eckel, Bielstein 1951) */
     double annulus_loss;     /* [Pa] up the annulus of the string, by friction */
@@ -244,6 +244,8 @@ typedef struct dmb_flow_state {
                                 axial-torsional pipes stretch the string beyond what N_e does, and poses show */
     double bore_reynolds;    /* [-] largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955) */
     double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6 */
+    double motor_loss; /* [Pa] through mud motors at the far end, mud_pressure times the torque that they give now; in
+                          pump_pressure, and in the pressure inside the string */
 } dmb_flow_state;
 DMB_SIZED_STRUCT(dmb_flow_state)
 /* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for

@@ -241,6 +241,15 @@ static void check_gain_table(dmb_check *check, const dmb_drive_def *def)
         dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "kind", def->kind, "DMB_DRIVE_CONTROL with gain_count > 0");
 }
 
+static void check_mud_pressure(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
+{
+    dmb_check_within(check, "mud_pressure", def->mud_pressure, 0.0, DMB_MODULUS_MAX);
+    if (check->status < 0 || !(def->mud_pressure > 0.0)) return;
+    if (def->component == DMB_RX && dmb_model_part_index(model, def->part, DMB_PART_JOINT) != DMB_NONE) return;
+    dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "mud_pressure", def->mud_pressure,
+                   "0 but for component DMB_RX of a joint, the shaft of a motor");
+}
+
 /* The inertia turns with the part about its x axis; along and across it, and in joints, bodies have it. */
 static void check_rotor(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
 {
@@ -289,6 +298,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_check_within(&check, "limit_high", def->limit_high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_above_field(&check, "limit_high", def->limit_high, "limit_low", def->limit_low);
     check_gain_table(&check, def);
+    check_mud_pressure(&check, model, def);
     check_actuator(&check, model, def);
     return check.status;
 }

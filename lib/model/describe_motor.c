@@ -70,6 +70,7 @@ static int32_t check_motor(const dmb_motor *motor)
 static double take_line(const dmb_motor *motor, dmb_drive_def *drive)
 {
     const double speed = DMB_TWO_PI * motor->flow / motor->displacement;
+    drive->mud_pressure = DMB_TWO_PI / (motor->efficiency * motor->displacement);
     const double by_pressure = motor->efficiency * motor->displacement * motor->pressure / DMB_TWO_PI;
     drive->limit_high = motor->pressure > 0.0 ? by_pressure : motor->stall_torque;
     drive->gain = drive->limit_high / speed;
@@ -98,6 +99,8 @@ static double take_table(const dmb_motor *motor, dmb_drive_def *drive)
     }
     drive->gain = 0.0;
     drive->limit_high = DMB_FORCE_MAX;
+    drive->mud_pressure =
+        motor->pressure > 0.0 ? motor->pressure / (strong * motor->table_torque[0]) : speed / motor->flow;
     return speed;
 }
 

@@ -93,6 +93,7 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .integral_gain = def->integral_gain,
                              .limit_low = def->limit_low,
                              .limit_high = def->limit_high,
+                             .mud_pressure = def->mud_pressure,
                              .node = driven_node(mesh, def->part),
                              .row = DMB_NONE,
                              .kind = def->kind,

@@ -245,6 +245,34 @@ static int32_t check_mud(const dmb_mesh *mesh)
     return DMB_ERR_VALUE;
 }
 
+static bool is_far_end(const dmb_mesh *mesh, const dmb_place *place)
+{
+    const uint32_t pipes = DMB_LIST_AT(const dmb_string_plan, mesh->model->strings, 0)->pipes;
+    return dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING) == 0 && place->pipe + 1 == pipes &&
+           place->fraction >= 1.0;
+}
+
+/* The mud of the string goes through its motors where it leaves it. */
+static int32_t check_motors(const dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    for (uint32_t i = 0; i < model->drives.count; ++i) {
+        const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
+        const uint32_t index = dmb_model_part_index(model, def->part, DMB_PART_JOINT);
+        dmb_message text;
+        if (!(def->mud_pressure > 0.0) || index == DMB_NONE) continue;
+        const dmb_joint_def *joint = DMB_LIST_AT(const dmb_joint_def, model->joints, index);
+        if (is_far_end(mesh, &joint->place_a) || is_far_end(mesh, &joint->place_b)) continue;
+        dmb_message_set(
+            &mesh->model->message,
+            "%s: mud_pressure = %g Pa/(N m), must be on a joint at the far end of the string in a scene with "
+            "a flow_rate; move the joint, or set it to 0",
+            dmb_model_part_text(model, DMB_PART_DRIVE, i, &text), def->mud_pressure);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    return DMB_OK;
+}
+
 int32_t dmb_mesh_flow(dmb_mesh *mesh)
 {
     flow_walk walk = {.mesh = mesh};
@@ -260,6 +288,7 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
         return refuse(mesh, DMB_ERR_UNSUPPORTED,
                       "in a hole that cutters widen, whose losses would go by the described diameter; leave out the "
                       "flow, or cut_spacing of the wall");
+    status = check_motors(mesh);
     take_flow(mesh);
     walk.start = dmb_mesh_string_def(mesh, 0)->start_depth;
     dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, 0);

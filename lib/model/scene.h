@@ -49,10 +49,11 @@ typedef struct dmb_path_site {
 
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
-    uint32_t node;     /* DMB_NONE: it drives a joint */
-    uint32_t row;      /* global row of the component; DMB_NONE: none */
-    int32_t kind;      /* DMB_DRIVE_... */
-    int32_t component; /* body-frame component 0 .. 5 */
+    double mud_pressure; /* [Pa/(N m)] */
+    uint32_t node;       /* DMB_NONE: it drives a joint */
+    uint32_t row;        /* global row of the component; DMB_NONE: none */
+    int32_t kind;        /* DMB_DRIVE_... */
+    int32_t component;   /* body-frame component 0 .. 5 */
     uint32_t programme;
     uint32_t excitation; /* DMB_NONE: none, or left out */
     uint32_t joint;      /* whose coordinate `component` it drives; DMB_NONE: none */

@@ -118,6 +118,18 @@ static void losses_to(const dmb_scene *scene, double distance, double loss[2])
     loss[1] = piece->before[1] + along * piece->annulus.gradient;
 }
 
+/* [Pa] between the far end of the string and the nozzles, as the motors there run now; none without flow. */
+static double motor_loss(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < scene->drive_count && scene->flow.rate > 0.0; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->mud_pressure > 0.0) sum += drive->mud_pressure * sim->now.drive_force[i];
+    }
+    return sum;
+}
+
 static dmb_mud_pressure in_flow(const dmb_sim *sim, double distance, const double x[3])
 {
     const dmb_scene *scene = sim->scene;
@@ -129,7 +141,7 @@ static dmb_mud_pressure in_flow(const dmb_sim *sim, double distance, const doubl
     dmb_vec3_sub(bottom, x, below);
     const dmb_mud_pressure p = {.outside = at_rest(scene, 0, scene->flow.outside, x) + here[1],
                                 .inside = at_rest(scene, 0, scene->flow.outside, bottom) + end[1] +
-                                          dmb_nozzle_loss(&scene->flow) + end[0] - here[0] -
+                                          dmb_nozzle_loss(&scene->flow) + motor_loss(sim) + end[0] - here[0] -
                                           scene->flow.inside * dmb_vec3_dot(scene->gravity, below)};
     return p;
 }
@@ -232,7 +244,8 @@ int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow)
     answer.bit_loss = dmb_nozzle_loss(&scene->flow);
     answer.thrust = dmb_nozzle_thrust(&scene->flow);
     answer.column = (scene->flow.outside - scene->flow.inside) * dmb_vec3_dot(scene->gravity, along);
-    answer.pump_pressure = answer.bore_loss + answer.bit_loss + answer.annulus_loss + answer.column;
+    answer.motor_loss = motor_loss(sim);
+    answer.pump_pressure = answer.bore_loss + answer.motor_loss + answer.bit_loss + answer.annulus_loss + answer.column;
     return dmb_flow_state_write(flow, &answer);
 }
 

@@ -298,7 +298,8 @@ static const field drive_fields[] = {F(dmb_drive_def, kind, WHOLE, 1),
                                      F(dmb_drive_def, gain, REAL, 1),
                                      F(dmb_drive_def, integral_gain, REAL, 1),
                                      F(dmb_drive_def, limit_low, REAL, 1),
-                                     F(dmb_drive_def, limit_high, REAL, 1)};
+                                     F(dmb_drive_def, limit_high, REAL, 1),
+                                     F(dmb_drive_def, mud_pressure, REAL, 1)};
 static void fill_drive(const scene_under_test *s, any_def *def)
 {
     def->drive = dmb_drive_def_default();

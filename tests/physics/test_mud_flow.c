@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "drillmbd/bha.h"
 #include "drillmbd/drilling.h"
 #include "mechanism.h"
 
@@ -522,6 +523,153 @@ static void compile_refuses(const dmb_pipe_def *pipe, const dmb_environment_def 
     rig_close(&h.s);
 }
 
+/* ---- Motors ------------------------------------------------------------------------------------------------------ */
+
+static const double displacement = 0.02, stall_pressure = 4e6, efficiency = 0.8, motor_flow = 0.012;
+
+typedef struct driven {
+    hanging h;
+    dmb_id joint, motor;
+} driven;
+
+/* A body turned by a motor at the end of the string, against a torque. */
+static driven add_motor(int32_t kind, const dmb_motor *motor, double torque, int with_drop)
+{
+    const dmb_pipe_def pipe = pipe_of(kind);
+    dmb_environment_def e = mud_of(motor_flow, 3e-4);
+    e.torsional_damping = 5.0; /* the string winds up and comes to rest */
+    driven d = {.h = describe(&pipe, &e, 10)};
+    dmb_body_def body = dmb_body_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    double speed = 0.0;
+    body.mass = 50.0;
+    body.position[0] = d.h.length;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
+    const dmb_id shaft = add_body(&d.h.s, &body);
+    d.joint =
+        add_joint_between(&d.h.s, DMB_JOINT_REVOLUTE, dmb_station(d.h.string, 9, 1.0), dmb_station(shaft, 0, 0.0));
+    assert_int_equal(dmb_motor_drive(motor, &drive, &speed), DMB_OK);
+    drive.part = d.joint;
+    if (!with_drop) drive.mud_pressure = 0.0;
+    drive.programme = add_constant(&d.h.s, speed);
+    d.motor = add_drive(&d.h.s, &drive);
+    load.place = dmb_station(shaft, 0, 0.0);
+    load.frame = DMB_FRAME_BODY;
+    load.moment[0] = -torque;
+    (void)add_load(&d.h.s, &load);
+    (void)mechanism_start(&d.h.s, NULL);
+    must(&d.h.s, dmb_sim_advance(d.h.s.sim, 1.0, NULL));
+    return d;
+}
+
+static dmb_motor line_motor(void)
+{
+    dmb_motor motor = dmb_motor_default();
+    motor.displacement = displacement;
+    motor.flow = motor_flow;
+    motor.pressure = stall_pressure;
+    motor.efficiency = efficiency;
+    return motor;
+}
+
+static dmb_drive_state drive_of(const driven *d)
+{
+    dmb_drive_state drive = dmb_drive_state_default();
+    must(&d->h.s, dmb_query_drive(d->h.s.sim, d->motor, &drive));
+    return drive;
+}
+
+/* The power of the mud, dp V w/(2 pi), is that of the shaft over the efficiency. The pump, and the inside of the
+ * string above, have dp more; so has the tension of the steel by dp A_i, and its stretch by Lame's tube. */
+static void check_motor(int32_t kind)
+{
+    const double Ai = ring(inner, 0.0), Ao = ring(outer, 0.0),
+                 stall = efficiency * displacement * stall_pressure / (2.0 * PI);
+    const dmb_motor motor = line_motor();
+    driven d = add_motor(kind, &motor, 0.6 * stall, 1), none = add_motor(kind, &motor, 0.6 * stall, 0);
+    const dmb_flow_state flow = flow_in(&d.h), without = flow_in(&none.h);
+    const dmb_drive_state drive = drive_of(&d);
+    assert_true(drive.speed > 1.0 && without.motor_loss == 0.0);
+    check_relative("power of the mud over that of the shaft", flow.motor_loss * displacement * drive.speed / (2.0 * PI),
+                   drive.power / efficiency, 1e-13);
+    check_relative("loss of the motor, torque over that at stall [Pa]", flow.motor_loss,
+                   stall_pressure * drive.force / stall, 1e-13);
+    check_relative("the same by the torque that holds the shaft [Pa]", flow.motor_loss, 0.6 * stall_pressure, 1e-11);
+    check_relative("pressure of the pump [Pa]", flow.pump_pressure, without.pump_pressure + flow.motor_loss, 1e-12);
+    check_relative("true axial force at the rig end [N]",
+                   value_of(&d.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0),
+                   value_of(&none.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0) + flow.motor_loss * Ai, 1e-12);
+    check_relative("true axial force at the far end [N]",
+                   value_of(&d.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0),
+                   value_of(&none.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0) + flow.motor_loss * Ai, 1e-12);
+    check_relative("stretch by the pressures [m]", flow.pressure_stretch - without.pressure_stretch,
+                   (1.0 - 2.0 * nu) * flow.motor_loss * Ai * d.h.length / (E * (Ao - Ai)), 1e-9);
+    check_relative("effective axial force at the rig end [N]", value_of(&d.h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+                   value_of(&none.h, DMB_CHANNEL_HOOK_LOAD, 0.0), 1e-15);
+    rig_close(&d.h.s);
+    rig_close(&none.h.s);
+}
+
+static void motors_take_pressure(void **state)
+{
+    (void)state;
+    check_motor(DMB_PIPE_FLEXIBLE);
+    check_motor(DMB_PIPE_AXIAL_TORSIONAL);
+}
+
+/* Tables: by their pressure at stall, or by their last speed; at stall, and at another pressure than the table's. */
+static void motors_by_tables(void **state)
+{
+    dmb_motor motor = dmb_motor_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    double speed;
+    (void)state;
+    motor.flow = motor_flow;
+    motor.table_count = 3;
+    motor.table_speed[1] = 3.0, motor.table_speed[2] = 4.0;
+    motor.table_torque[0] = 10e3, motor.table_torque[1] = 6e3;
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
+    check_relative("pressure by torque, V = 2 pi Q/w0 [Pa/(N m)]", drive.mud_pressure, 4.0 / motor_flow, 1e-15);
+    motor.pressure = stall_pressure;
+    motor.table_pressure = 0.5 * stall_pressure;
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
+    check_relative("pressure by torque of the table [Pa/(N m)]", drive.mud_pressure, 0.5 * stall_pressure / 10e3,
+                   1e-15);
+    driven d = add_motor(DMB_PIPE_FLEXIBLE, &motor, 16e3, 1);
+    check_relative("loss of a motor by a table [Pa]", flow_in(&d.h).motor_loss, 0.8 * stall_pressure, 1e-11);
+    rig_close(&d.h.s);
+}
+
+static void motors_elsewhere_are_refused(void **state)
+{
+    const dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE);
+    const dmb_environment_def e = mud_of(motor_flow, 0.0);
+    const dmb_motor motor = line_motor();
+    hanging h = describe(&pipe, &e, 2);
+    dmb_body_def body = dmb_body_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    double speed = 0.0;
+    (void)state;
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
+    drive.part = h.string;
+    drive.programme = add_constant(&h.s, speed);
+    assert_int_equal(dmb_model_add_drive(h.s.model, &drive, NULL), DMB_ERR_UNSUPPORTED); /* its shaft is no joint */
+    assert_non_null(strstr(dmb_model_message(h.s.model), "mud_pressure"));
+    must_model(&h.s, dmb_model_clear_refused(h.s.model));
+    body.position[0] = pipe.length;
+    const dmb_id shaft = add_body(&h.s, &body);
+    drive.part = add_joint_between(&h.s, DMB_JOINT_REVOLUTE, dmb_station(h.string, 0, 1.0), dmb_station(shaft, 0, 0.0));
+    drive.mud_pressure = -1.0;
+    assert_int_equal(dmb_model_add_drive(h.s.model, &drive, NULL), DMB_ERR_VALUE);
+    must_model(&h.s, dmb_model_clear_refused(h.s.model));
+    drive.mud_pressure = 1e3;
+    (void)add_drive(&h.s, &drive);
+    assert_int_equal(dmb_model_compile(h.s.model, NULL), DMB_ERR_UNSUPPORTED); /* not at the far end */
+    assert_non_null(strstr(dmb_model_message(h.s.model), "far end"));
+    rig_close(&h.s);
+}
+
 static void what_it_cannot_is_refused(void **state)
 {
     dmb_environment_def e = mud_of(0.01, 0.0);
@@ -587,6 +735,9 @@ int main(void)
         cmocka_unit_test(logs_and_snapshots),
         cmocka_unit_test(sensitivity_to_the_rate),
         cmocka_unit_test(bad_rates_are_refused),
+        cmocka_unit_test(motors_take_pressure),
+        cmocka_unit_test(motors_by_tables),
+        cmocka_unit_test(motors_elsewhere_are_refused),
         cmocka_unit_test(what_it_cannot_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -370,7 +370,7 @@ FUNCTION_DOCS = {
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
     "dmb_motor_drive":
-        "Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits; part, programme and name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
+        "Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part, programme and name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
     "dmb_operation_name":
         "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
     "dmb_operation_usual":

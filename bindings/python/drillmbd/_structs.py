@@ -729,6 +729,7 @@ class FlowState(Sized):
     pressure_stretch: float
     bore_reynolds: float
     annulus_reynolds: float
+    motor_loss: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -743,10 +744,11 @@ class FlowState(Sized):
         ("pressure_stretch", c_double),
         ("bore_reynolds", c_double),
         ("annulus_reynolds", c_double),
+        ("motor_loss", c_double),
     ]
     field_docs = {
         "rate": ("m3/s", "flow_rate of the environment"),
-        "pump_pressure": ("Pa", "at the rig end, inside over outside: losses and the difference of the columns"),
+        "pump_pressure": ("Pa", "at the rig end, inside over outside: losses, motors and difference of columns"),
         "bore_loss": ("Pa", "of pressure down the string, by friction"),
         "bit_loss": ("Pa", "through nozzle_area, rho Q^2/(2 0.95^2 A^2) (Eckel, Bielstein 1951)"),
         "annulus_loss": ("Pa", "up the annulus of the string, by friction"),
@@ -756,6 +758,7 @@ class FlowState(Sized):
         "pressure_stretch": ("m", "that the true axial force and the pressures on the walls of flexible and axial-torsional pipes stretch the string beyond what N_e does, and poses show"),
         "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
         "annulus_reynolds": ("-", "likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6"),
+        "motor_loss": ("Pa", "through mud motors at the far end, mud_pressure times the torque that they give now; in pump_pressure, and in the pressure inside the string"),
     }
 
 
@@ -2279,6 +2282,7 @@ class DriveDef(DrivePart, Sized):
     reserved3: int
     gain_error: 'Array[c_double]'
     gain_force: 'Array[c_double]'
+    mud_pressure: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2306,6 +2310,7 @@ class DriveDef(DrivePart, Sized):
         ("reserved3", c_int32),
         ("gain_error", c_double * 16),
         ("gain_force", c_double * 16),
+        ("mud_pressure", c_double),
     ]
     field_docs = {
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
@@ -2332,6 +2337,7 @@ class DriveDef(DrivePart, Sized):
         "reserved3": ("", ""),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "in the place of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
+        "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
     }
 
 
