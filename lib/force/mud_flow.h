@@ -24,7 +24,8 @@
  * falls along it hold all that is within the surface without shear. Shear on its inner surface and the pressure lost
  * inside cancel in the effective axial force. Eccentric, Newtonian, it is pi G S/delta: with phi harmonic, 1 on the
  * pipe and 0 on the wall, shear on the pipe is G times the integral of phi (Green's identity), which is pi S/delta - pi
- * r^2. Of the others lambda^2 changes by the same factor, which is an assumption. */
+ * r^2. Of the others lambda^2 changes by the same factor: where it is laminar within 0.5 %, and G of its correlation
+ * within 2.6 %, of the flow itself (unit_force_mud_eccentric); turbulent, an assumption. */
 #ifndef DMB_FORCE_MUD_FLOW_H
 #define DMB_FORCE_MUD_FLOW_H
 
