@@ -6,6 +6,7 @@
 #include "element/added_mass.h"
 #include "element/beam.h"
 #include "element/rigid_mass.h"
+#include "force/hole.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
@@ -270,10 +271,30 @@ static void end_weight(const dmb_scene *scene, const dmb_element_type *type, con
     dmb_vec3_cross(moment, g, w + 3);
 }
 
-/* [N] Half of what mud that flows pulls on an element along its axis, towards A. */
+/* [N] Half of what mud that flows pulls on an element, towards A. */
 static double end_flow(const dmb_scene *scene, uint32_t element)
 {
     return scene->flow_count > 0 ? 0.5 * scene->flow_element[element] : 0.0;
+}
+
+/* Adds it where it acts on an end (0: A), along the hole there (dmb_gather_flow), as a uniform load on the cubic shape.
+ */
+static void add_end_flow(const dmb_scene *scene, uint32_t element, uint32_t end, const double R[9], const double u[3],
+                         double w[6])
+{
+    const uint32_t node = scene->element_node[element] + end;
+    const double half = end_flow(scene, element), L = type_of(scene, element)->length;
+    const double arm[3] = {end ? -L / 6.0 : L / 6.0, 0.0, 0.0};
+    double x[3], point[3], t[3], pull[3], moment[3], s;
+    if (!(half > 0.0)) return;
+    uint32_t segment = scene->flow_segment[node];
+    dmb_vec3_add(scene->reference_position + 3 * (size_t)node, u, x);
+    dmb_hole_project(&scene->hole, x, &s, &segment, point, t);
+    dmb_mat3_tvec(R, t, pull);
+    dmb_vec3_scale(-half, pull, pull);
+    dmb_vec3_cross(arm, pull, moment);
+    dmb_vec3_add(w, pull, w);
+    dmb_vec3_add(w + 3, moment, w + 3);
 }
 
 /* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
@@ -297,10 +318,10 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     dmb_ad_transpose(vb, pb, gb);
     dmb_node_pose(scene, configuration, a, R, u);
     end_weight(scene, type, R, 1.0, wa);
+    add_end_flow(scene, element, 0, R, u, wa);
     dmb_node_pose(scene, configuration, a + 1, R, u);
     end_weight(scene, type, R, -1.0, wb);
-    wa[0] -= end_flow(scene, element);
-    wb[0] -= end_flow(scene, element);
+    add_end_flow(scene, element, 1, R, u, wb);
     for (int i = 0; i < 6; i++) {
         load[i] -= fa[i] - ga[i] - wa[i];
         load[6 + i] += fb[i] - gb[i] - wb[i];
