@@ -48,6 +48,7 @@ typedef struct dmb_contact_force {
     dmb_real normal_rate;    /* [N s/m] dF_n/dv_n */
     dmb_real by_speed[2][3]; /* [N s/m] dF_t, dF_b by v_n, v_t, v_b */
     dmb_real elastic;        /* [N] part of N that the wall stores */
+    dmb_real whole;          /* [N/m] N per metre where it may pull */
 } dmb_contact_force;
 
 /* ---- Frame and forces ----------------------------------------------------------------------------------------------
@@ -81,16 +82,24 @@ static inline void dmb_contact_static_speeds(const double slip[2], dmb_contact_f
     f->speed[2] = f->radius * slip[1];
 }
 
-/* length [m] of wall that the ring stands for, impact_speed [m/s] its speed at first touch. Without friction. */
+/* Depth of a ring in the wall, its speed at first touch, and the weight of its damping as dmb_normal_response_at has
+ * it. */
+typedef struct dmb_contact_depth {
+    dmb_real penetration, impact_speed; /* [m], [m/s] */
+    const dmb_normal_touch *touch;
+} dmb_contact_depth;
+
+/* length [m] of wall that the ring stands for. Without friction. */
 static inline void dmb_contact_normal_force(const dmb_normal_law *law, const dmb_contact_frame *f, dmb_real length,
-                                            dmb_real penetration, dmb_real impact_speed, dmb_contact_force *out)
+                                            const dmb_contact_depth *at, dmb_contact_force *out)
 {
     dmb_normal_response N;
-    dmb_normal_response_at(law, penetration, f->speed[0], impact_speed, &N);
+    dmb_normal_response_at(law, at->penetration, f->speed[0], at->impact_speed, at->touch, &N);
     out->F[0] = -length * N.force;
     out->by_depth[0] = -length * N.d_depth;
     out->normal_rate = -length * N.d_rate;
     out->elastic = length * N.elastic;
+    out->whole = N.whole;
 }
 
 /* From the friction law at N = -F[0]: F its force, by_speed its tangent (2,2), by_normal dF/dN. */

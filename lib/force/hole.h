@@ -267,7 +267,7 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
     dmb_friction_smooth(&law, N, f->speed + 1, by_place, NULL, by_normal);
 }
 
-/* length [m], penetration d and impact_speed as dmb_contact_normal_force has them. */
+/* length [m], penetration d and impact_speed as dmb_contact_depth has them. */
 static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force, double length,
                                      double d, double impact_speed, int memory, int friction, dmb_section_contact *c)
 {

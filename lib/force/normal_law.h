@@ -48,6 +48,7 @@ typedef struct dmb_normal_response {
     dmb_real elastic; /* [N/m] part of it that the wall stores: the force at rate 0 */
     dmb_real d_depth; /* [N/m2] */
     dmb_real d_rate;  /* [N s/m2] */
+    dmb_real whole;   /* [N/m] the force where it may pull */
 } dmb_normal_response;
 
 /* d^(n-1), without a power for the line contact n = 1 and the sphere n = 3/2 */
@@ -69,19 +70,66 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real de
     return dmb_real_select(full, dmb_real_of(law->damping), law->damping * x * x * (3.0 - 2.0 * x));
 }
 
+/* ---- Touch within a step -----------------------------------------------------------------------------------------
+ *
+ * The damping of KELVIN_VOIGT jumps from 0 to c d' when the contact closes, in the midst of a step. A force at the end
+ * of a step of length h acts over h/2 before and as much of the next step behind it (generalized-alpha of any spectral
+ * radius), so that in the step in which it closes, and in the two behind it, the damping is weighted by w: its impulse,
+ * and where that has its centre, are then those of c d' since touch. With p the part of the step that was closed
+ *     w1 = 11/6 p    w2 = 11/6 - 5/3 p + p^2/2    w3 = 1 + D/h - (w2 - 1)/2 = 2/3 + 5/6 p - p^2/2 in equal steps
+ * D being the time that is missing, h p - h w1/2 at first. No weight jumps as touch goes from step to step. THEORY 5.
+ */
+
+#define DMB_TOUCH_FIRST (11.0 / 6.0)
+#define DMB_TOUCH_MOST 4.0 /* [-] of the weight, behind steps that are far shorter than the one before */
+
+/* Memory of a ring: w - 1, D [s], p while w2 is due (else 0), and the force [N/m] of a law that may pull. */
+enum { DMB_TOUCH_EXCESS, DMB_TOUCH_TIME, DMB_TOUCH_PART, DMB_TOUCH_FORCE, DMB_TOUCH_SIZE };
+
+/* Weight [-] and its derivative by the depth [1/m]. */
+typedef struct dmb_normal_touch {
+    dmb_real weight, by_depth;
+} dmb_normal_touch;
+
+/* At depth > 0 [m] after a step h [s] from the depth `before`; was, is: what the ring kept and keeps but for its force.
+ */
+static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real h, const dmb_real was[DMB_TOUCH_SIZE],
+                                       dmb_normal_touch *out, dmb_real is[DMB_TOUCH_SIZE])
+{
+    const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0), p = was[DMB_TOUCH_PART];
+    const dmb_mask closes = dmb_mask_at_most(before, zero), second = dmb_mask_less(zero, p);
+    const dmb_real way = dmb_real_select(closes, depth - before, one), part = depth / way;
+    const dmb_real first = DMB_TOUCH_FIRST * part, next = DMB_TOUCH_FIRST - p * (5.0 / 3.0 - 0.5 * p);
+    const dmb_real time = was[DMB_TOUCH_TIME], excess = was[DMB_TOUCH_EXCESS];
+    const dmb_real missing = dmb_real_max(zero, 1.0 + time / h - 0.5 * excess);
+    const dmb_real last =
+        dmb_real_select(dmb_mask_less(dmb_real_of(DMB_TOUCH_MOST), missing), dmb_real_of(DMB_TOUCH_MOST), missing);
+    out->weight = dmb_real_select(closes, first, dmb_real_select(second, next, last));
+    out->by_depth = dmb_real_select(closes, -DMB_TOUCH_FIRST * before / (way * way), zero);
+    is[DMB_TOUCH_EXCESS] = out->weight - 1.0;
+    is[DMB_TOUCH_TIME] =
+        dmb_real_select(closes, h * (part - 0.5 * out->weight), time - 0.5 * h * (excess + is[DMB_TOUCH_EXCESS]));
+    is[DMB_TOUCH_PART] = dmb_real_select(closes, part, zero);
+}
+
 /* At penetration depth > 0 [m] (or NaN) growing at rate [m/s], impact_speed [m/s] the speed at first touch. The force
- * is 0 with zero derivatives where the law would pull. */
+ * is 0 with zero derivatives where the law would pull. touch: NULL where its damping counts as it is. */
 static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real depth, dmb_real rate,
-                                          dmb_real impact_speed, dmb_normal_response *out)
+                                          dmb_real impact_speed, const dmb_normal_touch *touch,
+                                          dmb_normal_response *out)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    out->force = out->elastic = out->d_depth = out->d_rate = zero;
+    out->force = out->elastic = out->d_depth = out->d_rate = out->whole = zero;
     if (law->kind == DMB_NORMAL_NONE) return;
     const dmb_real stiffness = law->stiffness * dmb_normal_reduced_power(law->exponent, depth); /* K d^(n-1) */
     out->elastic = stiffness * depth;
     if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
         dmb_real slope;
         out->d_rate = dmb_normal_damping(law, depth, &slope);
+        if (touch != NULL && law->kind == DMB_NORMAL_KELVIN_VOIGT) {
+            slope = out->d_rate * touch->by_depth;
+            out->d_rate = out->d_rate * touch->weight;
+        }
         out->force = out->elastic + out->d_rate * rate;
         out->d_depth = law->exponent * stiffness + slope * rate;
     } else {
@@ -90,6 +138,7 @@ static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real de
         out->d_depth = law->exponent * stiffness * (1.0 + factor * rate);
         out->d_rate = out->elastic * factor;
     }
+    out->whole = out->force;
     const dmb_mask pulls = dmb_mask_less(out->force, zero);
     out->force = dmb_real_select(pulls, zero, out->force);
     out->d_depth = dmb_real_select(pulls, zero, out->d_depth);

@@ -258,6 +258,8 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 /* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
  * reused factors would lead astray. */
 #define DMB_REUSE_START 0.1
+/* [-] of the damping at touch that factors may have in them. */
+#define DMB_REUSE_WEIGHT 1e-3
 /* New factors cost about as much as this many corrections with old ones. */
 #define DMB_EXCESS_MAX 2
 
@@ -307,6 +309,14 @@ static void count_pause(dmb_factor_reuse *reuse, int32_t tried)
     }
 }
 
+/* Factors of a step near touch have its weight of the damping in them: they are good for no other step. */
+static int32_t is_near_touch(const dmb_sim *sim)
+{
+    for (uint32_t s = 0; dmb_scene_has_touch(sim->scene) && s < sim->scene->site_count; s++)
+        if (fabs(sim->trial.site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_EXCESS]) > DMB_REUSE_WEIGHT) return 1;
+    return 0;
+}
+
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt)
 {
     if (!attempt->whole) return;
@@ -315,7 +325,7 @@ void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt)
     } else if (attempt->factored == DMB_FACTORS_FRESH) {
         count_pause(sim->reuse, attempt->tried);
         dmb_keep_factors(sim);
-        sim->reuse->step = attempt->end.step;
+        sim->reuse->step = is_near_touch(sim) ? 0.0 : attempt->end.step;
         sim->reuse->corrections = sim->reuse->excess = 0;
     }
 }

@@ -83,7 +83,7 @@ typedef struct dmb_node_force_job {
 
 /* Fields of the contact sites in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
-    double *normal, *depth, *penetration, *impact_speed, *slip, *bristle;
+    double *normal, *depth, *penetration, *impact_speed, *slip, *bristle, *touch;
     uint32_t *segment;
     int32_t *sticks;
 } dmb_site_fields;
@@ -92,6 +92,8 @@ typedef struct dmb_site_fields {
 typedef struct dmb_wall_job {
     uint32_t count;   /* sites */
     int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
+    int32_t touches;  /* 1: the damping of the wall jumps at touch; else the fields of touch are empty */
+    int32_t reserved;
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;

@@ -299,6 +299,68 @@ static inline void press_section(dmb_wall_job *job, wall_group *g, const dmb_con
 }
 #endif
 
+/* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
+static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_normal_touch *touch,
+                         dmb_real kept[DMB_TOUCH_SIZE])
+{
+    const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0);
+    dmb_real was[DMB_TOUCH_SIZE];
+    load(job->now.touch, DMB_TOUCH_SIZE, DMB_TOUCH_SIZE, &g->site, 0, was);
+    for (int i = 0; i < DMB_TOUCH_SIZE; i++) kept[i] = zero;
+    kept[DMB_TOUCH_TIME] = was[DMB_TOUCH_TIME];
+    touch->weight = one;
+    touch->by_depth = zero;
+    if (!job->dynamic || !(job->step > 0.0)) return;
+    const dmb_mask pinned = dmb_mask_at_most(g->clearance, zero);
+    const dmb_real before = load_line(job->now.penetration, &g->site);
+    dmb_normal_touch_at(dmb_real_select(pinned, one, before), g->penetration, dmb_real_of(job->step), was, touch, kept);
+}
+
+static inline void keep_touch(const dmb_wall_job *job, const wall_group *g, uint32_t touching,
+                              const dmb_real kept[DMB_TOUCH_SIZE])
+{
+    for (uint32_t l = 0; l < g->site.used; l++)
+        for (uint32_t i = 0; touching >> l & 1 && i < DMB_TOUCH_SIZE; i++)
+            job->trial.touch[DMB_TOUCH_SIZE * (size_t)g->site.place[l] + i] = dmb_real_lane(kept + i, (int)l);
+}
+
+/* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
+ * contact that opens let go. */
+static inline void forget_touch(const dmb_wall_job *job, const wall_group *g, uint32_t touching)
+{
+    const dmb_normal_law *law = normal_law_of(job, g);
+    const dmb_real way = dmb_real_abs(g->penetration);
+    const dmb_real spring = law->stiffness * dmb_normal_reduced_power(law->exponent, way) * way;
+    const dmb_real force = law->damping * g->frame.speed[0] - spring;
+    for (uint32_t l = 0; l < g->site.used; l++) {
+        double *to = job->trial.touch + DMB_TOUCH_SIZE * (size_t)g->site.place[l];
+        if (touching >> l & 1) continue;
+        to[DMB_TOUCH_EXCESS] = to[DMB_TOUCH_TIME] = to[DMB_TOUCH_PART] = 0.0;
+        to[DMB_TOUCH_FORCE] = dmb_real_lane(&force, (int)l);
+    }
+}
+
+/* Normal force, its damping weighted where that jumps at touch. */
+static inline void press_normally(const dmb_wall_job *job, wall_group *g, uint32_t touching, dmb_contact_force *c)
+{
+    const dmb_normal_law *law = normal_law_of(job, g);
+    dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
+    if (!job->touches) {
+        dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
+        return;
+    }
+    dmb_normal_touch touch;
+    dmb_real kept[DMB_TOUCH_SIZE];
+    weigh(job, g, &touch, kept);
+    at.touch = &touch;
+    dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
+    kept[DMB_TOUCH_FORCE] = c->whole;
+    keep_touch(job, g, touching, kept);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) g->section.wall.damping_slope *= touch.weight;
+#endif
+}
+
 static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
 {
     const int friction = job->friction_law != NULL;
@@ -307,8 +369,7 @@ static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
     dmb_contact_force c;
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
-    dmb_contact_normal_force(normal_law_of(job, g), &g->frame, g->length,
-                             dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, &c);
+    press_normally(job, g, touching, &c);
     if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
 #if DMB_REAL_LANES == 1
@@ -330,6 +391,7 @@ static void walls(dmb_wall_job *job)
         const uint32_t touching = dmb_mask_bits(touches) & lanes_used(&g.site);
         if (touching) press(job, &g, touching);
         if (job->bristles) forget_bristles(job, &g, touching);
+        if (job->touches) forget_touch(job, &g, touching);
     }
 }
 

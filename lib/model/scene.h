@@ -382,6 +382,12 @@ static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
     return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
 }
 
+/* True if the damping of the wall jumps when a contact closes. */
+static inline int32_t dmb_scene_has_touch(const dmb_scene *scene)
+{
+    return scene->normal_law.kind == DMB_NORMAL_KELVIN_VOIGT;
+}
+
 /* Sites on nodes, which come before those inside elements. */
 static inline uint32_t dmb_node_sites(const dmb_scene *scene)
 {

@@ -263,6 +263,7 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
     DMB_COPY_SITE(site_penetration, 1);
     DMB_COPY_SITE(site_impact_speed, 1);
     DMB_COPY_SITE(site_slip, 2);
+    if (dmb_scene_has_touch(sim->scene) && dmb_scene_has_touch(from->scene)) DMB_COPY_SITE(site_touch, DMB_TOUCH_SIZE);
 }
 
 static void transfer_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
@@ -284,6 +285,8 @@ static void begin_site(dmb_sim *sim, uint32_t s)
     sim->now.site_segment[s] = 0;
     sim->now.site_penetration[s] = sim->now.site_impact_speed[s] = 0.0;
     memset(sim->now.site_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    if (dmb_scene_has_touch(sim->scene))
+        memset(sim->now.site_touch + DMB_TOUCH_SIZE * (size_t)s, 0, DMB_TOUCH_SIZE * sizeof(double));
     if (!dmb_scene_has_bristles(sim->scene)) return;
     memset(sim->now.site_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
     sim->now.site_sticks[s] = 0;

@@ -7,7 +7,7 @@
 
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
-    uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
+    uint64_t n, r, s, p, sb, pb, st, e, d, k, load, history, diagonal, link, backup;
     uint64_t act, delay, cut, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent,
         dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain;
@@ -24,7 +24,7 @@ typedef struct field_counts {
     const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
     const uint64_t stuck = (of)->stuck;                                                                             \
     (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                                       \
-    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                       \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb, st = (of)->st;        \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
     const uint64_t sparse_block = (of)->sparse_block;                                                               \
@@ -36,7 +36,7 @@ typedef struct field_counts {
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
-        (void)kl, (void)kn, (void)sb, (void)pb, (void)f
+        (void)kl, (void)kn, (void)sb, (void)pb, (void)st, (void)f
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the reused factors too. */
 #define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
@@ -90,6 +90,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
+    c.st = dmb_scene_has_touch(scene) ? c.s : 0;
     c.e = scene->element_count;
     c.d = scene->drive_count;
     c.act = scene->actuator_count;

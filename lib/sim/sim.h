@@ -2,14 +2,13 @@
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
- * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
- * where there are contact sites, else 0; k =
- * bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count,
- * cut = stations at which cutters widen the hole,
- * held = held_count, input = input_count, event = event_count, history = history_count, diagonal and link = lengths of
- * block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and
- * for a scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots =
- * of the reduced system. */
+ * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; st = s
+ * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; k = bit_count, act =
+ * actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count, cut = stations at
+ * which cutters widen the hole, held = held_count, input = input_count, event = event_count, history = history_count,
+ * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
+ * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
+ * the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -41,6 +40,7 @@
     X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
     X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \
+    X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */  \
     X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall\
                                             acts as at in a static state; 0: those of the nodes */                    \
     X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \

@@ -16,10 +16,18 @@
 
 /* ---- Contacts that open ------------------------------------------------------------------------------------------ */
 
+/* [N/m] Force of a contact whose law jumps at touch, < 0 where it would pull. */
+static double force_of(const dmb_configuration *configuration, uint32_t s)
+{
+    return configuration->site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_FORCE];
+}
+
+/* A wall with damping lets go where its force comes to 0, which is before the ring is off it. */
 static int opens(const dmb_sim *sim, uint32_t s)
 {
-    return sim->scene->sites[s].clearance > 0.0 && sim->now.site_penetration[s] > 0.0 &&
-           !(sim->trial.site_penetration[s] > 0.0);
+    if (!(sim->scene->sites[s].clearance > 0.0) || !(sim->now.site_penetration[s] > 0.0)) return 0;
+    if (dmb_scene_has_touch(sim->scene)) return force_of(&sim->now, s) > 0.0 && !(force_of(&sim->trial, s) > 0.0);
+    return !(sim->trial.site_penetration[s] > 0.0);
 }
 
 int32_t dmb_contact_changes(const dmb_sim *sim)
@@ -44,11 +52,25 @@ void dmb_release_end(dmb_sim *sim)
     memset(sim->site_return, 0, sim->scene->site_count * sizeof(double));
 }
 
-/* Part of the step after the opening, the penetration going straight from that of now to that of trial. */
+/* Part of the step after the opening, the penetration going straight from that of now to that of trial, or the force.
+ */
 static double open_part(const dmb_sim *sim, uint32_t s)
 {
-    const double d0 = sim->now.site_penetration[s], d1 = sim->trial.site_penetration[s];
+    const int touch = dmb_scene_has_touch(sim->scene);
+    const double d0 = touch ? force_of(&sim->now, s) : sim->now.site_penetration[s];
+    const double d1 = touch ? force_of(&sim->trial, s) : sim->trial.site_penetration[s];
     return d1 / (d1 - d0);
+}
+
+/* The force that the last step ended with: in the steps about touch not that of the law. */
+static void take_weighted(const dmb_sim *sim, uint32_t s, dmb_site_force *f)
+{
+    const double normal = sim->scene->sites[s].length * force_of(&sim->now, s);
+    const double ratio = f->normal_force > 0.0 ? normal / f->normal_force : 0.0;
+    f->normal_force = normal;
+    f->friction[0] *= ratio;
+    f->friction[1] *= ratio;
+    f->along *= ratio;
 }
 
 /* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the node. */
@@ -58,6 +80,7 @@ static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
     double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
+    if (dmb_scene_has_touch(sim->scene)) take_weighted(sim, s, &f);
     sim->site_return[s] = fmax(-f.rate, 0.0);
     dmb_vec3_cross(f.tangent, f.normal, b);
     dmb_vec3_scale(-f.normal_force, f.normal, force);

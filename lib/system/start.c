@@ -179,6 +179,7 @@ int32_t dmb_system_jump(dmb_sim *sim)
     memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     dmb_contacts_take_slip(sim);
+    dmb_contacts_take_touch(sim);
     dmb_drives_take_forces(sim);
     dmb_clusters_take_multipliers(sim);
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);

@@ -38,6 +38,8 @@ typedef struct scene {
     int32_t pipe_kind;        /* of C, B, T */
     double offset;            /* [m] of C, B, T: sideways from the hole's axis, as a whole */
     double friction;          /* [-] of B: more than 0.3 */
+    double damping;           /* [N s/m2] of B's wall: more than 1000 */
+    int32_t normal_law;       /* of B's wall, DMB_NORMAL_...; 0: Kelvin-Voigt */
     dmb_model *model;
     dmb_id string, turn;
     double bytes;        /* [byte] of model and sim with default options, an element */
@@ -96,9 +98,9 @@ static int32_t bench_add_hole(scene *s)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     wall.diameter = 0.094;
-    wall.normal_law = DMB_NORMAL_KELVIN_VOIGT;
+    wall.normal_law = s->normal_law;
     wall.stiffness = 1e6;
-    wall.damping = 1e3;
+    wall.damping = 1e3 + s->damping;
     wall.friction_law = DMB_FRICTION_COULOMB;
     wall.mu_static = wall.mu_dynamic = 0.3 + s->friction;
     wall.smoothing_speed = 0.01;

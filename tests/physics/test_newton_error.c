@@ -247,11 +247,12 @@ static void ledger_closes(void **state)
     }
 }
 
-/* ---- Contacts without a solution at the end of a step ------------------------------------------------------------ */
+/* ---- Contacts about to close at the end of a step --------------------------------------------------------------- */
 
-/* A string falls on the floor of its hole, whose damping jumps where they touch: some contacts open when taken for
- * closed and close when taken for open. The step is divided as soon as that shows. */
-static void contacts_to_and_fro(void **state)
+/* A string falls on the floor of its hole, whose damping jumps where they touch. Were it all there at once, some
+ * contacts would open when taken for closed and close when taken for open, and no state would be a solution: 5 steps
+ * were divided then, after 15 iterations. */
+static void contacts_close_in_one_step(void **state)
 {
     dmb_wall_def wall = s1_hole();
     dmb_string_def string = dmb_string_def_default();
@@ -280,16 +281,17 @@ static void contacts_to_and_fro(void **state)
         most = report.iterations > most ? report.iterations : most;
     }
     print_message("%u rejected, %u iterations at most in a step of 1 ms\n", rejected, most);
-    assert_true(rejected > 0);
-    CHECK_BELOW(most, 12);
+    assert_int_equal(rejected, 0);
+    CHECK_BELOW(most, 9);
     rig_close(&s);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(part_of_the_error), cmocka_unit_test(long_flight),   cmocka_unit_test(joints_stay_closed),
-        cmocka_unit_test(bristles_hold),     cmocka_unit_test(ledger_closes), cmocka_unit_test(contacts_to_and_fro),
+        cmocka_unit_test(part_of_the_error),  cmocka_unit_test(long_flight),
+        cmocka_unit_test(joints_stay_closed), cmocka_unit_test(bristles_hold),
+        cmocka_unit_test(ledger_closes),      cmocka_unit_test(contacts_close_in_one_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

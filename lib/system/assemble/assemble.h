@@ -87,6 +87,7 @@ void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *
 void dmb_contacts_start(dmb_sim *sim);
 void dmb_contacts_assume_slip(const dmb_evaluation *evaluation);
 void dmb_contacts_take_slip(dmb_sim *sim);
+void dmb_contacts_take_touch(dmb_sim *sim);
 void dmb_contacts_forget(dmb_sim *sim);
 void dmb_contacts_slide(dmb_sim *sim);
 

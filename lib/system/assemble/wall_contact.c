@@ -115,6 +115,7 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
         .impact_speed = configuration->site_impact_speed,
         .slip = configuration->site_slip,
         .bristle = configuration->site_bristle,
+        .touch = configuration->site_touch,
         .segment = configuration->site_segment,
         .sticks = configuration->site_sticks,
     };
@@ -131,6 +132,7 @@ static dmb_wall_job job_of(const dmb_sim *sim)
         .hole = &scene->hole,
         .normal_law = &scene->normal_law,
         .bristles = dmb_scene_has_bristles(scene),
+        .touches = dmb_scene_has_touch(scene),
         .row = scene->layout.row,
         .diagonal = scene->layout.diag,
         .reference = scene->reference_position,
@@ -351,6 +353,12 @@ void dmb_contacts_take_slip(dmb_sim *sim)
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
 }
 
+void dmb_contacts_take_touch(dmb_sim *sim)
+{
+    if (!dmb_scene_has_touch(sim->scene)) return;
+    memcpy(sim->now.site_touch, sim->trial.site_touch, DMB_TOUCH_SIZE * sim->scene->site_count * sizeof(double));
+}
+
 void dmb_contacts_forget(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -359,6 +367,8 @@ void dmb_contacts_forget(dmb_sim *sim)
         memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
     }
     memset(sim->trial.site_impact_speed, 0, scene->site_count * sizeof(double));
+    if (dmb_scene_has_touch(scene))
+        memset(sim->trial.site_touch, 0, DMB_TOUCH_SIZE * scene->site_count * sizeof(double));
 }
 
 /* So far beyond the limit that rounding does not make a bristle stick. */

@@ -223,6 +223,90 @@ static void kelvin_voigt(void **state)
     assert_true(force_at(&law, 1e-9, -1.0, 1.0) == 0.0);
 }
 
+/* ---- Touch within a step ------------------------------------------------------------------------------------------
+ */
+
+/* Steps of these lengths, the contact closing in the first, before which part of it; weights w of the damping at their
+ * ends. */
+static void weights_of(const double *h, int count, double closed, double *w)
+{
+    double kept[DMB_TOUCH_SIZE] = {0.0}, before = closed - 1.0, depth = closed;
+    for (int i = 0; i < count; ++i) {
+        double next[DMB_TOUCH_SIZE] = {0.0};
+        dmb_normal_touch touch;
+        dmb_normal_touch_at(before, depth, h[i], kept, &touch, next);
+        memcpy(kept, next, sizeof kept);
+        w[i] = touch.weight;
+        before = depth;
+    }
+}
+
+/* The trapezoidal rule over the weights takes as long as the contact was closed, and a step more counts from its
+ * beginning; in equal steps so does the time about which it acts. */
+static void touch_keeps_the_impulse(void **state)
+{
+    static const double equal[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, unequal[6] = {1.0, 0.4, 0.7, 1.3, 0.9, 0.9};
+    (void)state;
+    for (int k = 0; k < 2; ++k)
+        for (double closed = 0.01; closed < 1.0; closed += 0.07) {
+            const double *h = k ? unequal : equal;
+            double w[6], sum = 0.0, time = 0.0, moment = 0.0, end = 0.0, last = 0.0;
+            weights_of(h, 6, closed, w);
+            for (int i = 0; i < 6; ++i) {
+                sum += 0.5 * h[i] * (last + w[i]);
+                /* centre of what is straight between two ends */
+                moment += 0.5 * h[i] * (last * (end + h[i] / 3.0) + w[i] * (end + 2.0 * h[i] / 3.0));
+                end += h[i];
+                last = w[i];
+                time += h[i];
+            }
+            CHECK_CLOSE(w[5], 1.0, 1e-14);
+            CHECK_CLOSE(sum, time - (1.0 - closed), 1e-14);
+            if (k == 0) CHECK_CLOSE(moment, 0.5 * (time * time - (1.0 - closed) * (1.0 - closed)), 1e-13);
+        }
+}
+
+/* A touch at the very end of a step and one at the very beginning of the next have the same weights. */
+static void touch_does_not_jump(void **state)
+{
+    static const double h[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    double early[6], late[6];
+    (void)state;
+    weights_of(h, 6, 1e-12, early);
+    weights_of(h, 6, 1.0 - 1e-12, late);
+    CHECK_CLOSE(early[0], 0.0, 1e-11);
+    for (int i = 0; i < 5; ++i) CHECK_CLOSE(early[i + 1], late[i], 1e-11);
+}
+
+/* Behind a step that is a thousand times longer the weight has its bound, and what is missing comes later. */
+static void touch_before_short_steps(void **state)
+{
+    double h[4000], w[4000], sum = 0.0, last = 0.0;
+    (void)state;
+    for (int i = 0; i < 4000; ++i) h[i] = i == 0 ? 1.0 : 1e-3;
+    weights_of(h, 4000, 0.9, w);
+    for (int i = 0; i < 4000; ++i) {
+        assert_true(w[i] >= 0.0 && w[i] <= DMB_TOUCH_MOST);
+        sum += 0.5 * h[i] * (last + w[i]);
+        last = w[i];
+    }
+    CHECK_CLOSE(sum, 0.9 + 3.999, 1e-12);
+}
+
+static void touch_derivative(void **state)
+{
+    const double kept[DMB_TOUCH_SIZE] = {0.0}, d = 1e-6;
+    (void)state;
+    for (double depth = 0.05; depth < 2.0; depth += 0.1) {
+        double next[DMB_TOUCH_SIZE];
+        dmb_normal_touch low, at, high;
+        dmb_normal_touch_at(-0.7, depth - d, 0.1, kept, &low, next);
+        dmb_normal_touch_at(-0.7, depth, 0.1, kept, &at, next);
+        dmb_normal_touch_at(-0.7, depth + d, 0.1, kept, &high, next);
+        CHECK_RELATIVE(at.by_depth, (high.weight - low.weight) / (2.0 * d), 1e-8);
+    }
+}
+
 /* Dropped from 1 m with e = .8: flight in closed form, contact integrated with gravity. */
 static void bouncing_ball(void **state)
 {
@@ -325,11 +409,20 @@ static void no_contact_and_nonsense(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(restitution_curves),    cmocka_unit_test(restitution_table),
-        cmocka_unit_test(exact_factor_accuracy), cmocka_unit_test(hertz_sphere),
-        cmocka_unit_test(impact_function),       cmocka_unit_test(kelvin_voigt),
-        cmocka_unit_test(bouncing_ball),         cmocka_unit_test(derivatives),
-        cmocka_unit_test(energy_is_the_work),    cmocka_unit_test(no_contact_and_nonsense),
+        cmocka_unit_test(restitution_curves),
+        cmocka_unit_test(restitution_table),
+        cmocka_unit_test(exact_factor_accuracy),
+        cmocka_unit_test(hertz_sphere),
+        cmocka_unit_test(impact_function),
+        cmocka_unit_test(kelvin_voigt),
+        cmocka_unit_test(touch_keeps_the_impulse),
+        cmocka_unit_test(touch_does_not_jump),
+        cmocka_unit_test(touch_before_short_steps),
+        cmocka_unit_test(touch_derivative),
+        cmocka_unit_test(bouncing_ball),
+        cmocka_unit_test(derivatives),
+        cmocka_unit_test(energy_is_the_work),
+        cmocka_unit_test(no_contact_and_nonsense),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
