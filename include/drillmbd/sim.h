@@ -23,6 +23,20 @@ enum {
     DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */
     DMB_METHOD_MULTIPLIERS = 1  /* it solves for all coordinates and the multipliers, for comparison; not in statics */
 };
+
+/* One part of the work of a step. */
+typedef void (*dmb_part_fn)(void *work, uint32_t index);
+/* Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this
+ * function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in
+ * any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else,
+ * and parts left out, end the step with DMB_ERR_CALLBACK, the sim unchanged. Results have the same bits as without it
+ * in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal
+ * numbers kept). They need 64 kB of stack. Parts call no function of the caller's: forces, programmes, constraints stay
+ * in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still
+ * running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with
+ * threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
+typedef int32_t (*dmb_parallel_fn)(void *context, uint32_t count, dmb_part_fn part, void *work);
+
 typedef struct dmb_sim_options {
     uint32_t struct_size;
     uint32_t max_iterations;        /* [-] Newton iterations of one step, 1 .. 1000; default 12 */
@@ -50,6 +64,11 @@ typedef struct dmb_sim_options {
     int32_t constraint_method; /* DMB_METHOD_..., how joints enter the linear algebra of a step; default
                                   DMB_METHOD_INDEPENDENT */
     int32_t reserved;
+    dmb_parallel_fn parallel; /* NULL (default): steps are made in the thread of the call alone. Not for functions of
+                                 Python, of which one runs at a time */
+    void *parallel_context;
+    uint32_t parallel_parts; /* [-] most parts at once, 1 .. 64; the equations of a chain have two; default 2 */
+    uint32_t parallel_least; /* [-] elements of a scene from which on `parallel` is called; default 1000 */
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
 

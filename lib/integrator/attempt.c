@@ -6,6 +6,7 @@
 #include "integrator/step_motion.h"
 #include "math/so3.h"
 #include "sim/node.h"
+#include "sim/parts.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
@@ -200,7 +201,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_atte
     return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
 }
 
-int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
+static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
@@ -224,9 +225,19 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;
+        dmb_system_unwrap(sim);
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
     return attempt->status;
+}
+
+/* With the threads of the caller's, whose failure is that of the step whatever else came of it. */
+int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
+{
+    dmb_parts_open(sim);
+    const int32_t status = try_step(sim, end, whole, attempt), failed = dmb_parts_close(sim);
+    if (failed < 0) attempt->status = failed;
+    return failed < 0 ? failed : status;
 }
 
 /* ---- To the time at which a stuck place lets go ------------------------------------------------------------------ */
@@ -317,7 +328,8 @@ static double turned_apart(const dmb_sim *sim, uint32_t a)
 uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const double most = *sim->turned_squared;
+    double most = 0.0;
+    for (uint32_t i = 0; i <= scene->node_count / DMB_GRAIN; i++) most = fmax(most, sim->turned_squared[i]);
     if (scene->cluster_count == 0 && 4.0 * most <= DMB_TURNING_MAX * DMB_TURNING_MAX) return DMB_NONE; /* as below */
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t a = scene->element_node[e];
@@ -351,6 +363,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_CALLBACK:
+        if (dmb_parts_explain(sim)) break;
         if (dmb_failed_force(sim, &owner.text)) {
             dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
                             owner.text.text, attempt->evaluation.time);

@@ -271,6 +271,7 @@ int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead)
     course of = course_of(follower, lead);
     const int32_t status = follow(&of);
     if (status < 0) return status;
+    dmb_system_unwrap(of.sim);
     dmb_system_accept(&of.attempt.evaluation);
     return DMB_OK;
 }

@@ -1,8 +1,39 @@
 #include "integrator/step_motion.h"
 
 #include "kernel/kernels.h"
+#include "sim/parts.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
+
+/* Rows that a part takes at least. */
+enum { ROWS = 6 * DMB_GRAIN };
+
+typedef struct predict_rows {
+    const dmb_kernels *kernels;
+    const dmb_predict_job *job;
+} predict_rows;
+
+/* place: the poses of the nodes follow their rows. */
+typedef struct correct_nodes {
+    dmb_sim *sim;
+    const dmb_correct_job *job;
+    int32_t place, reserved;
+} correct_nodes;
+
+static void predict(void *work, uint32_t first, uint32_t end)
+{
+    const predict_rows *rows = work;
+    dmb_predict_job job = *rows->job;
+    job.count = end - first;
+    job.now_velocity += first;
+    job.now_acceleration += first;
+    job.now_pseudo_acceleration += first;
+    job.velocity += first;
+    job.acceleration += first;
+    job.pseudo_acceleration += first;
+    job.increment += first;
+    rows->kernels->predict(&job);
+}
 
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
@@ -26,7 +57,8 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    sim->scene->kernels->predict(&job);
+    predict_rows rows = {sim->scene->kernels, &job};
+    dmb_parts_run(sim, job.count, ROWS, predict, &rows);
     if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &job);
 }
 
@@ -40,6 +72,22 @@ void dmb_step_motion_keep_prescribed(dmb_sim *sim)
         to.acceleration[row] = sim->trial.acceleration[row];
         to.pseudo_acceleration[row] = sim->trial.pseudo_acceleration[row];
     }
+}
+
+static void correct(void *work, uint32_t first, uint32_t end)
+{
+    const correct_nodes *nodes = work;
+    const dmb_scene *scene = nodes->sim->scene;
+    const uint32_t row = scene->layout.row[first];
+    dmb_correct_job job = *nodes->job;
+    job.count = scene->layout.row[end] - row;
+    job.correction += row;
+    job.velocity += row;
+    job.acceleration += row;
+    job.pseudo_acceleration += row;
+    job.increment += row;
+    scene->kernels->correct(&job);
+    if (nodes->place) dmb_system_move_nodes(nodes->sim, first, end);
 }
 
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
@@ -57,8 +105,10 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    sim->scene->kernels->correct(&job);
-    if (sim->scene->free_rigid_count) dmb_free_rigids_correct(sim, &job);
+    correct_nodes nodes = {sim, &job, sim->scene->free_rigid_count == 0, 0};
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, correct, &nodes);
+    if (nodes.place) return;
+    dmb_free_rigids_correct(sim, &job);
     dmb_step_motion_place(sim);
 }
 

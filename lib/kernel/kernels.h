@@ -12,6 +12,12 @@
 #include "force/normal_law.h"
 #include "math/block_tridiagonal.h"
 
+/* The part of a node that comes from the last element of a run, where the next element belongs to another run that is
+ * made at the same time. */
+typedef struct dmb_seam {
+    double residual[6], scale[6], stiffness[36], inertia[36];
+} dmb_seam;
+
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
  * first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written between
  * them, where elements are the first to add something. */
@@ -26,7 +32,8 @@ typedef struct dmb_beam_job {
     const double *velocity, *acceleration; /* shape (count + 1, 6) */
     const double *increment;               /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
-    int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
+    int32_t dynamic, tangent, extrapolated, inertia_only, ledger;
+    int32_t apart;            /* 1: nothing is added to the first node yet, it is written */
     int32_t damped, arms;     /* 1: some element of the scene has a damping time, rigid arms */
     double *residual, *scale; /* shape (count + 1, 6) */
     double *strain;           /* written, shape (count, 6); NULL: it is not wanted */
@@ -34,6 +41,7 @@ typedef struct dmb_beam_job {
     double *stiffness_diagonal, *inertia_diagonal; /* shape (count + 1, 36) */
     double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
+    dmb_seam *seam;                               /* added to in place of the last node; NULL: that itself is */
 } dmb_beam_job;
 
 /* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
@@ -201,6 +209,14 @@ typedef struct dmb_kernels {
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                   double *rhs);
+    /* The same in parts: 0 from the first block, 1 from the last, both up to the neighbours of the middle one, then 2
+     * these and the middle; a solution goes away from there in the parts 0 and 1 again. */
+    int64_t (*factor_part)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                           int32_t part);
+    void (*towards_part)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                         int32_t part, double *rhs);
+    void (*away_part)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                      int32_t part, double *rhs);
     /* Forces and, if asked for, tangent blocks. */
     void (*node_forces)(dmb_node_force_job *job);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */

@@ -64,6 +64,12 @@ typedef struct beam_ends {
 
 static inline void begin_ends(const dmb_beam_job *job, const dmb_beam_task *task, beam_ends *ends)
 {
+    if (job->apart) {
+        const dmb_real zero = dmb_real_of(0.0);
+        for (int i = 0; i < 6; i++) ends->residual[i] = ends->scale[i] = zero;
+        for (int i = 0; i < 36; i++) ends->stiffness[i] = ends->inertia[i] = zero;
+        return;
+    }
     chain_begin(job->residual, 6, ends->residual);
     chain_begin(job->scale, 6, ends->scale);
     if (!task->tangent) return;
@@ -75,11 +81,13 @@ static inline void add_ends(const dmb_beam_job *job, const dmb_beam_task *task, 
 {
     const size_t last = job->count;
     const uint32_t used = (job->count - 1) % DMB_REAL_LANES + 1;
-    chain_end(ends->residual, 6, used, job->residual + 6 * last);
-    chain_end(ends->scale, 6, used, job->scale + 6 * last);
+    dmb_seam *seam = job->seam;
+    chain_end(ends->residual, 6, used, seam ? seam->residual : job->residual + 6 * last);
+    chain_end(ends->scale, 6, used, seam ? seam->scale : job->scale + 6 * last);
     if (!task->tangent) return;
-    if (!task->inertia_only) chain_end(ends->stiffness, 36, used, job->stiffness_diagonal + 36 * last);
-    if (task->dynamic) chain_end(ends->inertia, 36, used, job->inertia_diagonal + 36 * last);
+    if (!task->inertia_only)
+        chain_end(ends->stiffness, 36, used, seam ? seam->stiffness : job->stiffness_diagonal + 36 * last);
+    if (task->dynamic) chain_end(ends->inertia, 36, used, seam ? seam->inertia : job->inertia_diagonal + 36 * last);
 }
 
 static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
@@ -264,6 +272,24 @@ static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix
     solve_blocks(layout, matrix, first, count, rhs);
 }
 
+static int64_t factor_end(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                          int32_t part)
+{
+    return factor_part(layout, matrix, first, count, part);
+}
+
+static void solve_towards_middle(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
+                                 uint32_t count, int32_t part, double *rhs)
+{
+    towards_part(layout, matrix, first, count, part, rhs);
+}
+
+static void solve_from_middle(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
+                              uint32_t count, int32_t part, double *rhs)
+{
+    away_part(layout, matrix, first, count, part, rhs);
+}
+
 extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
@@ -283,4 +309,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .negate = negate,
                                  .powers = powers,
                                  .factor = factor,
-                                 .solve = solve};
+                                 .solve = solve,
+                                 .factor_part = factor_end,
+                                 .towards_part = solve_towards_middle,
+                                 .away_part = solve_from_middle};

@@ -186,6 +186,30 @@ static inline int factor_two(const dmb_block_layout *layout, const dmb_block_mat
     return six_factor_two(&p.parts, &q.parts);
 }
 
+/* Parts of the elimination of a chain: its two ends, which two threads may take at once, up to the neighbours of the
+ * middle; then these and the middle. Together they do what factor_blocks and solve_blocks do, each block with the same
+ * operations in the same order. */
+enum { BLOCK_UPPER_END = 0, BLOCK_LOWER_END = 1, BLOCK_MIDDLE = 2 };
+
+static inline int64_t factor_part(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
+                                  uint32_t count, int32_t part)
+{
+    const uint32_t middle = first + count / 2, end = first + count;
+    if (part == BLOCK_UPPER_END) {
+        for (uint32_t i = first; i + 1 < middle; i++)
+            if (factor_place(layout, matrix, middle, i)) return (int64_t)i;
+        return -1;
+    }
+    if (part == BLOCK_LOWER_END) {
+        for (uint32_t i = end - 1; i > middle + 1; i--)
+            if (factor_place(layout, matrix, middle, i)) return (int64_t)i;
+        return -1;
+    }
+    if (middle > first && factor_place(layout, matrix, middle, middle - 1)) return (int64_t)middle - 1;
+    if (middle + 1 < end && factor_place(layout, matrix, middle, middle + 1)) return (int64_t)middle + 1;
+    return factor_place(layout, matrix, middle, middle) ? (int64_t)middle : -1;
+}
+
 /* The upper half has as many blocks as the lower one, or one more, which goes first: so both come to the middle in the
  * same turn, and the upper one first. */
 static inline int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
@@ -221,6 +245,38 @@ static inline void away(const dmb_block_layout *layout, const dmb_block_matrix *
         solve_away(2, 2, p.parts.U, rhs + p.next_row, rhs + p.row);
     else
         solve_away(p.n, p.m, p.parts.U, rhs + p.next_row, rhs + p.row);
+}
+
+/* Towards the middle: parts as of factor_part. */
+static inline void towards_part(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
+                                uint32_t count, int32_t part, double *rhs)
+{
+    const uint32_t middle = first + count / 2, end = first + count;
+    if (even_size(layout, first, count) == 6) {
+        six_towards_part(count, matrix->diagonal + layout->diag[first], matrix->upper + layout->link[first],
+                         matrix->lower + layout->link[first], part, rhs + layout->row[first]);
+        return;
+    }
+    for (uint32_t i = first; part == BLOCK_UPPER_END && i + 1 < middle; i++) towards(layout, matrix, middle, i, rhs);
+    for (uint32_t i = end - 1; part == BLOCK_LOWER_END && i > middle + 1; i--) towards(layout, matrix, middle, i, rhs);
+    if (part != BLOCK_MIDDLE) return;
+    if (middle > first) towards(layout, matrix, middle, middle - 1, rhs);
+    if (middle + 1 < end) towards(layout, matrix, middle, middle + 1, rhs);
+    towards(layout, matrix, middle, middle, rhs);
+}
+
+/* And back from it to one of the ends. */
+static inline void away_part(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
+                             uint32_t count, int32_t part, double *rhs)
+{
+    const uint32_t middle = first + count / 2, end = first + count;
+    if (even_size(layout, first, count) == 6) {
+        six_away_part(count, matrix->upper + layout->link[first], matrix->lower + layout->link[first], part,
+                      rhs + layout->row[first]);
+        return;
+    }
+    for (uint32_t i = middle; part == BLOCK_UPPER_END && i-- > first;) away(layout, matrix, middle, i, rhs);
+    for (uint32_t i = middle + 1; part == BLOCK_LOWER_END && i < end; i++) away(layout, matrix, middle, i, rhs);
 }
 
 static inline void solve_blocks(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,

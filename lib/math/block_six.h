@@ -372,4 +372,32 @@ static inline void six_solve(uint32_t count, const double *diagonal, const doubl
     if (above > below) six_away(W - 36, x, p - 6);
 }
 
+/* The same in the parts of block_inverse.h: 0 the upper end, 1 the lower one, 2 what is between them. */
+static inline void six_towards_part(uint32_t count, const double *D, const double *upper, const double *lower,
+                                    int32_t part, double *b)
+{
+    const size_t above = count / 2, below = (count - 1) / 2, last = count - 1;
+    if (part == 0) {
+        six_row x = six_load(b);
+        for (size_t i = 0; i + 1 < above; i++) x = six_towards(D + 36 * i, lower + 36 * i, x, b + 6 * i, b + 6 * i + 6);
+    } else if (part == 1) {
+        six_row y = six_load(b + 6 * last);
+        for (size_t i = last; i > above + 1; i--)
+            y = six_towards(D + 36 * i, upper + 36 * (i - 1), y, b + 6 * i, b + 6 * (i - 1));
+    } else {
+        const size_t i = above - 1, j = above + 1;
+        if (above > 0) (void)six_towards(D + 36 * i, lower + 36 * i, six_load(b + 6 * i), b + 6 * i, b + 6 * above);
+        if (below > 0) (void)six_towards(D + 36 * j, upper + 36 * above, six_load(b + 6 * j), b + 6 * j, b + 6 * above);
+        six_store(six_product(D + 36 * above, six_load(b + 6 * above)), b + 6 * above);
+    }
+}
+
+static inline void six_away_part(uint32_t count, const double *upper, const double *lower, int32_t part, double *b)
+{
+    const size_t middle = count / 2;
+    six_row x = six_load(b + 6 * middle);
+    for (size_t i = middle; part == 0 && i-- > 0;) x = six_away(upper + 36 * i, x, b + 6 * i);
+    for (size_t i = middle + 1; part == 1 && i < count; i++) x = six_away(lower + 36 * (i - 1), x, b + 6 * i);
+}
+
 #endif

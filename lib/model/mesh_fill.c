@@ -241,9 +241,18 @@ static void fill_flow(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+static uint32_t sites_in_order(const dmb_scene *scene)
+{
+    const uint32_t count = dmb_node_sites(scene);
+    uint32_t s = count > 0;
+    while (s < count && scene->sites[s].node >= scene->sites[s - 1].node) s++;
+    return s;
+}
+
 static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     copy_items(&mesh->sites, scene->sites);
+    scene->sites_in_order = sites_in_order(scene);
     copy_items(&mesh->path_sites, scene->path_sites);
     copy_items(&mesh->inside, scene->inside);
     copy_items(&mesh->actuators, scene->actuators);

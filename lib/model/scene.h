@@ -227,7 +227,8 @@ typedef struct dmb_scene {
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t added_mass_count, added_reserved;
-    uint32_t inside_count; /* of the sites the last ones, inside elements */
+    uint32_t inside_count;   /* of the sites the last ones, inside elements */
+    uint32_t sites_in_order; /* of the sites on nodes the first ones, in the order of these */
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */

@@ -135,6 +135,7 @@ static void check_iteration(dmb_check *check, const dmb_sim_options *o)
     dmb_check_choice(check, "bounded_work", o->bounded_work, 0, 1);
     dmb_check_choice(check, "energy_ledger", o->energy_ledger, 0, 1);
     dmb_check_choice(check, "constraint_method", o->constraint_method, DMB_METHOD_INDEPENDENT, DMB_METHOD_MULTIPLIERS);
+    dmb_check_count(check, "parallel_parts", o->parallel_parts, 1, DMB_PARALLEL_MAX);
 }
 
 static void check_step_control(dmb_check *check, const dmb_sim_options *o)
@@ -180,6 +181,8 @@ DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .max_cuts = 12,
     .energy_ledger = 1,
     .constraint_method = DMB_METHOD_INDEPENDENT,
+    .parallel_parts = 2,
+    .parallel_least = 1000,
 })
 
 DMB_DEFINE_INIT(dmb_step_report, 48, {.steps = 0})

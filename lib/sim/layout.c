@@ -4,13 +4,14 @@
 
 #include "base/memory.h"
 #include "sim/own_scene.h"
+#include "sim/parts.h"
 
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, st, e, d, k, load, history, diagonal, link, backup;
     uint64_t act, delay, cut, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent,
         dense, square, full, block, value, pivots, kd, kl, kn;
-    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain;
+    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
@@ -31,8 +32,8 @@ typedef struct field_counts {
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
     const uint64_t act = (of)->act, delay = (of)->delay, cut = (of)->cut;                                           \
     (void)act, (void)delay, (void)cut;                                                                              \
-    const uint64_t f = (of)->f, chain = (of)->chain;                                                                \
-    (void)chain;                                                                                                    \
+    const uint64_t f = (of)->f, chain = (of)->chain, piece = (of)->piece;                                           \
+    (void)chain, (void)piece;                                                                                       \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
@@ -74,6 +75,14 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->sparse_block = sparse ? scene->block_count : 0;
 }
 
+/* Most pieces of a run of elements, nodes or sites; 0: none is divided. */
+static uint64_t pieces_of(const dmb_scene *scene)
+{
+    const uint32_t most = scene->node_count > scene->site_count ? scene->node_count : scene->site_count;
+    const uint32_t pieces = dmb_pieces_of(most);
+    return pieces > 1 ? pieces : 0;
+}
+
 static field_counts counts_of(const dmb_scene *scene)
 {
     const uint32_t n = scene->node_count;
@@ -87,6 +96,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.event = scene->event_count;
     c.f = scene->free_rigid_count;
     c.chain = scene->chain_count;
+    c.piece = pieces_of(scene);
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
@@ -177,6 +187,7 @@ dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
     if (sim == NULL) return NULL;
     sim->scene = scene;
     sim->progress = &sim->own_progress;
+    sim->parts = &sim->own_parts;
     sim->block = block;
     sim->block_size = size;
     return sim;

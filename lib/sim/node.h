@@ -26,6 +26,12 @@ static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
 {
     return scene->layout.size[node] == DMB_NODE_FULL ? dmb_count_full_nodes(scene, node) : 0;
 }
+/* The same, of those before `end`. */
+static inline uint32_t dmb_full_nodes_before(const dmb_scene *scene, uint32_t node, uint32_t end)
+{
+    const uint32_t count = dmb_full_nodes_at(scene, node);
+    return count < end - node ? count : end - node;
+}
 /* Element before (side 0) or after (side 1) a node; DMB_NONE at the ends of its chain. */
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side);
 

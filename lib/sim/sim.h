@@ -3,17 +3,18 @@
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; st = s
- * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; k = bit_count, act =
- * actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count, cut = stations at
- * which cutters widen the hole, held = held_count, input = input_count, event = event_count, history = history_count,
- * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
- * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
- * the clusters, block, value, pivots = of the reduced system. */
+ * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; piece = most pieces of one run
+ * (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count, stuck =
+ * stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
+ * event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
+ * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
+ * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
 #include "base/message.h"
 #include "drillmbd/analysis.h"
+#include "kernel/kernels.h"
 #include "model/model.h"
 
 /* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
@@ -134,7 +135,8 @@
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
-    X(double, turned_squared, 1) /* [rad2] of the node that turned most in the step: system/assemble/evaluation */     \
+    X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of    \
+                                                    each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
        system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
@@ -153,6 +155,12 @@
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
     X(double, stiffness_upper, link)                                                                                  \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */         \
+    X(dmb_seam, seam, piece)            /* of elements made in pieces: system/assemble/elements */                    \
+    X(dmb_piece_sums, piece_sums, piece) /* system/assemble/elements, system/assemble/nodes,                          \
+                                            system/assemble/wall_contact */                                          \
+    X(dmb_piece_squares, piece_squares, piece) /* system/solve/solve */                                               \
+    X(int64_t, end_singular, 2 * chain) /* first singular block of both ends of chains that are made in parts, or -1: \
+                                           system/solve/solve */                                                      \
     X(uint8_t, pivot, r)                /* LU factors only */                                                         \
     X(int32_t, factors, 1)              /* DMB_FACTORS_...: those at hand: system/solve/solve, integrator/newton,     \
                                            integrator/attempt */                                                      \
@@ -305,6 +313,36 @@ typedef struct dmb_input_log {
     uint32_t reserved;
 } dmb_input_log;
 
+/* Sums over a piece of a run (sim/parts), and its element that failed; DMB_NONE: none did. */
+typedef struct dmb_piece_sums {
+    double rounding;                                      /* [N2] */
+    double potential, damping, inertia, impact, friction; /* [W] */
+    uint32_t failed, reserved;
+} dmb_piece_sums;
+
+/* Sums of squares of the residual and of its terms, side by side (kernels->squares). */
+typedef struct dmb_piece_squares {
+    double rest[DMB_SQUARES], all[DMB_SQUARES];
+} dmb_piece_squares;
+
+/* Makes first .. end - 1 of something. */
+typedef void (*dmb_range_fn)(void *work, uint32_t first, uint32_t end);
+
+enum { DMB_PARALLEL_MAX = 64, DMB_PART_DUE = 0, DMB_PART_BEGUN = 1, DMB_PART_DONE = 2 };
+
+/* Work that is being made in parts by threads of the caller's; neither saved nor hashed. sim/parts */
+typedef struct dmb_parts {
+    int32_t open;   /* 1: a step is under way that may be made in parts */
+    int32_t failed; /* 1: the caller's function did not run all parts, or told that it failed */
+    int32_t status; /* what it returned then, and how many parts it ran of those asked for */
+    uint32_t done, asked;
+    uint32_t parts;        /* [-] of the run under way; 0: there is none */
+    uint32_t count, grain; /* what it makes, and what its parts are multiples of */
+    dmb_range_fn make;
+    void *work;
+    uint8_t mark[DMB_PARALLEL_MAX]; /* DMB_PART_... */
+} dmb_parts;
+
 struct dmb_attempt;
 
 /* One who is told of each step before it is accepted, and may refuse it: analysis/sensitivity. Neither saved nor
@@ -332,6 +370,8 @@ struct dmb_sim {
     struct dmb_own_scene *own; /* sim/own_scene: the scene of a sim with inputs; NULL: it is the model's */
     dmb_input_log input_log;
     const dmb_follower *follower; /* NULL: nobody */
+    dmb_parts *parts;             /* own_parts: a step of a sim that is const writes there what its threads are at */
+    dmb_parts own_parts;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_FACTOR_LIST(DMB_FIELD)

@@ -1924,6 +1924,9 @@ LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 
 
+PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
+
+
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
 
 
@@ -2341,63 +2344,6 @@ class DriveDef(DrivePart, Sized):
     }
 
 
-class SimOptions(Sized):
-    c_name, about = "dmb_sim_options", ""
-    struct_size: int
-    max_iterations: int
-    allocator: Any
-    log: Any
-    log_context: Any
-    spectral_radius: float
-    newton_tolerance: float
-    tolerance_translation: float
-    tolerance_rotation: float
-    step_min: float
-    step_max: float
-    max_cuts: int
-    bounded_work: int
-    energy_ledger: int
-    max_steps: int
-    constraint_method: int
-    reserved: int
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("max_iterations", c_uint32),
-        ("allocator", POINTER(Allocator)),
-        ("log", LOG_FN),
-        ("log_context", c_void_p),
-        ("spectral_radius", c_double),
-        ("newton_tolerance", c_double),
-        ("tolerance_translation", c_double),
-        ("tolerance_rotation", c_double),
-        ("step_min", c_double),
-        ("step_max", c_double),
-        ("max_cuts", c_uint32),
-        ("bounded_work", c_int32),
-        ("energy_ledger", c_int32),
-        ("max_steps", c_uint32),
-        ("constraint_method", c_int32),
-        ("reserved", c_int32),
-    ]
-    field_docs = {
-        "max_iterations": ("-", "Newton iterations of one step, 1 .. 1000; default 12"),
-        "allocator": ("", "copied; NULL: the model's"),
-        "log": ("", "NULL: silent"),
-        "log_context": ("", ""),
-        "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "0 (default): the iterations of a step follow its own error, of which they leave a few hundredths at most (estimated from predictor and corrector), and a residual that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual over the norm of the forces that balance in it, whatever the step's error; 1e-8 was the default before. The force that rounding of the poses makes in a stiff pipe counts as zero; factors of an earlier step aim at a fifth of the residual"),
-        "tolerance_translation": ("m", "local error allowed in a step of dmb_sim_advance, > 0; default 1e-6"),
-        "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
-        "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
-        "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
-        "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
-        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at corners; for control loops; default 0"),
-        "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),
-        "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
-        "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),
-    }
-
-
 class Contact(Sized):
     c_name, about = "dmb_contact", ""
     struct_size: int
@@ -2786,6 +2732,9 @@ class Row(Sized):
     }
 
 
+PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
+
+
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
 
 
@@ -2817,6 +2766,75 @@ class LoadDef(Sized):
         "programme": ("-", "factor over time; {0, 0}: 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
+    }
+
+
+class SimOptions(Sized):
+    c_name, about = "dmb_sim_options", ""
+    struct_size: int
+    max_iterations: int
+    allocator: Any
+    log: Any
+    log_context: Any
+    spectral_radius: float
+    newton_tolerance: float
+    tolerance_translation: float
+    tolerance_rotation: float
+    step_min: float
+    step_max: float
+    max_cuts: int
+    bounded_work: int
+    energy_ledger: int
+    max_steps: int
+    constraint_method: int
+    reserved: int
+    parallel: Any
+    parallel_context: Any
+    parallel_parts: int
+    parallel_least: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("max_iterations", c_uint32),
+        ("allocator", POINTER(Allocator)),
+        ("log", LOG_FN),
+        ("log_context", c_void_p),
+        ("spectral_radius", c_double),
+        ("newton_tolerance", c_double),
+        ("tolerance_translation", c_double),
+        ("tolerance_rotation", c_double),
+        ("step_min", c_double),
+        ("step_max", c_double),
+        ("max_cuts", c_uint32),
+        ("bounded_work", c_int32),
+        ("energy_ledger", c_int32),
+        ("max_steps", c_uint32),
+        ("constraint_method", c_int32),
+        ("reserved", c_int32),
+        ("parallel", PARALLEL_FN),
+        ("parallel_context", c_void_p),
+        ("parallel_parts", c_uint32),
+        ("parallel_least", c_uint32),
+    ]
+    field_docs = {
+        "max_iterations": ("-", "Newton iterations of one step, 1 .. 1000; default 12"),
+        "allocator": ("", "copied; NULL: the model's"),
+        "log": ("", "NULL: silent"),
+        "log_context": ("", ""),
+        "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
+        "newton_tolerance": ("-", "0 (default): the iterations of a step follow its own error, of which they leave a few hundredths at most (estimated from predictor and corrector), and a residual that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual over the norm of the forces that balance in it, whatever the step's error; 1e-8 was the default before. The force that rounding of the poses makes in a stiff pipe counts as zero; factors of an earlier step aim at a fifth of the residual"),
+        "tolerance_translation": ("m", "local error allowed in a step of dmb_sim_advance, > 0; default 1e-6"),
+        "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
+        "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
+        "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
+        "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
+        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at corners; for control loops; default 0"),
+        "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),
+        "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
+        "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),
+        "parallel": ("", "NULL (default): steps are made in the thread of the call alone. Not for functions of Python, of which one runs at a time"),
+        "parallel_context": ("", ""),
+        "parallel_parts": ("-", "most parts at once, 1 .. 64; the equations of a chain have two; default 2"),
+        "parallel_least": ("-", "elements of a scene from which on `parallel` is called; default 1000"),
     }
 
 

@@ -159,6 +159,7 @@ int32_t dmb_path_accept(dmb_path *path)
     path->search.evaluation.extrapolated = 0;
     const int32_t status = evaluate(path, 0); /* reactions */
     if (status < 0) return status;
+    dmb_system_unwrap(work);
     dmb_system_accept(&path->search.evaluation);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->trial, &work->now);

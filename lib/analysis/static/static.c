@@ -283,6 +283,7 @@ static int32_t refuse_torn(const dmb_static_search *search)
 static int32_t settle(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
+    dmb_system_unwrap(sim);
     dmb_system_accept(&search->evaluation);
     int32_t status = take_motion(search);
     lay_rock(search);

@@ -7,6 +7,7 @@
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "sim/node.h"
+#include "sim/parts.h"
 #include "system/assemble/evaluation.h"
 
 /* Vector from node a to node b; returns the largest magnitude that entered it. */
@@ -59,8 +60,8 @@ static int strain_is_kept(const dmb_evaluation *evaluation)
            sim->scene->path_site_count > 0;
 }
 
-/* Forces and tangents of the SE(3) elements of a batch in lanes (element/beam_element.h); powers are summed on. */
-static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
+/* Forces and tangents of the SE(3) elements of a batch, or of a piece of one, in lanes (element/beam_element.h). */
+static dmb_beam_job task_of(const dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     dmb_beam_job job = job_of(evaluation->sim, batch);
     if (!strain_is_kept(evaluation)) job.strain = NULL;
@@ -71,6 +72,88 @@ static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
     job.extrapolated = evaluation->extrapolated;
     job.inertia_only = evaluation->inertia_only;
     job.ledger = evaluation->sim->options.energy_ledger;
+    return job;
+}
+
+/* A batch that is made in pieces. */
+typedef struct beam_pieces {
+    const dmb_evaluation *evaluation;
+    const dmb_batch *batch;
+    uint32_t pieces, reserved;
+} beam_pieces;
+
+static dmb_batch piece_of(const beam_pieces *in, uint32_t piece)
+{
+    const uint32_t count = in->batch->count, begin = dmb_piece_begin(count, in->pieces, piece);
+    dmb_batch out = *in->batch;
+    out.first += begin;
+    out.count = dmb_piece_begin(count, in->pieces, piece + 1) - begin;
+    return out;
+}
+
+/* Of the node between two pieces the second writes its own part, the first leaves its part in the seam. */
+static void make_pieces(void *work, uint32_t first, uint32_t end)
+{
+    const beam_pieces *in = work;
+    const dmb_sim *sim = in->evaluation->sim;
+    for (uint32_t i = first; i < end; i++) {
+        const dmb_batch piece = piece_of(in, i);
+        dmb_beam_job job = task_of(in->evaluation, &piece);
+        job.apart = i > 0;
+        job.seam = i + 1 < in->pieces ? sim->seam + i : NULL;
+        if (job.seam != NULL) memset(job.seam, 0, sizeof *job.seam);
+        const int32_t bad = sim->scene->kernels->beams(&job);
+        const dmb_piece_sums sums = {.rounding = job.rounding,
+                                     .potential = job.potential,
+                                     .damping = job.damping,
+                                     .inertia = job.inertia,
+                                     .failed = bad < 0 ? piece.first + job.failed : DMB_NONE};
+        sim->piece_sums[i] = sums;
+    }
+}
+
+static void add_numbers(uint32_t count, const double *from, double *to)
+{
+    for (uint32_t i = 0; i < count; i++) to[i] += from[i];
+}
+
+/* The element before a node adds what it left in the seam. */
+static void add_seam(const dmb_evaluation *evaluation, const dmb_seam *seam, uint32_t node)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[node];
+    add_numbers(6, seam->residual, sim->residual + row);
+    add_numbers(6, seam->scale, sim->scale_row + row);
+    if (!evaluation->tangent) return;
+    if (!evaluation->inertia_only) add_numbers(36, seam->stiffness, dmb_stiffness_of(sim, node));
+    if (evaluation->dynamic) add_numbers(36, seam->inertia, dmb_inertia_of(sim, node));
+}
+
+static int32_t gather_pieces(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    const dmb_sim *sim = evaluation->sim;
+    beam_pieces in = {evaluation, batch, dmb_pieces_of(batch->count), 0};
+    dmb_parts_run(sim, in.pieces, 1, make_pieces, &in);
+    for (uint32_t i = 0; i < in.pieces; i++) {
+        const dmb_piece_sums *sums = sim->piece_sums + i;
+        if (sums->failed != DMB_NONE) {
+            evaluation->element = sums->failed;
+            return DMB_ERR_ROTATION;
+        }
+        if (i > 0) add_seam(evaluation, sim->seam + i - 1, sim->scene->element_node[piece_of(&in, i).first]);
+        evaluation->rounding += sums->rounding;
+        evaluation->power[DMB_POWER_POTENTIAL] += sums->potential;
+        evaluation->power[DMB_POWER_DAMPING] += sums->damping;
+        evaluation->power[DMB_POWER_INERTIA] += sums->inertia;
+    }
+    return DMB_OK;
+}
+
+/* Powers are summed on. */
+static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    if (dmb_pieces_of(batch->count) > 1) return gather_pieces(evaluation, batch);
+    dmb_beam_job job = task_of(evaluation, batch);
     job.rounding = evaluation->rounding;
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];
     job.damping = evaluation->power[DMB_POWER_DAMPING];
@@ -290,14 +373,30 @@ void dmb_gather_elements(dmb_evaluation *evaluation)
         evaluation->status = gather_batch(evaluation, scene->batches + i);
 }
 
+typedef struct stress_work {
+    const dmb_sim *sim;
+    const dmb_batch *batch;
+    const double *correction;
+} stress_work;
+
+static void extrapolate(void *work, uint32_t first, uint32_t end)
+{
+    const stress_work *in = work;
+    const dmb_scene *scene = in->sim->scene;
+    dmb_batch part = *in->batch;
+    part.first += first;
+    part.count = end - first;
+    dmb_beam_job job = job_of(in->sim, &part);
+    job.velocity = in->correction + scene->layout.row[scene->element_node[part.first]];
+    scene->kernels->extrapolate(&job);
+}
+
 /* s <- s + (K/L) P z over the correction z of both nodes, at the strain of the last evaluation. */
 void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->batch_count; i++) {
-        if (scene->batches[i].kernel != DMB_KERNEL_BEAM) continue;
-        dmb_beam_job job = job_of(sim, scene->batches + i);
-        job.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
-        scene->kernels->extrapolate(&job);
+        stress_work work = {sim, scene->batches + i, correction};
+        if (work.batch->kernel == DMB_KERNEL_BEAM) dmb_parts_run(sim, work.batch->count, DMB_GRAIN, extrapolate, &work);
     }
 }

@@ -5,6 +5,7 @@
 #include "kernel/kernels.h"
 #include "math/se3.h"
 #include "sim/node.h"
+#include "sim/parts.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
@@ -48,30 +49,36 @@ static void clear(const dmb_evaluation *evaluation)
     memset(sim->stiffness_upper, 0, link);
 }
 
-/* Along the axis and about it, from node `first` on as long as there are PATH nodes; what else a pose has stays.
- * Returns how many they are. */
-static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first)
+/* Along the axis and about it, from node `first` on as long as there are PATH nodes before `end`; what else a pose has
+ * stays. Returns how many they are; *turned is raised to the square of the largest rotation. */
+static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first, uint32_t end, double *turned)
 {
     const dmb_scene *scene = sim->scene;
     const double *z = sim->increment + scene->layout.row[first];
-    double turned = *sim->turned_squared;
     uint32_t i = first;
-    for (; i < scene->node_count && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
+    for (; i < end && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
         sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
         sim->trial.turn[i] = sim->now.turn[i] + z[1];
-        turned = fmax(turned, z[1] * z[1]);
+        *turned = fmax(*turned, z[1] * z[1]);
     }
-    *sim->turned_squared = turned;
     return i - first;
 }
 
-void dmb_system_move(dmb_sim *sim)
+/* Of the nodes that begin a piece, the first of the range tells for all in it. */
+static void note_turned(dmb_sim *sim, uint32_t first, uint32_t end, double turned)
+{
+    double *to = sim->turned_squared + first / DMB_GRAIN;
+    *to++ = turned;
+    for (; to <= sim->turned_squared + (end - 1) / DMB_GRAIN; to++) *to = 0.0;
+}
+
+void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end)
 {
     const dmb_scene *scene = sim->scene;
-    *sim->turned_squared = 0.0;
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+    double turned = 0.0;
+    for (uint32_t i = first, count; i < end; i += count) {
         const double *z = sim->increment + scene->layout.row[i];
-        count = dmb_full_nodes_at(scene, i);
+        count = dmb_full_nodes_before(scene, i, end);
         if (count > 0) {
             dmb_node_job job = {count,
                                 0,
@@ -80,13 +87,24 @@ void dmb_system_move(dmb_sim *sim)
                                 sim->now.quaternion + 4 * i,
                                 sim->trial.displacement + 3 * i,
                                 sim->trial.quaternion + 4 * i,
-                                *sim->turned_squared};
+                                turned};
             scene->kernels->advance(&job);
-            *sim->turned_squared = job.turned;
+            turned = job.turned;
             continue;
         }
-        count = move_path_nodes(sim, i);
+        count = move_path_nodes(sim, i, end, &turned);
     }
+    note_turned(sim, first, end, turned);
+}
+
+static void move_nodes(void *work, uint32_t first, uint32_t end)
+{
+    dmb_system_move_nodes(work, first, end);
+}
+
+void dmb_system_move(dmb_sim *sim)
+{
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
 }
 
 static int32_t finite_status(const dmb_sim *sim)
@@ -139,21 +157,31 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
  * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
  * links; what is left are the blocks of the nodes, to which all forces add. */
 
-/* FULL nodes from `node` on, up to the next free rigid body, whose block is done but for its inertia; `rigid` is the
- * first that may be there. */
-static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t rigid)
+/* FULL nodes from `node` on and before `end`, up to the next free rigid body, whose block is done but for its inertia;
+ * `rigid` is the first that may be there. */
+static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t rigid)
 {
-    const uint32_t count = dmb_full_nodes_at(scene, node);
+    const uint32_t count = dmb_full_nodes_before(scene, node, end);
     if (rigid == scene->free_rigid_count || scene->free_rigids[rigid].node >= node + count) return count;
     return scene->free_rigids[rigid].node - node;
 }
 
-static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
+/* rigid: the first free rigid body that counts as one. */
+typedef struct block_work {
+    dmb_sim *sim;
+    uint32_t rigid, reserved;
+} block_work;
+
+static void make_diagonal_blocks(void *work, uint32_t first, uint32_t end)
 {
+    const block_work *in = work;
+    const dmb_sim *sim = in->sim;
     const dmb_scene *scene = sim->scene;
     const dmb_block_layout *layout = &scene->layout;
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
-        count = nodes_to_turn(scene, i, rigid);
+    uint32_t rigid = in->rigid;
+    while (rigid < scene->free_rigid_count && scene->free_rigids[rigid].node < first) rigid++;
+    for (uint32_t i = first, count; i < end; i += count) {
+        count = nodes_to_turn(scene, i, end, rigid);
         const dmb_matrix_job job = {count, 0, sim->increment + layout->row[i], dmb_inertia_of(sim, i),
                                     dmb_stiffness_of(sim, i)};
         if (count > 0) {
@@ -164,6 +192,12 @@ static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
         if (layout->size[i] == DMB_NODE_FULL) rigid++;
         for (uint32_t k = 0; k < layout->diag[i + 1] - layout->diag[i]; k++) job.stiffness[k] += job.inertia[k];
     }
+}
+
+static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
+{
+    block_work work = {sim, rigid, 0};
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, make_diagonal_blocks, &work);
 }
 
 /* Row and column of an unknown that is not solved for: identity. */
@@ -247,11 +281,12 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
 }
 
 /* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
-static void unwrap_turns(dmb_sim *sim)
+static void unwrap_nodes(void *work, uint32_t first, uint32_t end)
 {
+    const dmb_sim *sim = work;
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
-        count = dmb_full_nodes_at(scene, i);
+    for (uint32_t i = first, count; i < end; i += count) {
+        count = dmb_full_nodes_before(scene, i, end);
         if (count > 0) {
             const dmb_turn_job job = {.count = count,
                                       .reference = scene->reference_quaternion + 4 * i,
@@ -266,6 +301,11 @@ static void unwrap_turns(dmb_sim *sim)
     }
 }
 
+void dmb_system_unwrap(dmb_sim *sim)
+{
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, unwrap_nodes, sim);
+}
+
 void dmb_system_take_reactions(dmb_sim *sim, dmb_configuration *to)
 {
     const dmb_scene *scene = sim->scene;
@@ -278,7 +318,6 @@ void dmb_system_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    unwrap_turns(sim);
     if (scene->inside_count) dmb_contacts_accept(evaluation);
     dmb_drives_accept(sim);
     if (scene->actuator_count) dmb_actuators_accept(evaluation);

@@ -44,6 +44,8 @@ typedef struct dmb_evaluation {
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Pose of the trial: that of now moved by `increment`. */
 void dmb_system_move(dmb_sim *sim);
+/* Those from `first` to before `end` alone. */
+void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end);
 /* Sets what contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only
  * the rows that are held are set, to held. Not of PATH nodes nor callers' forces. */
 void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
@@ -54,8 +56,10 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
 void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *held_rows);
 /* product (held) = those rows times z, shape (row). */
 void dmb_system_held_times(const dmb_sim *sim, const double *rows, const double *z, double *product);
-/* Results of a finished step: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
- * memory; called just before the swap. */
+/* Unwrapped turns of the trial, from its pose and the increments. */
+void dmb_system_unwrap(dmb_sim *sim);
+/* Results of a finished step, whose turns are unwrapped: drive positions and forces, bit bottom and history. Trial ->
+ * trial and memory; called just before the swap. */
 void dmb_system_accept(dmb_evaluation *evaluation);
 
 /* Reactions of what is held, from the residual and the multipliers of the trial: memory, and forces of motion drives

@@ -8,6 +8,7 @@
 #include "kernel/kernels.h"
 #include "math/mat6.h"
 #include "sim/node.h"
+#include "sim/parts.h"
 #include "system/assemble/evaluation.h"
 
 /* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
@@ -45,10 +46,61 @@ static dmb_node_force_job job_of(const dmb_evaluation *evaluation, uint32_t node
     return job;
 }
 
+/* A run of FULL nodes that is made in pieces. */
+typedef struct node_pieces {
+    const dmb_evaluation *evaluation;
+    uint32_t node, count, rigid_mass, pieces;
+} node_pieces;
+
+/* The first rigid mass from `next` on that is not before the node; they stand in the order of their nodes. */
+static uint32_t rigid_mass_from(const dmb_scene *scene, uint32_t next, uint32_t node)
+{
+    uint32_t end = scene->rigid_mass_count;
+    while (next < end) {
+        const uint32_t middle = next + (end - next) / 2;
+        if (scene->rigid_masses[middle].node < node)
+            next = middle + 1;
+        else
+            end = middle;
+    }
+    return next;
+}
+
+static void make_pieces(void *work, uint32_t first, uint32_t end)
+{
+    const node_pieces *in = work;
+    const dmb_sim *sim = in->evaluation->sim;
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t begin = dmb_piece_begin(in->count, in->pieces, i), node = in->node + begin;
+        const uint32_t count = dmb_piece_begin(in->count, in->pieces, i + 1) - begin;
+        dmb_node_force_job job = job_of(in->evaluation, node, count, rigid_mass_from(sim->scene, in->rigid_mass, node));
+        sim->scene->kernels->node_forces(&job);
+        const dmb_piece_sums sums = {
+            .potential = job.potential, .damping = job.damping_power, .inertia = job.inertia_power};
+        sim->piece_sums[i] = sums;
+    }
+}
+
+static void gather_pieces(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+{
+    const dmb_sim *sim = evaluation->sim;
+    node_pieces in = {evaluation, node, count, rigid_mass, dmb_pieces_of(count)};
+    dmb_parts_run(sim, in.pieces, 1, make_pieces, &in);
+    for (uint32_t i = 0; i < in.pieces; i++) {
+        evaluation->power[DMB_POWER_INERTIA] += sim->piece_sums[i].inertia;
+        evaluation->power[DMB_POWER_POTENTIAL] += sim->piece_sums[i].potential;
+        evaluation->power[DMB_POWER_DAMPING] += sim->piece_sums[i].damping;
+    }
+}
+
 static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     dmb_node_force_job job = job_of(evaluation, node, count, rigid_mass);
     if (!job.gravity && !job.damping && !job.rigid_mass_count) return;
+    if (dmb_pieces_of(count) > 1) {
+        gather_pieces(evaluation, node, count, rigid_mass);
+        return;
+    }
     job.inertia_power = evaluation->power[DMB_POWER_INERTIA];
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];
     job.damping_power = evaluation->power[DMB_POWER_DAMPING];

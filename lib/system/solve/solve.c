@@ -5,6 +5,7 @@
 
 #include "kernel/kernels.h"
 #include "sim/node.h"
+#include "sim/parts.h"
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
@@ -31,6 +32,42 @@ static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end
     return i - first;
 }
 
+/* Rows of nodes of one size that are summed in pieces. */
+typedef struct square_pieces {
+    const dmb_sim *sim;
+    uint32_t row, count, size, pieces; /* first row, nodes, rows of each */
+} square_pieces;
+
+static void sum_pieces(void *work, uint32_t first, uint32_t end)
+{
+    const square_pieces *in = work;
+    const dmb_sim *sim = in->sim;
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t begin = dmb_piece_begin(in->count, in->pieces, i), row = in->row + in->size * begin;
+        const uint32_t count = dmb_piece_begin(in->count, in->pieces, i + 1) - begin;
+        dmb_piece_squares *out = sim->piece_squares + i;
+        sim->scene->kernels->squares(in->size * count, sim->residual + row, sim->scale_row + row,
+                                     sim->scene->solved_row + row, out->rest, out->all);
+    }
+}
+
+static void squares_of(const dmb_sim *sim, uint32_t row, uint32_t count, uint32_t size, dmb_piece_squares *sum)
+{
+    square_pieces in = {sim, row, count, size, dmb_pieces_of(count)};
+    if (in.pieces == 1) {
+        sim->scene->kernels->squares(size * count, sim->residual + row, sim->scale_row + row,
+                                     sim->scene->solved_row + row, sum->rest, sum->all);
+        return;
+    }
+    memset(sum, 0, sizeof *sum);
+    dmb_parts_run(sim, in.pieces, 1, sum_pieces, &in);
+    for (uint32_t i = 0; i < in.pieces; i++)
+        for (uint32_t c = 0; c < DMB_SQUARES; c++) {
+            sum->rest[c] += sim->piece_squares[i].rest[c];
+            sum->all[c] += sim->piece_squares[i].all[c];
+        }
+}
+
 static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
@@ -38,12 +75,11 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     const uint32_t end = chain->first + chain->count;
     norms n = {0.0, 0.0};
     for (uint32_t i = chain->first, count; i < end; i += count) {
-        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        double rest[DMB_SQUARES], all[DMB_SQUARES];
+        const uint32_t size = scene->layout.size[i];
+        dmb_piece_squares sum;
         count = nodes_alike(scene, i, end);
-        scene->kernels->squares(count * size, sim->residual + row, sim->scale_row + row, scene->solved_row + row, rest,
-                                all);
-        add_components(size, arm, rest, all, &n);
+        squares_of(sim, scene->layout.row[i], count, size, &sum);
+        add_components(size, arm, sum.rest, sum.all, &n);
     }
     return n;
 }
@@ -119,17 +155,106 @@ static dmb_block_matrix matrix_of(const dmb_sim *sim)
     return matrix;
 }
 
+/* ---- Chains, both ends of each at once --------------------------------------------------------------------------- */
+
+/* Blocks of a chain from which on its ends are parts of their own. */
+enum { DMB_ENDS_FROM = 64 };
+
+static int has_ends(const dmb_chain *chain)
+{
+    return chain->count >= DMB_ENDS_FROM && !chain->jointed;
+}
+
+/* Part number 2 c + side is an end of chain c. */
+typedef struct ends_work {
+    const dmb_sim *sim;
+    dmb_block_matrix matrix;
+    double *rhs;
+    int32_t away, reserved;
+} ends_work;
+
+/* A chain's first singular block at one end is left in end_singular. */
+static void factor_ends(void *work, uint32_t first, uint32_t end)
+{
+    ends_work *in = work;
+    const dmb_scene *scene = in->sim->scene;
+    for (uint32_t i = first; i < end; i++) {
+        const dmb_chain *chain = scene->chains + i / 2;
+        if (!has_ends(chain)) continue;
+        in->sim->end_singular[i] =
+            scene->kernels->factor_part(&scene->layout, &in->matrix, chain->first, chain->count, i % 2);
+    }
+}
+
+/* The one that factor_blocks meets first, going along both ends by turns. */
+static int64_t first_singular(const dmb_chain *chain, const int64_t at[2])
+{
+    const uint32_t last = chain->first + chain->count - 1, extra = chain->count % 2 == 0;
+    if (at[0] < 0 || at[1] < 0) return at[0] < 0 ? at[1] : at[0];
+    return at[0] - chain->first <= (int64_t)last - at[1] + extra ? at[0] : at[1];
+}
+
+static int64_t factor_chain(const dmb_sim *sim, dmb_block_matrix *matrix, uint32_t c, int parts)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_chain *chain = scene->chains + c;
+    if (chain->jointed) return -1;
+    if (!parts || !has_ends(chain)) return scene->kernels->factor(&scene->layout, matrix, chain->first, chain->count);
+    const int64_t bad = first_singular(chain, sim->end_singular + 2 * (size_t)c);
+    return bad >= 0 ? bad : scene->kernels->factor_part(&scene->layout, matrix, chain->first, chain->count, 2);
+}
+
+/* Chains that no joints connect. */
+static int64_t factor_chains(const dmb_sim *sim, dmb_block_matrix *matrix)
+{
+    const int parts = dmb_parts_are_open(sim);
+    ends_work work = {sim, *matrix, NULL, 0, 0};
+    int64_t bad = -1;
+    if (parts) dmb_parts_run(sim, 2 * sim->scene->chain_count, 1, factor_ends, &work);
+    for (uint32_t c = 0; c < sim->scene->chain_count && bad < 0; c++) bad = factor_chain(sim, matrix, c, parts);
+    return bad;
+}
+
+static void solve_ends(void *work, uint32_t first, uint32_t end)
+{
+    const ends_work *in = work;
+    const dmb_scene *scene = in->sim->scene;
+    for (uint32_t i = first; i < end; i++) {
+        const dmb_chain *chain = scene->chains + i / 2;
+        if (has_ends(chain))
+            (in->away ? scene->kernels->away_part : scene->kernels->towards_part)(
+                &scene->layout, &in->matrix, chain->first, chain->count, i % 2, in->rhs);
+    }
+}
+
+static void solve_chain(const dmb_scene *scene, const dmb_block_matrix *factors, uint32_t c, int parts, double *z)
+{
+    const dmb_chain *chain = scene->chains + c;
+    if (chain->jointed) return;
+    if (parts && has_ends(chain))
+        scene->kernels->towards_part(&scene->layout, factors, chain->first, chain->count, 2, z);
+    else
+        scene->kernels->solve(&scene->layout, factors, chain->first, chain->count, z);
+}
+
+static void solve_chains(const dmb_sim *sim, const dmb_block_matrix *factors, double *z)
+{
+    const uint32_t chains = sim->scene->chain_count;
+    const int parts = dmb_parts_are_open(sim);
+    ends_work work = {sim, *factors, z, 0, 0};
+    if (parts) dmb_parts_run(sim, 2 * chains, 1, solve_ends, &work);
+    for (uint32_t c = 0; c < chains; c++) solve_chain(sim->scene, factors, c, parts, z);
+    work.away = 1;
+    if (parts) dmb_parts_run(sim, 2 * chains, 1, solve_ends, &work);
+}
+
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method)
 {
     const dmb_scene *scene = sim->scene;
     *sim->factors = DMB_FACTORS_FRESH;
     dmb_block_matrix matrix = matrix_of(sim);
-    for (uint32_t c = 0; c < scene->chain_count; c++) {
-        if (scene->chains[c].jointed) continue;
-        const int64_t bad =
-            scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
-        if (bad >= 0) return bad;
-    }
+    const int64_t bad = factor_chains(sim, &matrix);
+    if (bad >= 0) return bad;
     return scene->cluster_count ? dmb_reduced_factor(sim, method, NULL) : -1;
 }
 
@@ -179,6 +304,14 @@ static void clear_held(const dmb_scene *scene, double *z)
         z[scene->layout.row[scene->held_node[i]] + scene->held_component[i]] = 0.0;
 }
 
+/* By LU factors, as dmb_factor_stiffness makes them. */
+static void solve_stiffness(const dmb_scene *scene, const dmb_block_matrix *factors, double *z)
+{
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (!scene->chains[c].jointed)
+            dmb_block_solve(&scene->layout, factors, scene->chains[c].first, scene->chains[c].count, z);
+}
+
 void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
 {
     const dmb_scene *scene = sim->scene;
@@ -189,14 +322,10 @@ void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
         dmb_solve_reused(sim, z);
         return;
     }
-    for (uint32_t c = 0; c < scene->chain_count; c++) {
-        const dmb_chain *chain = scene->chains + c;
-        if (chain->jointed) continue;
-        if (*sim->factors == DMB_FACTORS_LU)
-            dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, z);
-        else
-            scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, z);
-    }
+    if (*sim->factors == DMB_FACTORS_LU)
+        solve_stiffness(scene, &matrix, z);
+    else
+        solve_chains(sim, &matrix, z);
     if (scene->cluster_count) dmb_reduced_solve(sim, z);
 }
 
@@ -260,34 +389,37 @@ void dmb_forget_factors(dmb_sim *sim)
 }
 
 /* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
-static void twist_rows(const dmb_sim *sim, const double *from, const double *to, double *rows)
+typedef struct twist_work {
+    const dmb_scene *scene;
+    const double *from, *to;
+    double *rows;
+} twist_work;
+
+static void twist_nodes(void *work, uint32_t first, uint32_t end)
 {
-    const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
-        count = dmb_full_nodes_at(scene, i);
-        const dmb_twist_job job = {count, 0, from + 4 * i, to + 4 * i, rows + scene->layout.row[i]};
+    const twist_work *in = work;
+    for (uint32_t i = first, count; i < end; i += count) {
+        count = dmb_full_nodes_before(in->scene, i, end);
+        const dmb_twist_job job = {count, 0, in->from + 4 * i, in->to + 4 * i, in->rows + in->scene->layout.row[i]};
         if (count > 0)
-            scene->kernels->twist(&job);
+            in->scene->kernels->twist(&job);
         else
             count = 1;
     }
 }
 
-static void solve_chains(const dmb_sim *sim, double *z)
+static void twist_rows(const dmb_sim *sim, const double *from, const double *to, double *rows)
 {
-    const dmb_scene *scene = sim->scene;
-    const dmb_block_matrix factors = {sim->reused_diagonal, sim->reused_lower, sim->reused_upper, NULL};
-    for (uint32_t c = 0; c < scene->chain_count; c++) {
-        const dmb_chain *chain = scene->chains + c;
-        scene->kernels->solve(&scene->layout, &factors, chain->first, chain->count, z);
-    }
+    twist_work work = {sim->scene, from, to, rows};
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, twist_nodes, &work);
 }
 
 void dmb_solve_reused(const dmb_sim *sim, double *z)
 {
+    const dmb_block_matrix factors = {sim->reused_diagonal, sim->reused_lower, sim->reused_upper, NULL};
     const int twisted = sim->scene->site_count > 0;
     if (twisted) twist_rows(sim, sim->trial.quaternion, sim->reused_quaternion, z);
-    solve_chains(sim, z);
+    solve_chains(sim, &factors, z);
     if (!twisted) return;
     twist_rows(sim, sim->reused_quaternion, sim->trial.quaternion, z);
     clear_held(sim->scene, z);

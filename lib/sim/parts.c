@@ -1,0 +1,87 @@
+#include "sim/parts.h"
+
+#include <string.h>
+
+/* The first that part number `part` of a run makes. */
+static uint32_t begin_of(const dmb_parts *parts, uint32_t part)
+{
+    const uint32_t units = (parts->count - 1) / parts->grain + 1;
+    const uint64_t begin = (uint64_t)units * part / parts->parts * parts->grain;
+    return begin < parts->count ? (uint32_t)begin : parts->count;
+}
+
+/* The caller's threads call this. Each part has a mark of its own; one that was begun is not begun again, and after the
+ * run there are none. */
+static void run_part(void *work, uint32_t part)
+{
+    dmb_parts *parts = work;
+    if (part >= parts->parts || parts->mark[part] != DMB_PART_DUE) return;
+    parts->mark[part] = DMB_PART_BEGUN;
+    const uint32_t first = begin_of(parts, part), end = begin_of(parts, part + 1);
+    if (first < end) parts->make(parts->work, first, end);
+    parts->mark[part] = DMB_PART_DONE;
+}
+
+void dmb_parts_open(dmb_sim *sim)
+{
+    const dmb_sim_options *o = &sim->options;
+    sim->parts->failed = 0;
+    sim->parts->parts = 0;
+    sim->parts->open = o->parallel != NULL && o->parallel_parts > 1 && sim->scene->element_count >= o->parallel_least;
+}
+
+int32_t dmb_parts_close(dmb_sim *sim)
+{
+    sim->parts->open = 0;
+    return sim->parts->failed ? DMB_ERR_CALLBACK : DMB_OK;
+}
+
+/* After a failure the rest of the step is made here, so that nothing more is asked of the caller's function. */
+static void fail(dmb_parts *parts, int32_t status, uint32_t done)
+{
+    parts->failed = 1;
+    parts->open = 0;
+    parts->status = status;
+    parts->done = done;
+    parts->asked = parts->parts;
+}
+
+void dmb_parts_run(const dmb_sim *sim, uint32_t count, uint32_t grain, dmb_range_fn make, void *work)
+{
+    dmb_parts *parts = sim->parts;
+    if (count == 0) return;
+    if (!parts->open || count <= grain) {
+        make(work, 0, count);
+        return;
+    }
+    const uint32_t units = (count - 1) / grain + 1, most = sim->options.parallel_parts;
+    parts->make = make;
+    parts->work = work;
+    parts->count = count;
+    parts->grain = grain;
+    memset(parts->mark, DMB_PART_DUE, sizeof parts->mark);
+    parts->parts = units < most ? units : most;
+    const int32_t status = sim->options.parallel(sim->options.parallel_context, parts->parts, run_part, parts);
+    uint32_t done = 0;
+    for (uint32_t i = 0; i < parts->parts; i++) done += parts->mark[i] == DMB_PART_DONE;
+    if (status != 0 || done < parts->parts) fail(parts, status, done);
+    parts->parts = 0;
+}
+
+int32_t dmb_parts_explain(dmb_sim *sim)
+{
+    const dmb_parts *parts = sim->parts;
+    if (!parts->failed) return 0;
+    if (parts->status != 0)
+        dmb_message_set(
+            &sim->message,
+            "sim options: parallel returned %d in the step after time %g, must return 0 when all parts have "
+            "run",
+            parts->status, sim->clock->time);
+    else
+        dmb_message_set(&sim->message,
+                        "sim options: parallel ran %u of %u parts in the step after time %g, must run each once and "
+                        "return when all have returned",
+                        parts->done, parts->asked, sim->clock->time);
+    return 1;
+}
