@@ -299,6 +299,16 @@ static inline void press_section(dmb_wall_job *job, wall_group *g, const dmb_con
 }
 #endif
 
+/* [-] step over c/k, from where on the spring alone governs a contact that the steps do not resolve: weights of its
+ * damping would only move its energy about. */
+#define DMB_TOUCH_COARSE 10.0
+
+static inline int is_weighted(const dmb_wall_job *job, const dmb_normal_law *law)
+{
+    const int coarse = law->exponent == 1.0 && job->step * law->stiffness > DMB_TOUCH_COARSE * law->damping;
+    return job->dynamic && job->step > 0.0 && !coarse;
+}
+
 /* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
 static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_normal_touch *touch,
                          dmb_real kept[DMB_TOUCH_SIZE])
@@ -310,7 +320,7 @@ static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_norma
     kept[DMB_TOUCH_TIME] = was[DMB_TOUCH_TIME];
     touch->weight = one;
     touch->by_depth = zero;
-    if (!job->dynamic || !(job->step > 0.0)) return;
+    if (!is_weighted(job, normal_law_of(job, g))) return;
     const dmb_mask pinned = dmb_mask_at_most(g->clearance, zero);
     const dmb_real before = load_line(job->now.penetration, &g->site);
     dmb_normal_touch_at(dmb_real_select(pinned, one, before), g->penetration, dmb_real_of(job->step), was, touch, kept);
