@@ -312,6 +312,7 @@ static inline void saved_describe_sideways(saved_scene *s)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
+    wall.normal_law = DMB_NORMAL_KELVIN_VOIGT;
     wall.cut_spacing = 0.1;
     wall.cut_end = 4.0;
     SAVED_MUST(s, dmb_model_add_wall(s->model, &wall, NULL));

@@ -235,6 +235,7 @@ static turner turned_by_a_table(void)
     memcpy(motor.table_speed, table_speed, sizeof table_speed);
     memcpy(motor.table_torque, table_torque, sizeof table_torque);
     assert_int_equal(dmb_motor_drive(&motor, &drive, &w0), DMB_OK);
+    drive.mud_pressure = 0.0; /* no mud goes through a body */
     drive.part = t.body;
     drive.component = DMB_RX;
     drive.lag = lag;
