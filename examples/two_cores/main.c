@@ -5,7 +5,7 @@
 #include "../command_line.h"
 #include "pool.h"
 
-enum { PIPES = 2000, STEPS = 100 };
+enum { PIPES = 2000, STEPS = 20 };
 
 /* A string in its hole, turned at the rig. */
 static int32_t describe(dmb_model *model)

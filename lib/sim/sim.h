@@ -3,9 +3,9 @@
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; st = s
- * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; piece = most pieces of one run
- * (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count, stuck =
- * stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
+ * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; piece = most pieces of one
+ * run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count,
+ * stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
  * event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
  * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
  * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */

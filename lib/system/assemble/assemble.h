@@ -146,11 +146,9 @@ void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t bit);
 
 void dmb_gather_bits(dmb_evaluation *evaluation);
 
-/* ---- The hole that cutters leave ----------------------------------------------------------------------------------
- */
+/* ---- The hole that cutters leave -------------------------------------------------------------------------------- */
 
-/* The hole is as wide as a cutter from its rear end, or from where its bottom was `before` [m of advance], to its face.
- */
+/* The hole is as wide as a cutter from its rear end, or from where its bottom was [m of advance], to its face. */
 void dmb_hole_make_room(dmb_sim *sim, uint32_t bit, double before);
 /* After a step was taken, which trial was before: stations that faces came up to in it. 1: rings touch the wall where
  * it gave way, so accelerations are to be made consistent. O(number of bits), of sites too where a station is cut. */

@@ -209,7 +209,7 @@ static uint32_t begin_of(const wall_pieces *in, uint32_t piece)
     return begin;
 }
 
-static void skip_fields(dmb_site_fields *fields, uint32_t first, int bristles)
+static void skip_fields(const dmb_wall_job *job, uint32_t first, dmb_site_fields *fields)
 {
     fields->normal += 3 * (size_t)first;
     fields->depth += first;
@@ -217,7 +217,8 @@ static void skip_fields(dmb_site_fields *fields, uint32_t first, int bristles)
     fields->impact_speed += first;
     fields->slip += 2 * (size_t)first;
     fields->segment += first;
-    if (!bristles) return;
+    if (job->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)first;
+    if (!job->bristles) return;
     fields->bristle += 2 * (size_t)first;
     fields->sticks += first;
 }
@@ -229,8 +230,8 @@ static dmb_wall_job part_of(const dmb_wall_job *all, uint32_t first, uint32_t en
     job.count = end - first;
     job.sites += first;
     job.site_return += first;
-    skip_fields(&job.now, first, job.bristles);
-    skip_fields(&job.trial, first, job.bristles);
+    skip_fields(all, first, &job.now);
+    skip_fields(all, first, &job.trial);
     job.rounding = job.potential = job.impact = job.friction = 0.0;
     return job;
 }
