@@ -93,6 +93,36 @@ static void hanging_chain(void **state)
     rig_close(&s);
 }
 
+/* A rigid pipe that hangs from its guide swings about it with sqrt(m g L/2 / J), J of its end: the reaction of a guide
+ * holds it as a joint does. */
+static void rigid_pipe_on_its_guide(void **state)
+{
+    (void)state;
+    const double L = 2.0, g = 9.81, mass = 3.0, across = 0.02,
+                 want = sqrt(mass * g * L / 2.0 / (mass * L * L / 3.0 + across * L));
+    const int32_t masks[2] = {DMB_FREE_RY, DMB_FREE_SPHERICAL};
+    for (int i = 0; i < 2; i++) {
+        rig s;
+        dmb_pipe_def pipe = beam_pipe(L, 1, 1e6, 1e6, 1.0, 4e-4);
+        dmb_string_def string = dmb_string_def_default();
+        rig_open(&s, 0, 0, -g);
+        pipe.kind = DMB_PIPE_RIGID;
+        pipe.section_mass = mass / L;
+        pipe.section_inertia[0] = 2.0 * across;
+        pipe.section_inertia[1] = across;
+        string.start_free = masks[i];
+        string.rotation[1] = 0.5 * PI; /* x down */
+        pipe.string = add_string(&s, &string);
+        (void)add_pipes(&s, &pipe, 1);
+        rig_start(&s, NULL);
+        dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
+        check_below("a rigid pipe hangs from its guide and swings", closest_mode(modes, want), 1e-12);
+        assert_int_equal(info_of(modes).rigid, i); /* on a ball it spins freely */
+        dmb_modes_destroy(&modes);
+        rig_close(&s);
+    }
+}
+
 /* ---- Wall -------------------------------------------------------------------------------------------------------- */
 
 /* A body of 2 kg on the floor of a wide hole of stiffness 1e6 N/m, free to move across it and along. */
@@ -267,6 +297,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whirl_of_a_spinning_pipe),
         cmocka_unit_test(hanging_chain),
+        cmocka_unit_test(rigid_pipe_on_its_guide),
         cmocka_unit_test(body_on_the_wall),
         cmocka_unit_test(friction_overdamps),
         cmocka_unit_test(frozen_closed_contact),

@@ -185,15 +185,17 @@ static int32_t put_held_rows(conditions *c, uint32_t candidate)
     return status;
 }
 
-/* Residual forces of the state do not count as holding: it turns with a motion. */
+/* Residual forces of the state do not count as holding: it turns with a motion. On rows that a guide holds they are its
+ * reaction, which balances. */
 static void add_unbalanced(const conditions *c)
 {
     const dmb_block_layout *layout = &c->linear->scene.layout;
+    const uint8_t *solved = c->linear->scene.solved_row;
     for (uint32_t i = 0; i < layout->n; i++) {
         const uint32_t size = layout->size[i], row = layout->row[i];
         double force = 0.0, motion = 0.0;
         for (uint32_t k = 0; k < size; k++) {
-            force += fabs(c->linear->residual[row + k]);
+            force += solved[row + k] ? fabs(c->linear->residual[row + k]) : 0.0;
             motion += fabs(c->d[row + k]);
         }
         for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += DMB_RIGID_RESIDUAL / c->tolerance * force * motion;
