@@ -1,22 +1,9 @@
-/* A reamer opens a pilot hole of 96 mm for a stabiliser of 115 mm that follows it. For each half metre: how far the
- * wide hole has come, the force of its wall on the stabiliser, and the thrust of the rig; with new wings and with worn
- * ones.
- */
+/* A reamer opens a pilot hole of 96 mm for a stabiliser of 115 mm that follows it. Each half metre: how far the wide
+ * hole has come, and the force of its wall on the stabiliser; with new wings and with worn ones. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
 #include "command_line.h"
-
-static int32_t add_drive(dmb_model *model, int32_t component, double speed)
-{
-    dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
-    term.h1 = speed;
-    drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, &term, 1, &drive.programme);
-    return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
-}
 
 static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
 {
@@ -25,18 +12,18 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
     dmb_pipe_def rod = dmb_pipe_def_default();
     dmb_ring_def follows = dmb_ring_def_default(), wings = dmb_ring_def_default();
     dmb_bit_def bit = dmb_bit_def_default(), reamer = dmb_bit_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_term term = dmb_term_default();
     hole.diameter = 0.120; /* as it was reamed before the run */
-    hole.cut_spacing = 0.25;
+    hole.cut_spacing = pilot.transition = 0.25;
     hole.cut_end = 20.0;
     pilot.depth = 7.625; /* the reamer stands at 7.5 m */
-    pilot.transition = hole.cut_spacing;
     pilot.diameter = 0.096;
     rod.length = 3.0;
     rod.damping_time = 1e-3;
-    follows.pipe = 2;
+    follows.pipe = wings.pipe = 2;
     follows.fraction = 0.2;
     follows.outer_diameter = 0.115;
-    wings.pipe = 2;
     wings.outer_diameter = diameter - 0.002;
     bit.rock_law = reamer.rock_law = DMB_ROCK_RATE;
     reamer.inner_radius = 0.048;
@@ -46,10 +33,14 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 4, NULL);
     if (status >= 0) status = dmb_model_add_ring(model, &follows, stabiliser);
     if (status >= 0) status = dmb_model_add_ring(model, &wings, &reamer.ring);
-    if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
-    if (status >= 0) status = dmb_model_add_bit(model, &reamer, NULL);
-    if (status >= 0) status = add_drive(model, DMB_X, 0.1);
-    if (status >= 0) status = add_drive(model, DMB_RX, 20.0);
+    for (int i = 0; i < 2 && status >= 0; i++) {
+        status = dmb_model_add_bit(model, i == 0 ? &bit : &reamer, NULL);
+        term.kind = DMB_TERM_STEP;
+        term.h1 = i == 0 ? 0.1 : 20.0; /* [m/s, rad/s] */
+        drive.component = i == 0 ? DMB_X : DMB_RX;
+        if (status >= 0) status = dmb_model_add_programme(model, &term, 1, &drive.programme);
+        if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
+    }
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 
@@ -57,8 +48,8 @@ static void tell(dmb_sim *sim, dmb_id stabiliser, double diameter)
 {
     dmb_contact wall = dmb_contact_default();
     dmb_hole_point at = dmb_hole_point_default();
-    double end = 7.5;
     for (uint32_t site = 0; dmb_query_contact(sim, site, &wall) >= 0 && wall.part.index != stabiliser.index;) site++;
+    double end = 7.5; /* [m] */
     while (dmb_query_hole_now(sim, end + 0.25, &at) >= 0 && at.diameter > diameter - 1e-9) end += 0.25;
     printf("%4.0f s: %.0f mm up to %.2f m, on the stabiliser %.2f N\n", dmb_sim_time(sim), 1e3 * diameter, end,
            wall.normal_force);

@@ -30,13 +30,13 @@
     X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
     X(double, pseudo_acceleration, r, NUMBERS) /* [m/s2, rad/s2] the a of generalized-alpha; in load steps of statics \
-                                                  the increments of the one reached:                                 \
-                                                  analysis/static/static_newton */                                   \
+                                                  the increments of the one reached */                                \
     /* system/assemble/wall_contact, from pose and velocity: */                                                       \
     X(double, site_normal, 3 * s, NUMBERS)        /* [-] world, last normal that was defined */                       \
     X(double, site_depth, s, NUMBERS)             /* [m] measured depth of the closest axis point */                  \
     X(uint32_t, site_segment, s, SEGMENTS)        /* [-] segment of the hole's axis it was found in */                \
-    X(double, site_penetration, s, NUMBERS)       /* [m] < 0: gap */                                                  \
+    X(double, site_penetration, s, NUMBERS)       /* [m] < 0: gap; system/assemble/wall_contact, where a hole is      \
+                                                     widened system/assemble/hole_cut */                              \
     X(double, site_impact_speed, s, NUMBERS)      /* [m/s] normal speed at the start of the present contact */        \
     X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
