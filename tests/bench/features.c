@@ -225,12 +225,15 @@ typedef struct variant {
     int32_t pipe_kind, features;
     int bare; /* wall, eccentricity, excitation, rock law and gravity are not even described */
     uint32_t contact_points;
+    double cut_spacing; /* [m] of the hole that the bit widens */
 } variant;
 
 static int32_t add_rig_surroundings(scene *s, const variant *v)
 {
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_wall_def wall = dmb_wall_def_default();
+    wall.cut_spacing = v->cut_spacing;
+    wall.cut_end = v->cut_spacing > 0.0 ? 2.0 * s->pipes * s->length : 0.0;
     if (!v->bare) return dmb_model_add_wall(s->model, &wall, NULL);
     environment.gravity[2] = 0.0;
     return dmb_model_set_environment(s->model, &environment);
@@ -267,6 +270,7 @@ static int32_t add_rig_bit(scene *s, const variant *v)
     bit.inertia[1] = bit.inertia[0];
     bit.diameter = 0.0;
     if (!v->bare) bit.rock_law = DMB_ROCK_REGENERATIVE;
+    if (v->cut_spacing > 0.0) bit.radius = 0.049;
     return dmb_model_add_bit(s->model, &bit, NULL);
 }
 
@@ -363,19 +367,20 @@ static int run_f(void)
         SHAKES = RUBS | DMB_FEATURE_VIBRATION,
         CUTS = SHAKES | DMB_FEATURE_ROCK
     };
-    static const variant variants[] = {{"rigid", DMB_PIPE_RIGID, 0, 0, 0},
-                                       {"axial_torsional", DMB_PIPE_AXIAL_TORSIONAL, 0, 0, 0},
-                                       {"flexible_bare", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 1, 0},
-                                       {"flexible", DMB_PIPE_FLEXIBLE, 0, 0, 0},
-                                       {"+gravity+contact", DMB_PIPE_FLEXIBLE, LIES, 0, 0},
-                                       {"+friction", DMB_PIPE_FLEXIBLE, RUBS, 0, 0},
-                                       {"+vibration", DMB_PIPE_FLEXIBLE, SHAKES, 0, 0},
-                                       {"+bit", DMB_PIPE_FLEXIBLE, CUTS, 0, 0},
-                                       {"+damping", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 0, 0},
-                                       {"lying_along_3", DMB_PIPE_FLEXIBLE, LIES, 0, 3},
-                                       {"lying_along_5", DMB_PIPE_FLEXIBLE, LIES, 0, 5},
-                                       {"open", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 0},
-                                       {"open_along_3", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 3}};
+    static const variant variants[] = {{"rigid", DMB_PIPE_RIGID, 0, 0, 0, 0.0},
+                                       {"axial_torsional", DMB_PIPE_AXIAL_TORSIONAL, 0, 0, 0, 0.0},
+                                       {"flexible_bare", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 1, 0, 0.0},
+                                       {"flexible", DMB_PIPE_FLEXIBLE, 0, 0, 0, 0.0},
+                                       {"+gravity+contact", DMB_PIPE_FLEXIBLE, LIES, 0, 0, 0.0},
+                                       {"+friction", DMB_PIPE_FLEXIBLE, RUBS, 0, 0, 0.0},
+                                       {"+vibration", DMB_PIPE_FLEXIBLE, SHAKES, 0, 0, 0.0},
+                                       {"+bit", DMB_PIPE_FLEXIBLE, CUTS, 0, 0, 0.0},
+                                       {"+damping", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 0, 0, 0.0},
+                                       {"+widened hole", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 0, 0, 0.01},
+                                       {"lying_along_3", DMB_PIPE_FLEXIBLE, LIES, 0, 3, 0.0},
+                                       {"lying_along_5", DMB_PIPE_FLEXIBLE, LIES, 0, 5, 0.0},
+                                       {"open", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 0, 0.0},
+                                       {"open_along_3", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 3, 0.0}};
     int failures = 0;
     for (size_t i = 0; i < sizeof variants / sizeof *variants; ++i) failures += measure_rig(&variants[i]);
     return failures > 0;

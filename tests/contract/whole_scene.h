@@ -1,7 +1,8 @@
-/* A scene with every kind of part, for the contract tests: a curved hole, a string of all three kinds of pipes with
- * tool joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own, drives of all kinds
- * with programmes of all kinds, dead and follower loads; an arm hinged to the body and hung from the string by springs,
- * with a wheel that is geared and driven, and a function that watches. Small enough to be run some thousand times. */
+/* A scene with every kind of part, for the contract tests: a curved hole that the bit widens, a string of all three
+ * kinds of pipes with tool joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own,
+ * drives of all kinds with programmes of all kinds, dead and follower loads; an arm hinged to the body and hung from
+ * the string by springs, with a wheel that is geared and driven, and a function that watches. Small enough to be run
+ * some thousand times. */
 #ifndef DMB_TESTS_WHOLE_SCENE_H
 #define DMB_TESTS_WHOLE_SCENE_H
 
@@ -147,6 +148,8 @@ static inline int32_t whole_add_wall(dmb_model *model, whole_parts *parts)
     wall.survey_count = 5;
     wall.normal_law = DMB_NORMAL_EXACT;
     wall.friction_law = DMB_FRICTION_BRISTLE;
+    wall.cut_spacing = 0.01;
+    wall.cut_end = 30.0;
     return dmb_model_add_wall(model, &wall, &parts->wall);
 }
 
@@ -247,6 +250,7 @@ static inline int32_t whole_add_bit(dmb_model *model, whole_parts *parts)
     bit.string = parts->string;
     bit.load = parts->table;
     bit.history = 128;
+    bit.radius = 0.049; /* leaves a wider hole */
     return dmb_model_add_bit(model, &bit, &parts->bit);
 }
 
