@@ -122,6 +122,26 @@ typedef struct dmb_wall_job {
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
 } dmb_wall_job;
 
+static inline void dmb_site_fields_skip(const dmb_wall_job *job, uint32_t count, dmb_site_fields *fields)
+{
+    fields->normal += 3 * (size_t)count;
+    fields->depth += count;
+    fields->penetration += count;
+    fields->impact_speed += count;
+    fields->slip += 2 * (size_t)count;
+    fields->segment += count;
+    if (job->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)count;
+    if (!job->bristles) return;
+    fields->bristle += 2 * (size_t)count;
+    fields->sticks += count;
+}
+/* The fields of both configurations go on to the site that stands so many behind the first. */
+static inline void dmb_wall_job_skip(dmb_wall_job *job, uint32_t count)
+{
+    dmb_site_fields_skip(job, count, &job->now);
+    dmb_site_fields_skip(job, count, &job->trial);
+}
+
 /* Turns of FULL nodes about their own x axes. */
 typedef struct dmb_turn_job {
     uint32_t count;

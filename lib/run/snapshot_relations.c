@@ -248,7 +248,7 @@ static int32_t check_settings(dmb_sim *sim)
     return status < 0 ? status : check_marks(sim);
 }
 
-/* ---- What is cut ------------------------------------------------------------------------------------------------- */
+/* ---- Cut holes --------------------------------------------------------------------------------------------------- */
 
 /* No station is wider than the widest cutter leaves it. */
 static int32_t check_widening(dmb_sim *sim)

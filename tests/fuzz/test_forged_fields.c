@@ -9,28 +9,13 @@
 
 #include <cmocka.h>
 
+#include "forged.h"
 #include "run/run.h"
-#include "saved_scenes.h"
 #include "sim/layout.h"
 
-enum { HEADER = 48, CONTENT_AT = 40, PLACES = 4 };
+enum { PLACES = 4 };
 
 static unsigned long taken, refused;
-
-typedef struct subject {
-    saved_scene scene;
-    dmb_sim *sim;
-    unsigned char *sound, *forged;
-    size_t size;
-    uint64_t hash;
-} subject;
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
-}
 
 static subject open_subject(int which)
 {

@@ -92,6 +92,8 @@ void dmb_contacts_forget(dmb_sim *sim);
 void dmb_contacts_slide(dmb_sim *sim);
 
 void dmb_gather_contacts(dmb_evaluation *evaluation);
+/* All rings on nodes, in pieces where they are many. */
+void dmb_press_rings(const dmb_sim *sim, dmb_wall_job *job);
 /* The rings inside elements that waited. */
 void dmb_contacts_accept(dmb_evaluation *evaluation);
 void dmb_gather_path_friction(dmb_evaluation *evaluation);

@@ -10,7 +10,6 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 #include "system/assemble/evaluation.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
@@ -193,88 +192,6 @@ static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
     return job;
 }
 
-/* Rings that are pressed on the wall in pieces; no node has rings in two of them. */
-typedef struct wall_pieces {
-    const dmb_sim *sim;
-    const dmb_wall_job *all;
-    const dmb_kernels *kernels;
-    uint32_t count, pieces;
-} wall_pieces;
-
-static uint32_t begin_of(const wall_pieces *in, uint32_t piece)
-{
-    const dmb_site *sites = in->all->sites;
-    uint32_t begin = dmb_piece_begin(in->count, in->pieces, piece);
-    while (begin > 0 && begin < in->count && sites[begin].node == sites[begin - 1].node) begin++;
-    return begin;
-}
-
-static void skip_fields(const dmb_wall_job *job, uint32_t first, dmb_site_fields *fields)
-{
-    fields->normal += 3 * (size_t)first;
-    fields->depth += first;
-    fields->penetration += first;
-    fields->impact_speed += first;
-    fields->slip += 2 * (size_t)first;
-    fields->segment += first;
-    if (job->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)first;
-    if (!job->bristles) return;
-    fields->bristle += 2 * (size_t)first;
-    fields->sticks += first;
-}
-
-/* The same for the sites from `first` to before `end`; nothing is summed yet. */
-static dmb_wall_job part_of(const dmb_wall_job *all, uint32_t first, uint32_t end)
-{
-    dmb_wall_job job = *all;
-    job.count = end - first;
-    job.sites += first;
-    job.site_return += first;
-    skip_fields(all, first, &job.now);
-    skip_fields(all, first, &job.trial);
-    job.rounding = job.potential = job.impact = job.friction = 0.0;
-    return job;
-}
-
-static void make_pieces(void *work, uint32_t first, uint32_t end)
-{
-    const wall_pieces *in = work;
-    for (uint32_t i = first; i < end; i++) {
-        dmb_wall_job job = part_of(in->all, begin_of(in, i), begin_of(in, i + 1));
-        in->kernels->walls(&job);
-        const dmb_piece_sums sums = {
-            .rounding = job.rounding, .potential = job.potential, .impact = job.impact, .friction = job.friction};
-        in->sim->piece_sums[i] = sums;
-    }
-}
-
-static void add_sums(const dmb_piece_sums *sums, dmb_wall_job *job)
-{
-    job->rounding += sums->rounding;
-    job->potential += sums->potential;
-    job->impact += sums->impact;
-    job->friction += sums->friction;
-}
-
-/* Sites of strings stand in the order of their nodes; those of bodies come behind them, and last. */
-static void press_rings(const dmb_sim *sim, dmb_wall_job *job)
-{
-    const dmb_kernels *kernels = sim->scene->hole.pieces == 0 ? sim->scene->kernels : dmb_kernels_of(1);
-    const uint32_t pieces = dmb_pieces_of(sim->scene->sites_in_order);
-    if (pieces == 1) {
-        kernels->walls(job);
-        return;
-    }
-    wall_pieces in = {sim, job, kernels, sim->scene->sites_in_order, pieces};
-    dmb_parts_run(sim, pieces, 1, make_pieces, &in);
-    for (uint32_t i = 0; i < pieces; i++) add_sums(sim->piece_sums + i, job);
-    dmb_wall_job rest = part_of(job, in.count, job->count);
-    kernels->walls(&rest);
-    const dmb_piece_sums sums = {
-        .rounding = rest.rounding, .potential = rest.potential, .impact = rest.impact, .friction = rest.friction};
-    add_sums(&sums, job);
-}
-
 void dmb_gather_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -284,7 +201,7 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];
     job.impact = evaluation->power[DMB_POWER_IMPACT];
     job.friction = evaluation->power[DMB_POWER_FRICTION];
-    press_rings(evaluation->sim, &job);
+    dmb_press_rings(evaluation->sim, &job);
     if (scene->inside_count > 0) dmb_gather_contacts_inside(evaluation, 0, &job);
     evaluation->rounding = job.rounding;
     evaluation->power[DMB_POWER_POTENTIAL] = job.potential;

@@ -89,20 +89,6 @@ static void take_node(const dmb_sim *sim, uint32_t s, const section *motion, sec
     at->now_quaternion[0] = 1.0;
 }
 
-static void shift_fields(dmb_site_fields *fields, uint32_t s, const dmb_wall_job *job)
-{
-    fields->normal += 3 * (size_t)s;
-    fields->depth += s;
-    fields->penetration += s;
-    fields->impact_speed += s;
-    fields->slip += 2 * (size_t)s;
-    fields->segment += s;
-    if (job->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)s;
-    if (!job->bristles) return;
-    fields->bristle += 2 * (size_t)s;
-    fields->sticks += s;
-}
-
 /* ---- Tangent ----------------------------------------------------------------------------------------------------- */
 
 /* out (6, 12) += M B */
@@ -188,8 +174,7 @@ static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at
     job->scale = at->scale;
     job->stiffness = at->stiffness;
     job->inertia = at->inertia;
-    shift_fields(&job->now, s, job);
-    shift_fields(&job->trial, s, job);
+    dmb_wall_job_skip(job, s);
     dmb_kernels_of(1)->walls(job);
 }
 
