@@ -294,22 +294,19 @@ FUNCTION(fmi2Status, fmi2DeSerializeFMUstate, fmi2Component handle, const fmi2By
     return (fmi2Status)unit_state_read(unit_of(handle), bytes, size, state);
 }
 
-/* ---- Not offered, as modelDescription.xml says: 2.1.9, 4.2.1 ------------------------------------------------------
- * Directional derivatives, here and in fmi3.c, would be those of the outputs by the inputs with the time and the state
- * of the communication point fixed: 0 for all that is position, speed or force of a contact, which inputs change by the
- * coming step alone, and for the rest the jump of an acceleration or of a drive's force, which is 0 too where the input
- * has a rate limit. An importer that couples units by them would take the coming step for one that answers nothing.
- * Derivatives over that step are what it needs: states can be kept and set again (the numbers are the same bit for
- * bit), so that it takes them by differences over the very step it will make; beside a unit, the library has them by
- * sensitivity.h. */
+/* ---- 2.1.9: directional derivatives ---------------------------------------------------------------------------------
+ */
 FUNCTION(fmi2Status, fmi2GetDirectionalDerivative, fmi2Component handle, const fmi2ValueReference unknowns[],
          size_t unknown_count, const fmi2ValueReference knowns[], size_t known_count, const fmi2Real seed[],
          fmi2Real sensitivity[])
 {
-    (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed, (void)sensitivity;
-    return refused(handle, "fmi2GetDirectionalDerivative");
+    if (!handle) return fmi2Error;
+    return (fmi2Status)unit_derivative(unit_of(handle), unknowns, unknown_count, knowns, known_count, seed,
+                                       sensitivity);
 }
 
+/* ---- Not offered, as modelDescription.xml says: 4.2.1 ---------------------------------------------------------------
+ */
 FUNCTION(fmi2Status, fmi2SetRealInputDerivatives, fmi2Component handle, const fmi2ValueReference references[],
          size_t count, const fmi2Integer orders[], const fmi2Real values[])
 {

@@ -243,7 +243,21 @@ FUNCTION(fmi3Status, fmi3DeserializeFMUState, fmi3Instance handle, const fmi3Byt
     return (fmi3Status)unit_state_read(unit_of(handle), bytes, size, state);
 }
 
+/* ---- 2.2.11: directional derivatives ------------------------------------------------------------------------------
+ */
+FUNCTION(fmi3Status, fmi3GetDirectionalDerivative, fmi3Instance handle, const fmi3ValueReference unknowns[],
+         size_t unknown_count, const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[],
+         size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count)
+{
+    if (!handle) return fmi3Error;
+    if (known_count != seed_count) return counts_differ(handle, known_count, seed_count);
+    if (unknown_count != sensitivity_count) return counts_differ(handle, unknown_count, sensitivity_count);
+    return (fmi3Status)unit_derivative(unit_of(handle), unknowns, unknown_count, knowns, known_count, seed,
+                                       sensitivity);
+}
+
 #define FMI3_HAS_INTEGERS
+#define FMI3_HAS_DERIVATIVES
 #define FMI3_HAS_EVENTS
 #define FMI3_HAS_STATES
 #define FMI3_REFUSED(handle, call) refused((handle), (call))

@@ -1,7 +1,7 @@
 /* Functions of FMI 3.0 that a unit does not offer: included once by the file that has those it does. That file defines
  * FUNCTION (declaration and head of an exported function) and FMI3_REFUSED(handle, call), the answer to a call by name,
  * a literal; FMI3_HAS_INTEGERS where it has fmi3GetInt32, FMI3_HAS_EVENTS where it has event mode, FMI3_HAS_STATES
- * where states can be saved. */
+ * where states can be saved, FMI3_HAS_DERIVATIVES where it has fmi3GetDirectionalDerivative. */
 #include "fmi3_declarations.h"
 
 /* ---- 4.2.1, 3.2.1, 5.2.1: instances of other kinds ------------------------------------------------------------------
@@ -105,8 +105,10 @@ FUNCTION(fmi3Status, fmi3SetClock, fmi3Instance handle, const fmi3ValueReference
 NOT_OFFERED(fmi3GetNumberOfVariableDependencies, fmi3ValueReference reference, size_t *count)
 NOT_OFFERED(fmi3GetVariableDependencies, fmi3ValueReference dependent, size_t dependent_elements[],
             fmi3ValueReference independents[], size_t independent_elements[], fmi3DependencyKind kinds[], size_t count)
+#ifndef FMI3_HAS_DERIVATIVES
 NOT_OFFERED(fmi3GetDirectionalDerivative, REFERENCES, const fmi3ValueReference knowns[], size_t known_count,
             const fmi3Float64 seed[], size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count)
+#endif
 NOT_OFFERED(fmi3GetAdjointDerivative, REFERENCES, const fmi3ValueReference knowns[], size_t known_count,
             const fmi3Float64 seed[], size_t seed_count, fmi3Float64 sensitivity[], size_t sensitivity_count)
 NOT_OFFERED(fmi3GetOutputDerivatives, REFERENCES, const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count)

@@ -122,9 +122,8 @@ unit_status unit_reset(unit *u)
 
 /* ---- The sim at time 0 --------------------------------------------------------------------------------------------
  */
-/* Inputs move the run from time 0 on; the others, parameters, are there in the static state already. As CONTROLLED of
- * drillmbd/fmu.py. */
-static int is_controlled(const dmb_input_info *input)
+/* The others, parameters, are there in the static state already. */
+int unit_input_is_controlled(const dmb_input_info *input)
 {
     return input->target == DMB_TARGET_SET_POINT || input->target == DMB_TARGET_LOAD_FACTOR ||
            input->target == DMB_TARGET_BIT_LOAD;
@@ -139,7 +138,7 @@ static int32_t set_all(unit *u, int controlled)
     int32_t status = DMB_ERR_NO_MEMORY;
     if (ids && values) {
         for (uint32_t i = 0; i < u->input_count; ++i) {
-            if (!u->is_set[i] || is_controlled(&u->inputs[i]) != controlled) continue;
+            if (!u->is_set[i] || unit_input_is_controlled(&u->inputs[i]) != controlled) continue;
             ids[count] = u->inputs[i].input;
             values[count++] = u->values[i];
         }
@@ -188,12 +187,12 @@ static unit_status unknown(const unit *u, uint32_t reference, const char *type)
         reference, type, UNIT_INPUTS, u->input_count, UNIT_OUTPUTS, u->scene.output_count, UNIT_EVENTS, u->event_count);
 }
 
-static int is_input(const unit *u, uint32_t reference)
+int unit_has_input(const unit *u, uint32_t reference)
 {
     return reference >= UNIT_INPUTS && reference < UNIT_INPUTS + u->input_count && reference < UNIT_OUTPUTS;
 }
 
-static int is_output(const unit *u, uint32_t reference)
+int unit_has_output(const unit *u, uint32_t reference)
 {
     return reference >= UNIT_OUTPUTS && reference < UNIT_OUTPUTS + u->scene.output_count && reference < UNIT_EVENTS;
 }
@@ -228,9 +227,9 @@ static unit_status get_one(unit *u, uint32_t reference, double *value)
         *value = u->sim ? dmb_sim_time(u->sim) : 0.0;
     } else if (reference == UNIT_STEP) {
         *value = u->step;
-    } else if (is_input(u, reference)) {
+    } else if (unit_has_input(u, reference)) {
         return get_input(u, reference - UNIT_INPUTS, value);
-    } else if (is_output(u, reference)) {
+    } else if (unit_has_output(u, reference)) {
         return get_output(u, reference - UNIT_OUTPUTS, value);
     } else {
         return unknown(u, reference, "real number");
@@ -279,7 +278,7 @@ static unit_status check_early(const unit *u, uint32_t reference, double value)
                              value);
         return UNIT_OK;
     }
-    if (!is_input(u, reference)) return unknown(u, reference, "input or parameter");
+    if (!unit_has_input(u, reference)) return unknown(u, reference, "input or parameter");
     if (!isfinite(value))
         return unit_tell(u, UNIT_DISCARD, "value refused: input %s = %g %s, must be finite",
                          u->inputs[reference - UNIT_INPUTS].name, value, u->inputs[reference - UNIT_INPUTS].unit);

@@ -56,9 +56,19 @@ unit_status unit_tell(const unit *u, unit_status status, const char *format, ...
 /* UNIT_OK in one of the modes (mask of 1 << unit_mode). */
 unit_status unit_require(const unit *u, unsigned modes, const char *call);
 
+/* [-] 1: a value reference of the unit's inputs, tunable parameters among them; of its outputs. */
+int unit_has_input(const unit *u, uint32_t reference);
+int unit_has_output(const unit *u, uint32_t reference);
+/* [-] 1: an input, which moves the run from time 0 on; 0: a tunable parameter. As CONTROLLED of drillmbd/fmu.py. */
+int unit_input_is_controlled(const dmb_input_info *input);
 unit_status unit_get(unit *u, const uint32_t *references, size_t count, double *values);
 unit_status unit_get_counts(unit *u, const uint32_t *references, size_t count, int32_t *values);
 unit_status unit_set(unit *u, const uint32_t *references, size_t count, const double *values);
+
+/* sensitivity = derivatives of the outputs `unknowns` by the inputs `knowns`, times seed, shape (known_count), at the
+ * present time with the state held; shape (unknown_count). Nothing is changed. */
+unit_status unit_derivative(unit *u, const uint32_t *unknowns, size_t unknown_count, const uint32_t *knowns,
+                            size_t known_count, const double *seed, double *sensitivity);
 
 unit_status unit_begin(unit *u, double start); /* initialization mode */
 unit_status unit_prepare(unit *u);             /* makes the sim at time 0, where it is not there */

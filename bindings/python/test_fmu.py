@@ -1,6 +1,7 @@
 """Units for co-simulation exported from scene files, held against the scene's own run (equal numbers), what their description says
 against what the scene says, and what is refused."""
 import ctypes
+import math
 import os
 import subprocess
 import unittest
@@ -12,7 +13,8 @@ from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
 needs("numpy", "pint")
 
-from drillmbd import fmu, scene  # noqa: E402
+import drillmbd as mbd  # noqa: E402
+from drillmbd import INPUT_SETTING, OUTPUT_CHANNEL, Input, Output, fmu, scene  # noqa: E402
 from test_scene import EVERYTHING, SCENES  # noqa: E402
 
 try:
@@ -131,6 +133,19 @@ class Unit3:
         self.call("GetFloat64", (c_uint32 * len(references))(*references), c_size_t(len(references)), values,
                   c_size_t(len(references)))
         return list(values)
+
+    def derivative(self, unknowns, knowns, seed, refused=None):
+        """Shape (unknowns); None where it is refused with that status."""
+        values = (c_double * len(unknowns))(*[7.0] * len(unknowns))
+        arguments = ((c_uint32 * len(unknowns))(*unknowns), c_size_t(len(unknowns)), (c_uint32 * len(knowns))(*knowns),
+                     c_size_t(len(knowns)), (c_double * len(seed))(*seed), c_size_t(len(seed)), values, c_size_t(len(unknowns)))
+        if refused is None:
+            self.call("GetDirectionalDerivative", *arguments)
+            return list(values)
+        status = self.library.fmi3GetDirectionalDerivative(self.handle, *arguments)
+        assert status == refused, (unknowns, knowns, seed, status)
+        assert list(values) == [7.0] * len(unknowns)
+        return None
 
     def begin(self):
         self.call("EnterInitializationMode", c_bool(False), c_double(0.0), c_double(0.0), c_bool(False), c_double(0.0))
@@ -297,27 +312,69 @@ class Fmu(FolderTest):
                      for tag in names]
             self.assertEqual(found, [[None, "", None, ""], [None, None, None, ""]])  # torque, bit speed, wall force, events
 
-    def test_why_no_directional_derivatives(self):
-        """At a communication point the bit's speed does not depend on the input; over the coming step it does."""
-        _, root, folder = self.unpacked()
-        self.assertEqual(root.find("CoSimulation").get("providesDirectionalDerivatives"), "false")
+    def test_directional_derivatives(self):
+        """At an equilibrium those are D of the state space; of poses and speeds they are 0; along a seed they add up."""
+        loaded, root, folder = self.unpacked(3, MOVED.replace("static = false", "static = true"))
+        self.assertEqual(root.find("CoSimulation").get("providesDirectionalDerivatives"), "true")
         unit = Unit3(folder, root.get("instantiationToken"), "rig3")
         unit.begin()
-        unit.step(0.0, 2e-2)
-        state = c_void_p()
-        unit.call("GetFMUState", byref(state))
-        at_once, over_the_step = [], []
-        for speed in (5.0, 6.0, 5.0):
-            unit.call("SetFMUState", state)
-            unit.set(100000, speed)
-            at_once += unit.get(200001)
-            unit.step(2e-2, 1e-2)
-            over_the_step += unit.get(200001)
-        unit.call("FreeFMUState", byref(state))
+        names = list(loaded.model.inputs())
+        at = {name: 100000 + names.index(name) for name in ("speed", "pull factor", "weight")}
+        outputs = [200000 + number for number in range(len(loaded.channels))]
+        found = {name: unit.derivative(outputs, [reference], [1.0]) for name, reference in at.items()}
+        free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
+                if one.get("dependencies") == ""}
+        for values in found.values():
+            self.assertEqual({values[number] for number, one in enumerate(outputs) if one in free}, {0.0})
+        self.assertAlmostEqual(found["speed"][0], 500.0, delta=1e-8)  # gain: torque over speed
+        limited = unit.derivative(outputs, [100000 + names.index("advance")], [1.0])
+        self.assertLess(max(map(abs, limited)), 1e-20)  # what has a rate limit does not jump
+        with loaded.new_sim() as sim:
+            sim.static()
+            inputs = [Input(kind=INPUT_SETTING, place=mbd.station(loaded.model.inputs()[name].input)) for name in at]
+            asked = [0, len(outputs) - 1]  # torque of the head, acceleration
+            D = sim.state_space(inputs, [Output(kind=OUTPUT_CHANNEL, component=loaded.channels[i][2], place=loaded.channels[i][1])
+                                         for i in asked]).D
+        self.assertGreater(abs(D[1]).min(), 1e-9)
+        for column, name in enumerate(at):
+            for row, i in enumerate(asked):
+                self.assertAlmostEqual(found[name][i], D[row, column], delta=1e-7 * abs(D[row]).max(), msg=f"{name}, {i}")
+        seed = [3.0, -2.0, 0.5]
+        together = unit.derivative(outputs, list(at.values()), seed)
+        for number, value in enumerate(together):
+            want = sum(weight * found[name][number] for name, weight in zip(at, seed))
+            self.assertAlmostEqual(value, want, delta=1e-12 * max(1.0, abs(want)))
         unit.close()
-        self.assertEqual(at_once[0], at_once[1])
-        self.assertGreater(over_the_step[1] - over_the_step[0], 1e-3)
-        self.assertEqual(over_the_step[0], over_the_step[2])
+
+    def test_directional_derivatives_change_nothing(self):
+        """Between steps of a run, at a bound of the input, in initialization; the run goes on with the same bits."""
+        loaded, root, folder = self.unpacked(3, SCENE + EVENT)
+        numbers = []
+        for asks in (False, True):
+            unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+            unit.call("EnterInitializationMode", c_bool(False), c_double(0.0), c_double(0.0), c_bool(False), c_double(0.0))
+            if asks:
+                self.assertAlmostEqual(unit.derivative([200000], [100000], [1.0])[0], 500.0, delta=1e-8)
+                self.assertEqual(unit.derivative([200000], [100001], [1.0], 2), None)  # friction: in the static state
+            unit.call("ExitInitializationMode")
+            seen = []
+            for step in range(8):
+                unit.set(100000, 31.41592653589793 if step > 5 else 4.0 + step)  # in the end at its upper bound
+                if asks:
+                    self.assertAlmostEqual(unit.derivative([200000], [100000], [1.0])[0], 500.0, delta=1e-8)
+                    pushed = unit.derivative([200001, 200002], [100001, 100000], [1.0, 1.0])
+                    self.assertEqual(pushed, [0.0, 0.0])
+                seen.append(unit.get(200000, 200001, 200002))
+                unit.step(2e-3 * step, 2e-3)
+            numbers.append(seen)
+            for unknowns, knowns, seed, status in (([100000], [100000], [1.0], 3), ([200000], [200000], [1.0], 3),
+                                                   ([300000], [100000], [1.0], 3), ([200000], [1], [1.0], 3),
+                                                   ([200000], [100000], [math.inf], 2), ([200000], [100000], [math.nan], 2)):
+                self.assertEqual(unit.derivative(unknowns, knowns, seed, status), None)
+            self.assertEqual(unit.derivative([], [], []), [])
+            self.assertEqual(unit.derivative([200000], [], []), [0.0])
+            unit.close()
+        self.assertEqual(numbers[0], numbers[1])
 
     def test_description2(self):
         _, root, folder = self.unpacked(2, SCENE + EVENT)

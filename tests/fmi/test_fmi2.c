@@ -21,6 +21,8 @@ static struct {
     fmi2Status (*state_size)(fmi2Component, fmi2FMUstate, size_t *);
     fmi2Status (*serialize)(fmi2Component, fmi2FMUstate, fmi2Byte *, size_t);
     fmi2Status (*deserialize)(fmi2Component, const fmi2Byte *, size_t, fmi2FMUstate *);
+    fmi2Status (*derivative)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2ValueReference *, size_t,
+                             const double *, double *);
 } fmi;
 
 static int load(void **state)
@@ -43,6 +45,7 @@ static int load(void **state)
     import(library, "fmi2SerializedFMUstateSize", &fmi.state_size);
     import(library, "fmi2SerializeFMUstate", &fmi.serialize);
     import(library, "fmi2DeSerializeFMUstate", &fmi.deserialize);
+    import(library, "fmi2GetDirectionalDerivative", &fmi.derivative);
     return 0;
 }
 
@@ -123,6 +126,33 @@ static void test_bits_of_the_library(void **state)
     close_rig(&r);
 }
 
+/* Torque by speed is the controller's gain, which the torque at another speed tells; the bit's speed stays. Nothing
+ * changes. */
+static void test_directional_derivative(void **state)
+{
+    (void)state;
+    rig r;
+    open_rig(&r, 0);
+    const fmi2ValueReference outputs[OUTPUTS] = {TORQUE, BIT_SPEED}, speed = SPEED;
+    const double seed = 2.0;
+    double before[OUTPUTS], after[OUTPUTS], more[OUTPUTS], slope[OUTPUTS];
+    fmi2Component unit = instance_of(&r);
+    assert_int_equal(fmi.derivative(unit, outputs, OUTPUTS, &speed, 1, &seed, slope), fmi2Error);
+    begin(unit);
+    go(unit, 0, 6, before);
+    assert_int_equal(fmi.derivative(unit, outputs, OUTPUTS, &speed, 1, &seed, slope), fmi2OK);
+    assert_int_equal(fmi.get(unit, outputs, OUTPUTS, after), fmi2OK);
+    assert_memory_equal(before, after, sizeof before);
+    set_one(unit, SPEED, speed_at(5 * 2e-3) + seed);
+    assert_int_equal(fmi.get(unit, outputs, OUTPUTS, more), fmi2OK);
+    assert_true(more[0] - before[0] > 1.0);
+    assert_true(fabs(slope[0] - (more[0] - before[0])) < 1e-9 * fabs(slope[0]));
+    assert_true(slope[1] == 0.0);
+    assert_int_equal(fmi.derivative(NULL, outputs, OUTPUTS, &speed, 1, &seed, slope), fmi2Error);
+    fmi.free_instance(unit);
+    close_rig(&r);
+}
+
 static void test_states(void **state)
 {
     (void)state;
@@ -193,7 +223,8 @@ static void test_events_and_nonsense(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bits_of_the_library), cmocka_unit_test(test_states),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bits_of_the_library),
+                                       cmocka_unit_test(test_directional_derivative), cmocka_unit_test(test_states),
                                        cmocka_unit_test(test_events_and_nonsense)};
     return cmocka_run_group_tests(tests, load, NULL);
 }

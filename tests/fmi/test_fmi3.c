@@ -302,7 +302,10 @@ static void test_nonsense(void **state)
     refused(fmi.set(unit, &speed, 1, &high, 1), fmi3Discard, &log, "speed");
     refused(fmi.set(unit, &inner, 1, &value, 1), fmi3Error, &log, "fixed");
     refused(fmi.get(unit, &speed, 1, &value, 2), fmi3Error, &log, "as many");
-    refused(fmi.derivative(unit, &torque, 1, &speed, 1, &value, 1, &value, 1), fmi3Error, &log, "not offered");
+    refused(fmi.derivative(unit, &speed, 1, &speed, 1, &value, 1, &value, 1), fmi3Error, &log, "is no output");
+    refused(fmi.derivative(unit, &torque, 1, &torque, 1, &value, 1, &value, 1), fmi3Error, &log, "is no input");
+    refused(fmi.derivative(unit, &torque, 1, &speed, 1, &value, 2, &value, 1), fmi3Error, &log, "as many");
+    refused(fmi.derivative(unit, &torque, 1, &speed, 1, &nan, 1, &value, 1), fmi3Discard, &log, "must be finite");
     step(unit, 0.0, 1e-3);
     refused(fmi.do_step(unit, 0.0, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "the unit is at 0.001 s");
     refused(fmi.do_step(unit, 1e-3, -1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "must be > 0");

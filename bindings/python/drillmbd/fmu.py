@@ -371,11 +371,11 @@ def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
     found = {"modelIdentifier": identifier, "canHandleVariableCommunicationStepSize": "true"}
     if version == 2:
         return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true",
-                "canSerializeFMUstate": "true", "providesDirectionalDerivative": "false",
+                "canSerializeFMUstate": "true", "providesDirectionalDerivative": "true",
                 "canNotUseMemoryManagementFunctions": "true"}
     told = "true" if scene.model.events() else "false"
     return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true",
-            "providesDirectionalDerivatives": "false", "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
+            "providesDirectionalDerivatives": "true", "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
 
 
 def description(scene: Scene, version: int, identifier: str, token: str, found: list[Variable],
