@@ -11,7 +11,7 @@ enum { TRIED = 200 }; /* questions of a call that fail, spread over all of them 
 typedef struct subject {
     rig r;
     dmb_sim *low, *high, *beside;
-    dmb_id part, drive, joint, load;
+    dmb_id part, drive, turn, joint, load, input;
     dmb_place place;
     double home;           /* [m] x of the place where it is held */
     double found;          /* a derivative */
@@ -90,7 +90,7 @@ static void add_drives(subject *c)
     c->drive = add_drive(&c->r, &drive);
     drive.kind = DMB_DRIVE_MOTION;
     drive.component = DMB_RX;
-    (void)add_drive(&c->r, &drive);
+    c->turn = add_drive(&c->r, &drive);
 }
 
 static void open_model(subject *c)
@@ -108,6 +108,16 @@ static void start(subject *c)
     (void)find_equilibrium(&c->r, NULL);
 }
 
+/* Takes the programme of the turning drive over and leaves its value at a limited rate. */
+static void add_input(subject *c)
+{
+    dmb_input_def input = dmb_input_def_default();
+    strcpy(input.name, "turn");
+    input.part = c->turn;
+    input.rate_limit = 5.0;
+    must_model(&c->r, dmb_model_add_input(c->r.model, &input, &c->input));
+}
+
 /* Pipes in a hole, driven and pushed. */
 static void open_string(subject *c)
 {
@@ -119,6 +129,7 @@ static void open_string(subject *c)
     c->place = dmb_station(c->part, 2, 1.0);
     c->home = 4.5;
     add_drives(c);
+    add_input(c);
     add_push(c);
     add_hold(c);
     start(c);
@@ -175,6 +186,11 @@ static int32_t advance(subject *c)
 static int32_t set_drive(subject *c)
 {
     return dmb_sim_set_drive(c->r.sim, c->drive, 0.1);
+}
+
+static int32_t set_input(subject *c)
+{
+    return dmb_sim_set_input(c->r.sim, c->input, 0.1);
 }
 
 static int32_t lock_joint(subject *c)
@@ -389,6 +405,7 @@ static const row rows[] = {
     {"step", step, 3, 0},
     {"advance", advance, 3, 1},
     {"set drive", set_drive, 1, 0},
+    {"set input", set_input, 1, 0},
     {"lock a joint", lock_joint, 2, 0},
     {"open a joint", open_joint, 2, 0},
     {"statics", statics, 3, 0},

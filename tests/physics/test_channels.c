@@ -358,6 +358,18 @@ static void what_is_not_there(void **state)
     refused(&r, DMB_ERR_ID, DMB_CHANNEL_BIT_ADVANCE, body, "must be a bit");
     refused(&r, DMB_ERR_ID, DMB_CHANNEL_DRIVE_WORK, body, "must be a drive");
     refused(&r, DMB_ERR_ID, DMB_CHANNEL_JOINT_ACTION, body, "must be a joint");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_STUCK_TORQUE, body, "must be a stuck place");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.body, 1, 0.0),
+            "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.string, 8, 0.0), "kinetic_energy at pipe 8");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_NORMAL_FORCE, dmb_station(r.bit, 1, 0.0), "normal_force at pipe 1");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_REACTION, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_MULTIPLIER, body, "with that row");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_WORLD_ACCELERATION, dmb_station(r.joint, 0, 0.0), "on a string, body or bit");
+    refused(&r, DMB_ERR_NOT_FINITE, DMB_CHANNEL_ROTATION, dmb_station(r.body, 0, (double)NAN), "body or bit");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_POSITION_X, dmb_station(r.body, 0, 0.5), "fraction 0.5");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_SPIN, dmb_station(r.body, 1, 0.0), "spin at pipe 1");
     refused(&r, DMB_ERR_ID, DMB_CHANNEL_SPRING_FORCE, body, "must be a spring");
     refused(&r, DMB_ERR_ID, DMB_CHANNEL_INPUT_PRESENT, nothing, "must be an input");
     refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_MULTIPLIER + 5, dmb_station(r.joint, 0, 0.0), "with that row");
@@ -371,6 +383,26 @@ static void what_is_not_there(void **state)
     assert_int_equal(dmb_query_channel(r.s.sim, NULL, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_channel_check(r.s.sim, NULL, 1), DMB_ERR_NULL);
     assert_int_equal(dmb_channel_check(r.s.sim, &fine, 1), DMB_OK);
+    destroy(&r);
+}
+
+/* Without the ledger its numbers are refused, and all else of the scene is told. */
+static void without_the_ledger(void **state)
+{
+    (void)state;
+    scene r = make();
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_sim_destroy(&r.s.sim);
+    options.energy_ledger = 0;
+    assert_true(dmb_sim_create(r.s.model, &options, &r.s.sim) >= 0);
+    const dmb_place nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
+    for (int32_t q = DMB_CHANNEL_ENERGY_KINETIC; q <= DMB_CHANNEL_ENERGY_UNEXPLAINED; q++)
+        refused(&r, DMB_ERR_UNSUPPORTED, q, nothing, "switch on what it is read from in the options of the sim");
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_ENERGY_ERROR, nothing, "energy_error");
+    const dmb_channel mass = {nothing, DMB_CHANNEL_MASS, 0};
+    double value = 0.0;
+    must(&r.s, dmb_query_channel(r.s.sim, &mass, &value));
+    check_relative("mass without the ledger [kg]", value, momentum_of(&r.s).mass, 0.0);
     destroy(&r);
 }
 
@@ -459,10 +491,8 @@ static void in_tables(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_is_its_query),
-        cmocka_unit_test(names_are_numbers),
-        cmocka_unit_test(what_is_not_there),
-        cmocka_unit_test(in_tables),
+        cmocka_unit_test(each_is_its_query),  cmocka_unit_test(names_are_numbers), cmocka_unit_test(what_is_not_there),
+        cmocka_unit_test(without_the_ledger), cmocka_unit_test(in_tables),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -318,6 +318,52 @@ static void refused(void **state)
     end(&t);
 }
 
+/* A force that its caller refuses to tell for times before the latest one, as on a step that is taken back. */
+typedef struct recorded_force {
+    double latest; /* [s] */
+    int32_t replays;
+} recorded_force;
+
+static int32_t force_of_record(void *context, double time, double out[3])
+{
+    recorded_force *record = context;
+    if (time < record->latest && !record->replays) return -1;
+    record->latest = fmax(record->latest, time);
+    out[0] = 4.0, out[1] = 0.0, out[2] = 4.0 * time;
+    return 0;
+}
+
+/* Where the crossing is looked for and the programme fails, the state is that before the step, from which another call
+ * finds the event: v = F t/m reaches 1 m/s at m/F. */
+static void a_location_that_fails(void **state)
+{
+    (void)state;
+    scene s = {0};
+    recorded_force record = {0};
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_term force = dmb_term_default();
+    dmb_event_report report = dmb_event_report_default();
+    dmb_step_report work = dmb_step_report_default();
+    drive.kind = DMB_DRIVE_LOAD;
+    force.kind = DMB_TERM_CALLBACK;
+    force.callback = force_of_record;
+    force.callback_context = &record;
+    force.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
+    (void)body_with(&s, DMB_X, &drive, &force);
+    event(&s, "speed", DMB_CHANNEL_VELOCITY_X, s.body, DMB_EVENT_RISING, 1.0, 0.0);
+    start(&s, 1e-9);
+    assert_int_equal(dmb_sim_advance_to_event(s.sim, 3.0, &report, &work), DMB_ERR_CALLBACK);
+    const double before = now(&s);
+    assert_true(before < 0.5 && work.rejected >= 1);
+    dmb_motion motion = dmb_motion_default();
+    must(dmb_query_motion(s.sim, dmb_station(s.body, 0, 0.0), &motion));
+    close_to(motion.velocity[0], 2.0 * before, 1e-12);
+    record.replays = 1;
+    assert_int_equal(next(&s, 3.0), 1);
+    close_to(now(&s), 0.5, 1e-9);
+    end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +373,7 @@ int main(void)
         cmocka_unit_test(stands_still),
         cmocka_unit_test(in_order),
         cmocka_unit_test(refused),
+        cmocka_unit_test(a_location_that_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
