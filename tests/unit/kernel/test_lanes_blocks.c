@@ -82,20 +82,41 @@ static void solutions_agree(void **state)
     check_below("inverses against LU, relative", worst, 1e-10);
 }
 
+/* Row k of block i is 0, and nothing comes to it from its neighbours. */
+static void draw_singular(int kind, uint32_t i, uint32_t k, chain *c)
+{
+    draw_chain(3, kind, c);
+    const uint32_t n = c->size[i];
+    memset(c->diagonal + c->diag[i] + n * k, 0, n * sizeof(double));
+    if (i > 0) memset(c->lower + c->link[i - 1], 0, (size_t)n * c->size[i - 1] * sizeof(double));
+    if (i + 1 < NODES) memset(c->upper + c->link[i], 0, (size_t)n * c->size[i + 1] * sizeof(double));
+}
+
+/* The whole elimination and that part of it which the block is in tell it; the others find nothing. */
+static void check_singular(const dmb_kernels *kernels, int kind, uint32_t i, uint32_t k)
+{
+    const uint32_t middle = NODES / 2;
+    chain c;
+    draw_singular(kind, i, k, &c);
+    dmb_block_matrix matrix = matrix_of(&c);
+    assert_int_equal(kernels->factor(&c.layout, &matrix, 0, NODES), i);
+    const int32_t its = i + 1 < middle ? 0 : i > middle + 1 ? 1 : 2;
+    draw_singular(kind, i, k, &c);
+    for (int32_t part = 0; part <= its; part++)
+        assert_int_equal(kernels->factor_part(&c.layout, &matrix, 0, NODES, part), part == its ? (int64_t)i : -1);
+}
+
 static void singular_blocks_are_told(void **state)
 {
     (void)state;
     for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) {
         if (!dmb_kernels_of(lanes)) continue;
-        for (uint32_t i = 0; i < NODES; i++) {
-            chain c;
-            draw_chain(3, 0, &c);
-            memset(c.diagonal + c.diag[i], 0, 36 * sizeof(double)); /* nothing comes from its neighbours */
-            if (i > 0) memset(c.lower + c.link[i - 1], 0, 36 * sizeof(double));
-            if (i + 1 < NODES) memset(c.upper + c.link[i], 0, 36 * sizeof(double));
-            dmb_block_matrix matrix = matrix_of(&c);
-            assert_int_equal(dmb_kernels_of(lanes)->factor(&c.layout, &matrix, 0, NODES), i);
-        }
+        for (int kind = 0; kind < 3; kind++)
+            for (uint32_t i = 0; i < NODES; i++) {
+                chain c;
+                draw_chain(3, kind, &c);
+                for (uint32_t k = 0; k < c.size[i]; k++) check_singular(dmb_kernels_of(lanes), kind, i, k);
+            }
     }
 }
 

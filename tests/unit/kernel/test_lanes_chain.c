@@ -1,6 +1,6 @@
-/* The solver of a step from both ends of a chain, in every width, against dense LU by LAPACK: chains of 1 to 40 blocks
- * of six, two, or 1 to 6 rows by turns, with good blocks, unequal units, pivots off the diagonal, and soft chains of
- * stiff links; errors against a solution that is given. */
+/* The solver of a step from both ends of a chain, in every width, as a whole and in parts, against dense LU by LAPACK:
+ * chains of 1 to 40 blocks of six, two, or 1 to 6 rows by turns, with good blocks, unequal units, pivots off the
+ * diagonal, and soft chains of stiff links; errors against a solution that is given. */
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,10 +159,39 @@ static void solve_by(const dmb_kernels *kernels, const chain *c, chain *factored
     kernels->solve(&factored->layout, &matrix, 0, c->n, x);
 }
 
+/* The same in parts: both ends of the elimination in either order, then what is between them; then the way to the
+ * middle, and back from it. */
+static void solve_in_parts_by(const dmb_kernels *kernels, const chain *c, int32_t begin, chain *factored, double *x)
+{
+    memcpy(factored, c, sizeof *c);
+    memcpy(x, c->right, sizeof c->right);
+    factored->layout = (dmb_block_layout){c->n, factored->size, factored->row, factored->diag, factored->link};
+    dmb_block_matrix matrix = {factored->diagonal, factored->lower, factored->upper, factored->pivot};
+    const int32_t order[3] = {begin, 1 - begin, 2};
+    for (int k = 0; k < 3; k++)
+        assert_int_equal(kernels->factor_part(&factored->layout, &matrix, 0, c->n, order[k]), -1);
+    for (int k = 0; k < 3; k++) kernels->towards_part(&factored->layout, &matrix, 0, c->n, order[k], x);
+    for (int k = 0; k < 2; k++) kernels->away_part(&factored->layout, &matrix, 0, c->n, order[k], x);
+}
+
+static void parts_agree(const dmb_kernels *kernels, const chain *c, const chain *whole, const double *x)
+{
+    static chain factored;
+    static double in_parts[ROWS_MAX];
+    for (int32_t begin = 0; begin < 2; begin++) {
+        solve_in_parts_by(kernels, c, begin, &factored, in_parts);
+        assert_memory_equal(in_parts, x, c->rows * sizeof(double));
+        assert_memory_equal(factored.diagonal, whole->diagonal, sizeof whole->diagonal);
+        assert_memory_equal(factored.upper, whole->upper, sizeof whole->upper);
+        assert_memory_equal(factored.lower, whole->lower, sizeof whole->lower);
+    }
+}
+
 static void widths_agree(const chain *c, const chain *first, const double *x)
 {
     static chain factored;
     static double wide[ROWS_MAX];
+    parts_agree(dmb_kernels_of(1), c, first, x);
     for (uint32_t lanes = 2; lanes <= 8; lanes *= 2) {
         if (!dmb_kernels_of(lanes)) continue;
         solve_by(dmb_kernels_of(lanes), c, &factored, wide);
@@ -170,6 +199,7 @@ static void widths_agree(const chain *c, const chain *first, const double *x)
         assert_memory_equal(factored.diagonal, first->diagonal, sizeof first->diagonal);
         assert_memory_equal(factored.upper, first->upper, sizeof first->upper);
         assert_memory_equal(factored.lower, first->lower, sizeof first->lower);
+        parts_agree(dmb_kernels_of(lanes), c, first, x);
     }
 }
 
