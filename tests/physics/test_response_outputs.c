@@ -138,6 +138,82 @@ static void pulled_on_the_wall(void **state)
     rig_close(&s);
 }
 
+/* The axial-torsional string of fed_on_the_wall, clamped at its rig end, rubbed by a unit of coefficient along the hole
+ * and around it at frequency 0: its normal forces N at the depths x stretch it by sum N x/(E A) and wind it up by
+ * sum N r x/(G J). */
+static void rubbed_on_the_wall(void **state)
+{
+    (void)state;
+    rig s;
+    const double zero = 0.0;
+    const s1_section v = s1_values();
+    const dmb_id string = open_string(&s, DMB_FREE_NONE, DMB_PIPE_AXIAL_TORSIONAL);
+    dmb_model_info info = dmb_model_info_default();
+    double stretch = 0.0, wind = 0.0;
+    double complex got[2];
+    start(&s);
+    must_model(&s, dmb_model_get_info(s.model, &info));
+    for (uint32_t i = 0; i < info.contact_sites; i++) {
+        dmb_contact contact = dmb_contact_default();
+        must(&s, dmb_query_contact(s.sim, i, &contact));
+        const double x = contact.pipe == DMB_NONE ? 0.0 : 1.5 * (contact.pipe + 1);
+        stretch += contact.normal_force * x / v.EA;
+        wind += contact.normal_force * 0.5 * 0.073 * x / v.GJ;
+    }
+    for (int around = 0; around < 2; around++) {
+        const int32_t c = around ? DMB_RX : DMB_X;
+        const dmb_input input = input_of(DMB_INPUT_FRICTION, (dmb_id){0, 0}, c);
+        const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(string, 9, 1.0), c);
+        transfer(&s, NULL, &input, &move, &zero, 1, got + around);
+    }
+    check_relative("rubbed on the wall: stretch", creal(got[0]), stretch, 1e-11);
+    check_relative("    wind-up", creal(got[1]), wind, 1e-11);
+    rig_close(&s);
+}
+
+/* A string that hangs from its clamp onto the low side of the hole, a unit force on it at frequency 0. Rings within the
+ * gap count as closed: the forces of clamp and rings on the string balance the unit, and what an open ring adds is its
+ * stiffness, that of the wall over its length, times what it moves. */
+static void rings_that_count_as_closed(void **state)
+{
+    (void)state;
+    rig s;
+    const double zero = 0.0;
+    dmb_response_options options = dmb_response_options_default();
+    dmb_model_info info = dmb_model_info_default();
+    const dmb_id string = open_string(&s, DMB_FREE_NONE, DMB_PIPE_FLEXIBLE);
+    const dmb_input force = force_at(dmb_station(string, 1, 1.0), DMB_Z);
+    start(&s);
+    must_model(&s, dmb_model_get_info(s.model, &info));
+    double complex sum[3], last = 0.0;
+    uint32_t closed[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) { /* as they are, all within 6 mm, all of them */
+        options.contact = k == 0 ? DMB_CONTACT_AS_IS : DMB_CONTACT_CLOSED;
+        options.contact_gap = k == 1 ? 6e-3 : 1.0;
+        const dmb_output clamp = output_at(DMB_OUTPUT_REACTION, part(string), DMB_Z);
+        transfer(&s, &options, &force, &clamp, &zero, 1, sum + k);
+        for (uint32_t i = 0; i < info.contact_sites; i++) {
+            dmb_contact contact = dmb_contact_default();
+            double complex normal;
+            must(&s, dmb_query_contact(s.sim, i, &contact));
+            const dmb_output press = output_at(DMB_OUTPUT_CONTACT, number(i), DMB_Z);
+            transfer(&s, &options, &force, &press, &zero, 1, &normal);
+            closed[k] += cabs(normal) > 0.0;
+            sum[k] -= normal * contact.normal[2];
+            if (k == 0 || contact.closed || contact.pipe == DMB_NONE) continue;
+            const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(string, contact.pipe, 1.0), DMB_Z);
+            transfer(&s, &options, &force, &move, &zero, 1, &last);
+            const double stiffness = contact.gap <= options.contact_gap ? s1_hole().stiffness * contact.length : 0.0;
+            check_below("an open ring that counts as closed: its force, less k d",
+                        cabs(normal - stiffness * last * contact.normal[2]), 1e-9);
+        }
+        check_close("forces of clamp and rings", creal(sum[k]), -1.0, 1e-8);
+    }
+    print_message("    rings that press: %u, %u, %u\n", closed[0], closed[1], closed[2]);
+    assert_true(closed[0] < closed[1] && closed[1] < closed[2]);
+    rig_close(&s);
+}
+
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
 /* A string of three pipes in a bearing with spring and damper, its chuck turned by a controller; gravity sideways. */
@@ -351,6 +427,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fed_on_the_wall),
         cmocka_unit_test(pulled_on_the_wall),
+        cmocka_unit_test(rubbed_on_the_wall),
+        cmocka_unit_test(rings_that_count_as_closed),
         cmocka_unit_test(turned_in_a_bearing),
         cmocka_unit_test(pulled_in_a_bearing),
         cmocka_unit_test(driven_gears),

@@ -277,6 +277,74 @@ static void eccentric_string_that_turns(void **state)
     }
 }
 
+/* ---- Axes -------------------------------------------------------------------------------------------------------- */
+
+enum { TURNED_OUTPUTS = 12 };
+
+/* A body that stands turned by `tilt`, on springs and dampers that are the same in every direction, shaken by a force
+ * and a moment along the axes of the world: 2 kg on 800 N/m and 8 N s/m, 0.5 kg m2 on 300 N m/rad and 4 N m s. */
+static dmb_id open_turned_body(rig *s, const double tilt[3], double frequency, const double force[3],
+                               const double moment[3])
+{
+    dmb_body_def def = dmb_body_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    rig_open(s, 0.0, 0.0, 0.0);
+    def.mass = 2.0;
+    for (int k = 0; k < 3; k++) {
+        def.inertia[k] = 0.5;
+        def.rotation[k] = tilt[k];
+        load.force[k] = force[k];
+        load.moment[k] = moment[k];
+    }
+    const dmb_id body = add_body(s, &def);
+    load.place = dmb_station(body, 0, 0.0);
+    load.programme = add_sine(s, 1.0, frequency);
+    (void)add_load(s, &load);
+    dmb_joint_def springs = joint_between(DMB_JOINT_FREE, dmb_station((dmb_id){0, 0}, 0, 0.0), load.place);
+    springs.match = 1;
+    for (int k = 0; k < 6; k++) {
+        springs.stiffness[k] = k < 3 ? 800.0 : 300.0;
+        springs.damping[k] = k < 3 ? 8.0 : 4.0;
+    }
+    (void)add_joint(s, &springs);
+    (void)rig_start(s, NULL);
+    return body;
+}
+
+/* Displacements and small rotations along the axes of the world and along those of the body: F/(k - m w^2 + i w c),
+ * R^T of that in the body's axes. DMB_RX is another quantity, the rotation about the body's own axis. */
+static void body_in_its_own_axes(void **state)
+{
+    (void)state;
+    const double tilt[3] = {0.3, -0.7, 0.5}, force[3] = {0.02, -0.03, 0.05}, moment[3] = {0.01, 0.02, -0.015};
+    const double frequency = 4.0, w = 2.0 * PI * frequency;
+    const double complex by_force = 1.0 / (800.0 - 2.0 * w * w + i_ * w * 8.0);
+    const double complex by_moment = 1.0 / (300.0 - 0.5 * w * w + i_ * w * 4.0);
+    double amplitudes[TURNED_OUTPUTS][4][2];
+    dmb_output outputs[TURNED_OUTPUTS];
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
+    rig s;
+    const dmb_id body = open_turned_body(&s, tilt, frequency, force, moment);
+    const dmb_pose pose = pose_at(&s, dmb_station(body, 0, 0.0));
+    for (int k = 0; k < TURNED_OUTPUTS; k++) {
+        outputs[k] = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), k % 6);
+        outputs[k].frame = k < 6 ? DMB_FRAME_WORLD : DMB_FRAME_BODY;
+    }
+    options.steps_per_period = 400;
+    options.tolerance = 1e-4;
+    must(&s,
+         dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, TURNED_OUTPUTS, &amplitudes[0][0][0], NULL));
+    for (int k = 0; k < TURNED_OUTPUTS; k++) {
+        const int c = k % 3, own = k % 6 == DMB_RX || k >= 6;
+        const double *load = k % 6 < 3 ? force : moment, *R = pose.rotation;
+        const double along = own ? R[c] * load[0] + R[3 + c] * load[1] + R[6 + c] * load[2] : load[c];
+        const double complex want = along * (k % 6 < 3 ? by_force : by_moment) / i_;
+        check_below(k < 6 ? "turned body, axes of the world" : "turned body, its own axes",
+                    cabs(number(amplitudes[k][1]) - want) / cabs(want), 1e-3);
+    }
+    rig_close(&s);
+}
+
 /* ---- A stop ------------------------------------------------------------------------------------------------------ */
 
 /* m 2 kg, k 800 N/m, c 8 N s/m, stop of 1e5 N/m at 5 mm, force 20 sin(w t) N. */
@@ -344,9 +412,10 @@ static void oscillator_that_meets_a_stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spinning_jeffcott_rotor),     cmocka_unit_test(shaken_cantilever),
-        cmocka_unit_test(string_on_its_wall),          cmocka_unit_test(two_inputs_together),
-        cmocka_unit_test(eccentric_string_that_turns), cmocka_unit_test(oscillator_that_meets_a_stop),
+        cmocka_unit_test(spinning_jeffcott_rotor),      cmocka_unit_test(shaken_cantilever),
+        cmocka_unit_test(string_on_its_wall),           cmocka_unit_test(two_inputs_together),
+        cmocka_unit_test(eccentric_string_that_turns),  cmocka_unit_test(body_in_its_own_axes),
+        cmocka_unit_test(oscillator_that_meets_a_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
