@@ -263,7 +263,162 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_MULTIPLIER, "output 0: component is no row");
     REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_BIT, "output 0: place.part names no bit");
     REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_BIT, s.output.component = DMB_Y), "output 0: component");
+#define CHANNEL(quantity, of) \
+    (s.output.kind = DMB_OUTPUT_CHANNEL, s.output.component = (quantity), s.output.place = dmb_station((of), 0, 0.0))
+    REFUSED(DMB_ERR_VALUE, CHANNEL(-1, s.string), "a channel that dmb_channel_name knows");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_HOOK_LOAD, s.load), "place.part names no string");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_WEIGHT_ON_BIT, s.load), "place.part names no string");
+    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_WEIGHT_ON_BIT, s.string), "the string must have one bit");
+    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_TORQUE_ON_BIT, s.string), "the string must have one bit");
+    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_STRETCH, s.string), "has no linear answer");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_BIT_WEIGHT, s.string), "place.part names no bit");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_BIT_TORQUE, s.string), "place.part names no bit");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_DRIVE_FORCE, s.string), "place.part names no drive");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_JOINT_POSITION, s.string), "place.part names no joint");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_MULTIPLIER, s.string), "component is no row of a joint");
+    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_REACTION, s.load), "place.part names no string or body");
+#undef CHANNEL
 #undef REFUSED
+    end(&s);
+}
+
+/* A drive of the rig end has no joint whose coordinate its speed is. */
+static void speed_of_a_drive_without_a_joint(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_RX, 0.0);
+    s.output.kind = DMB_OUTPUT_CHANNEL;
+    s.output.place = dmb_station(s.drive, 0, 0.0);
+    s.output.component = DMB_CHANNEL_DRIVE_SPEED;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_speed", "at the rig end instead");
+    s.output.component = DMB_CHANNEL_DRIVE_POSITION;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_position", "at the rig end instead");
+    s.output.component = DMB_CHANNEL_DRIVE_POWER;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_power", "has no linear answer");
+    end(&s);
+}
+
+/* A body that slides along and turns about the x axis as it was made to: its axes turn in those of the world. */
+static void channels_of_what_moves(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_response *response = NULL;
+    dmb_id id = {0, 0};
+    memset(&s, 0, sizeof s);
+    none.gravity[2] = 0.0;
+    body.velocity[DMB_X] = 0.3;
+    body.velocity[DMB_RX] = 2.0;
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    assert_int_equal(dmb_model_set_environment(s.model, &none), DMB_OK);
+    assert_int_equal(dmb_model_add_body(s.model, &body, &id), DMB_OK);
+    start(&s);
+    s.input = dmb_input_default();
+    s.output = dmb_output_default();
+    s.input.place = s.output.place = dmb_station(id, 0, 0.0);
+    s.output.kind = DMB_OUTPUT_CHANNEL;
+    static const int32_t refused[5] = {DMB_CHANNEL_DISPLACEMENT_X, DMB_CHANNEL_VELOCITY_Z,
+                                       DMB_CHANNEL_WORLD_ACCELERATION, DMB_CHANNEL_BODY_VELOCITY + DMB_Y,
+                                       DMB_CHANNEL_BODY_ACCELERATION + DMB_RZ};
+    static const int32_t answered[4] = {DMB_CHANNEL_ROTATION, DMB_CHANNEL_SPIN, DMB_CHANNEL_BODY_VELOCITY + DMB_X,
+                                        DMB_CHANNEL_BODY_ACCELERATION + DMB_RX};
+    for (int i = 0; i < 5; i++) {
+        s.output.component = refused[i];
+        expect(&s, DMB_ERR_UNSUPPORTED, "the place moves in the state", "DMB_OUTPUT_VELOCITY");
+    }
+    for (int i = 0; i < 4; i++) {
+        s.output.component = answered[i];
+        assert_int_equal(ask(&s, &response), DMB_OK);
+        dmb_response_destroy(&response);
+    }
+    end(&s);
+}
+
+/* A controller that turns a wheel against a spring until it gives all that it may: it answers to nothing then, and the
+ * wheel to a torque as to the spring alone. */
+static void controller_at_its_limit(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_term target = dmb_term_default();
+    dmb_response *response = NULL;
+    double value[2] = {0.0, 0.0};
+    memset(&s, 0, sizeof s);
+    none.gravity[2] = 0.0;
+    joint.kind = DMB_JOINT_REVOLUTE;
+    joint.stiffness[DMB_RX] = 400.0;
+    drive.kind = DMB_DRIVE_CONTROL;
+    drive.component = DMB_RX;
+    drive.gain = 60.0;
+    drive.limit_high = 8.0;
+    target.h0 = 1.0;
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    assert_int_equal(dmb_model_set_environment(s.model, &none), DMB_OK);
+    dmb_id id = {0, 0};
+    assert_int_equal(dmb_model_add_body(s.model, &body, &id), DMB_OK);
+    joint.place_b = dmb_station(id, 0, 0.0);
+    assert_int_equal(dmb_model_add_joint(s.model, &joint, &drive.part), DMB_OK);
+    assert_int_equal(dmb_model_add_programme(s.model, &target, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_drive(s.model, &drive, &s.drive), DMB_OK);
+    start(&s);
+    assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_OK);
+    s.options.points = 1;
+    s.options.frequency_low = s.options.frequency_high = 0.0;
+    s.input = dmb_input_default();
+    s.output = dmb_output_default();
+    s.input.place = s.output.place = joint.place_b;
+    s.input.component = s.output.component = DMB_RX;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    assert_int_equal(dmb_response_transfer(response, 0, 0, value), DMB_OK);
+    dmb_response_destroy(&response);
+    assert_true(fabs(value[0] * 400.0 - 1.0) < 1e-12 && value[1] == 0.0);
+    s.output.kind = DMB_OUTPUT_DRIVE;
+    s.output.place.part = s.drive;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    assert_int_equal(dmb_response_transfer(response, 0, 0, value), DMB_OK);
+    dmb_response_destroy(&response);
+    assert_true(value[0] == 0.0 && value[1] == 0.0);
+    s.input.kind = DMB_INPUT_DRIVE;
+    s.input.place.part = s.drive;
+    expect(&s, DMB_ERR_VALUE, "input 0", "the drive is at its limit");
+    end(&s);
+}
+
+/* Normal forces of a wall with bristles are outputs, their friction is not. */
+static void friction_of_bristles(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_response *response = NULL;
+    memset(&s, 0, sizeof s);
+    wall.friction_law = DMB_FRICTION_BRISTLE;
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_OK);
+    dmb_string_def string = dmb_string_def_default();
+    assert_int_equal(dmb_model_add_string(s.model, &string, &s.string), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, NULL), DMB_OK);
+    start(&s);
+    assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_OK);
+    s.input = dmb_input_default();
+    s.input.place = dmb_station(s.string, 2, 1.0);
+    s.input.component = DMB_Z;
+    s.output = dmb_output_default();
+    s.output.kind = DMB_OUTPUT_CONTACT;
+    s.output.place.pipe = 2;
+    s.output.component = DMB_X;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0", "friction of bristles is not an output");
+    s.output.component = DMB_Z;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    dmb_response_destroy(&response);
     end(&s);
 }
 
@@ -420,6 +575,10 @@ int main(void)
         cmocka_unit_test(drive_that_joints_hold),
         cmocka_unit_test(eccentric_masses_that_nothing_feels),
         cmocka_unit_test(fields_out_of_bounds),
+        cmocka_unit_test(speed_of_a_drive_without_a_joint),
+        cmocka_unit_test(channels_of_what_moves),
+        cmocka_unit_test(controller_at_its_limit),
+        cmocka_unit_test(friction_of_bristles),
         cmocka_unit_test(counts_and_pointers),
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(speeds_that_are_refused),
