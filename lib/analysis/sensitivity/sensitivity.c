@@ -39,19 +39,43 @@ static int same_settable(const dmb_scene *a, const dmb_scene *b)
     return a->load_count == b->load_count && a->bit_count == b->bit_count && a->type_count == b->type_count;
 }
 
+/* Joints of the same kinds, and the same parts that constrain the same nodes by as many rows. */
+static int same_constraints(const dmb_scene *a, const dmb_scene *b)
+{
+    if (a->constraint_count != b->constraint_count || a->joint_count != b->joint_count) return 0;
+    for (uint32_t i = 0; i < a->joint_count; i++)
+        if (a->joints[i].kind != b->joints[i].kind) return 0;
+    for (uint32_t i = 0; i < a->constraint_count; i++) {
+        const dmb_constraint *first = a->constraints + i, *second = b->constraints + i;
+        if (first->kind != second->kind || first->index != second->index || first->rows != second->rows ||
+            first->node_count != second->node_count)
+            return 0;
+        if (memcmp(first->node, second->node, first->node_count * sizeof *first->node) != 0) return 0;
+    }
+    return 1;
+}
+
+static int same_drives(const dmb_scene *a, const dmb_scene *b)
+{
+    if (a->drive_count != b->drive_count) return 0;
+    for (uint32_t i = 0; i < a->drive_count; i++)
+        if (a->drives[i].kind != b->drives[i].kind || a->drives[i].row != b->drives[i].row ||
+            a->drives[i].joint != b->drives[i].joint || a->drives[i].component != b->drives[i].component)
+            return 0;
+    return 1;
+}
+
+/* Chains follow from nodes and elements. */
 static int same_make(const dmb_sim *a, const dmb_sim *b)
 {
     const dmb_scene *first = a->scene, *second = b->scene;
     if (first == second) return 1;
     if (first->node_count != second->node_count || first->row_count != second->row_count ||
-        first->element_count != second->element_count || first->drive_count != second->drive_count ||
-        first->constraint_count != second->constraint_count || first->chain_count != second->chain_count)
+        first->element_count != second->element_count)
         return 0;
     if (memcmp(first->layout.size, second->layout.size, first->node_count * sizeof *first->layout.size) != 0) return 0;
     if (memcmp(first->solved_row, second->solved_row, first->row_count * sizeof *first->solved_row) != 0) return 0;
-    for (uint32_t i = 0; i < first->drive_count; i++)
-        if (first->drives[i].kind != second->drives[i].kind || first->drives[i].row != second->drives[i].row) return 0;
-    if (!same_settable(first, second)) return 0;
+    if (!same_drives(first, second) || !same_constraints(first, second) || !same_settable(first, second)) return 0;
     return first->normal_law.kind == second->normal_law.kind && first->friction_law.kind == second->friction_law.kind &&
            same_arrays(a, b);
 }
