@@ -60,6 +60,7 @@ static size_t at_least_one(size_t size)
 void *dmb_allocate(const dmb_allocator *allocator, size_t size)
 {
     size_t asked = at_least_one(size);
+    if (size > PTRDIFF_MAX) return NULL; /* no allocator is asked for what no object can be */
     void *block = allocator->allocate(allocator->context, asked, DMB_ALIGNMENT);
     if (block == NULL) return NULL;
     if ((uintptr_t)block % DMB_ALIGNMENT != 0) { /* an allocator that ignores the alignment would crash vector loads */

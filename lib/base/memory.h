@@ -48,7 +48,8 @@ enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line, and enough for any vector l
  * one of its two functions is missing. *out is unchanged then. */
 int32_t dmb_allocator_copy(dmb_allocator *out, const dmb_allocator *given);
 
-/* A zeroed block of size bytes (0 counts as 1), or NULL. */
+/* A zeroed block of size bytes (0 counts as 1), or NULL; of more than PTRDIFF_MAX, as after an overflow of an arena,
+ * without asking. */
 void *dmb_allocate(const dmb_allocator *allocator, size_t size);
 
 /* A zeroed block of count items of item_size bytes, or NULL; an overflow counts as no memory. */

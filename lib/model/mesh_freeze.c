@@ -270,12 +270,11 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     dmb_arena_count(&arena);
     (void)lay_out(&arena, &counts, &w, hole);
     counts.bytes = dmb_arena_block_size(&arena);
-    if (arena.overflow) return DMB_ERR_TOO_LARGE;
     void *block = dmb_allocate(allocator, counts.bytes);
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, block, counts.bytes);
     dmb_scene *scene = lay_out(&arena, &counts, &w, hole);
-    int32_t status = arena.overflow ? DMB_ERR_TOO_LARGE : dmb_scene_fill(mesh, scene, &w);
+    int32_t status = dmb_scene_fill(mesh, scene, &w);
     if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene))
         status = DMB_ERR_TOO_LARGE;
     if (status >= 0) status = dmb_scene_link(scene, allocator);

@@ -150,7 +150,6 @@ int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator)
     dmb_arena_count(&arena);
     (void)lay_out(&arena, scene);
     const size_t bytes = dmb_arena_block_size(&arena);
-    if (arena.overflow) return DMB_ERR_TOO_LARGE;
     void *block = dmb_allocate(allocator, bytes);
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, block, bytes);

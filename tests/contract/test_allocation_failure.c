@@ -1,6 +1,7 @@
 /* Memory that runs out. Every allocation of the description, the compile step and the making of a sim fails once: the
  * call says DMB_ERR_NO_MEMORY, the same call works afterwards, and the run that follows is the same, bit for bit. Then
  * memory runs out for good at each of them: everything that was taken is given back. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -266,6 +267,118 @@ static void unaligned_memory_is_refused(void **state)
     assert_int_equal(r.budget.wrong, 0);
 }
 
+/* ---- Many of each part ------------------------------------------------------------------------------------------- */
+
+/* More parts of a kind than fit where the first ones did, so that what grows fails between two of them. */
+enum { CROWD = 14 };
+
+static dmb_id crowd_programme(dmb_model *model, int32_t *status)
+{
+    dmb_id id = {0, 0};
+    const dmb_term term = dmb_term_default();
+    if (*status >= 0) *status = dmb_model_add_programme(model, &term, 1, &id);
+    return id;
+}
+
+/* A string of two pipes with a ring, a bit, a drive and a load of its own. */
+static int32_t crowd_string(dmb_model *model, dmb_id *string)
+{
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    int32_t status = dmb_model_add_string(model, &def, string);
+    pipe.string = bit.string = ring.string = drive.part = *string;
+    pipe.elements = 3;
+    pipe.contact_points = 3;
+    pipe.joint_length = 0.1;
+    pipe.joint_outer_diameter = 0.08;
+    pipe.joint_inner_diameter = 0.05;
+    bit.rock_law = DMB_ROCK_RATE;
+    load.place = dmb_station(*string, 0, 0.4);
+    if (status >= 0) status = dmb_model_add_pipes(model, &pipe, 2, NULL);
+    if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
+    if (status >= 0) status = dmb_model_add_ring(model, &ring, NULL);
+    ring.pipe = 1;
+    if (status >= 0) status = dmb_model_add_ring(model, &ring, NULL);
+    drive.kind = DMB_DRIVE_CONTROL;
+    drive.lag = 0.1;
+    drive.programme = crowd_programme(model, &status);
+    if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
+    if (status >= 0) status = dmb_model_add_load(model, &load, NULL);
+    return status;
+}
+
+/* A body that meets the wall, hung on a spring and hinged to the one before, and held where it stands. */
+static int32_t crowd_body(dmb_model *model, int i, dmb_id *last)
+{
+    const dmb_id ground = {0, 0};
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_spring_def spring = dmb_spring_def_default();
+    dmb_stuck_def stuck = dmb_stuck_def_default();
+    dmb_event_def event = dmb_event_def_default();
+    dmb_id id = {0, 0};
+    body.position[0] = 0.3 * i;
+    body.contact_diameter = 0.05;
+    int32_t status = dmb_model_add_body(model, &body, &id);
+    joint.kind = DMB_JOINT_SPHERICAL;
+    joint.place_a = dmb_station(*last, 0, 0.0);
+    joint.place_b = spring.place_a = stuck.place = event.output.place = dmb_station(id, 0, 0.0);
+    joint.match = 1;
+    joint.stiffness[DMB_RX] = 1.0;
+    spring.place_b = dmb_station(ground, 0, 0.0);
+    spring.offset_b[2] = 1.0;
+    spring.stiffness = 10.0;
+    stuck.stuck = 0;
+    event.output.quantity = DMB_CHANNEL_VELOCITY_X;
+    event.level = 1.0;
+    (void)snprintf(event.name, sizeof event.name, "event %d", i);
+    if (status >= 0 && i % 2 == 1) status = dmb_model_add_joint(model, &joint, NULL);
+    if (status >= 0) status = dmb_model_add_spring(model, &spring, NULL);
+    if (status >= 0) status = dmb_model_add_stuck(model, &stuck, NULL);
+    if (status >= 0) status = dmb_model_add_event(model, &event, NULL);
+    *last = id;
+    return status;
+}
+
+static int32_t crowd_model(run *r)
+{
+    dmb_hole_section sections[2] = {dmb_hole_section_default(), dmb_hole_section_default()};
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_id string = {0, 0}, body = {0, 0};
+    sections[1].depth = 2.0;
+    sections[1].diameter = 0.11;
+    int32_t status = create_model(r);
+    if (status >= 0) status = dmb_model_add_wall(r->model, &wall, NULL);
+    if (status >= 0) status = dmb_model_add_hole_sections(r->model, sections, 2);
+    for (int i = 0; i < CROWD && status >= 0; i++) status = crowd_string(r->model, &string);
+    for (int i = 0; i < CROWD && status >= 0; i++) status = crowd_body(r->model, i, &body);
+    if (status >= 0) status = dmb_model_compile(r->model, NULL);
+    return status < 0 ? status : create_sim(r);
+}
+
+/* The first call that memory fails in says so, and nothing stays behind; the same model compiles afterwards. */
+static void many_of_each_part(void **state)
+{
+    (void)state;
+    run r;
+    begin(&r, SIZE_MAX, SIZE_MAX);
+    if (crowd_model(&r) < 0) fail_msg("%s", dmb_model_message(r.model));
+    const size_t calls = r.budget.calls;
+    finish(&r);
+    print_message("    %zu allocations\n", calls);
+    for (size_t k = 1; k <= calls; k++) {
+        begin(&r, k, k);
+        const int32_t status = crowd_model(&r);
+        if (status != DMB_ERR_NO_MEMORY) fail_msg("allocation %zu: %s", k, dmb_status_name(status));
+        assert_null(r.sim);
+        finish(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -275,6 +388,7 @@ int main(void)
         cmocka_unit_test(sim_in_a_block_takes_no_memory),
         cmocka_unit_test(sim_uses_its_own_allocator),
         cmocka_unit_test(unaligned_memory_is_refused),
+        cmocka_unit_test(many_of_each_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 
 #include "rig.h"
 
-/* What a scene has in which it differs from the others. */
+/* Differences of a scene from the others. */
 enum {
     SAME = 0,
     MORE_ELEMENTS,
@@ -269,7 +269,7 @@ static void one_difference(void **state)
     rig_close(&low.s);
 }
 
-/* ---- What the caller has set ------------------------------------------------------------------------------------- */
+/* ---- Values set by the caller ------------------------------------------------------------------------------------ */
 
 static void what_was_set(void **state)
 {

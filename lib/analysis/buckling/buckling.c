@@ -73,7 +73,7 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
     const dmb_scene *scene = dmb_dense_scene(sim->scene);
     lay_out(&arena, scene, count, &nowhere);
     made->block_size = dmb_arena_block_size(&arena);
-    if (!arena.overflow) made->block = dmb_allocate(&sim->allocator, made->block_size);
+    made->block = dmb_allocate(&sim->allocator, made->block_size);
     if (made->block != NULL) made->work = dmb_state_copy(sim);
     if (made->work == NULL) {
         dmb_buckling_destroy(&made);

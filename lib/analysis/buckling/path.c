@@ -274,7 +274,7 @@ int32_t dmb_path_open(dmb_path *path)
     dmb_arena_count(&arena);
     lay_out(&arena, scene, path);
     path->block_size = dmb_arena_block_size(&arena);
-    path->block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, path->block_size);
+    path->block = dmb_allocate(&sim->allocator, path->block_size);
     path->work = path->block != NULL ? dmb_state_copy(sim) : NULL;
     if (path->work == NULL) return DMB_ERR_NO_MEMORY;
     path->work->magic = DMB_HANDLE_SIM; /* so that a callback can ask it, and no more */

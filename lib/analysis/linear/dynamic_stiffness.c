@@ -46,7 +46,7 @@ int32_t dmb_dynamic_stiffness_make(const dmb_linear *linear, double structural_d
     dmb_arena_count(&arena);
     lay_out(&arena, linear, links, out);
     out->block_size = dmb_arena_block_size(&arena);
-    out->block = arena.overflow ? NULL : dmb_allocate(&linear->allocator, out->block_size);
+    out->block = dmb_allocate(&linear->allocator, out->block_size);
     if (out->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, out->block, out->block_size);
     lay_out(&arena, linear, links, out);

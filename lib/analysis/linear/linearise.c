@@ -181,7 +181,7 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim)
     dmb_arena_count(&arena);
     lay_out(&arena, scene, &nowhere);
     linear->block_size = dmb_arena_block_size(&arena);
-    if (!arena.overflow) linear->block = dmb_allocate(&sim->allocator, linear->block_size);
+    linear->block = dmb_allocate(&sim->allocator, linear->block_size);
     if (linear->block != NULL) linear->work = dmb_state_copy(sim);
     if (linear->work == NULL) {
         dmb_linear_release(&linear);

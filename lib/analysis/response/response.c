@@ -156,7 +156,7 @@ static int32_t take_memory(response_work *w)
     dmb_arena_count(&arena);
     lay_out(&arena, w);
     w->block_size = dmb_arena_block_size(&arena);
-    w->block = arena.overflow ? NULL : dmb_allocate(&w->sim->allocator, w->block_size);
+    w->block = dmb_allocate(&w->sim->allocator, w->block_size);
     if (w->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, w->block, w->block_size);
     lay_out(&arena, w);

@@ -238,7 +238,7 @@ static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t c
         s->parameters[i].rates = rates;
         s->parameters[i].accepted = accepted;
     }
-    return arena->overflow ? NULL : made;
+    return made;
 }
 
 static dmb_sensitivity *allocate(const dmb_sim *sim, uint32_t count)
@@ -248,7 +248,7 @@ static dmb_sensitivity *allocate(const dmb_sim *sim, uint32_t count)
     dmb_arena_count(&arena);
     (void)lay_out(&arena, sim, count, numbers);
     const size_t bytes = dmb_arena_block_size(&arena);
-    void *block = bytes == SIZE_MAX ? NULL : dmb_allocate(&sim->allocator, bytes);
+    void *block = dmb_allocate(&sim->allocator, bytes);
     if (block == NULL) return NULL;
     dmb_arena_place(&arena, block, bytes);
     dmb_sensitivity *made = lay_out(&arena, sim, count, numbers);

@@ -118,7 +118,7 @@ static int32_t take_work(dmb_space_work *w)
     dmb_arena_count(&arena);
     lay_out_work(&arena, w);
     w->block_size = dmb_arena_block_size(&arena);
-    w->block = arena.overflow ? NULL : dmb_allocate(&w->sim->allocator, w->block_size);
+    w->block = dmb_allocate(&w->sim->allocator, w->block_size);
     if (w->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, w->block, w->block_size);
     lay_out_work(&arena, w);
@@ -170,7 +170,7 @@ static int32_t take_space(dmb_space_work *w, size_t room)
     dmb_arena_count(&arena);
     lay_out_space(&arena, w, room, s);
     s->block_size = dmb_arena_block_size(&arena);
-    s->block = arena.overflow ? NULL : dmb_allocate(&s->allocator, s->block_size);
+    s->block = dmb_allocate(&s->allocator, s->block_size);
     if (s->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, s->block, s->block_size);
     lay_out_space(&arena, w, room, s);

@@ -256,7 +256,7 @@ static int32_t allocate(const dmb_sim *sim, dmb_steady *out)
     dmb_arena_count(&arena);
     lay_out(&arena, sim->scene, &nowhere);
     out->block_size = dmb_arena_block_size(&arena);
-    if (!arena.overflow) out->block = dmb_allocate(&sim->allocator, out->block_size);
+    out->block = dmb_allocate(&sim->allocator, out->block_size);
     if (out->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, out->block, out->block_size);
     lay_out(&arena, sim->scene, out);

@@ -108,6 +108,21 @@ static void failures(void **state)
     assert_int_equal(l.live, 0);
 }
 
+/* More than any object can have, as an arena says after an overflow, is not asked for. */
+static void more_than_any_object(void **state)
+{
+    (void)state;
+    ledger l;
+    const dmb_allocator own = of(&l);
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    (void)dmb_arena_take(&arena, SIZE_MAX / 2, 4, 8);
+    assert_null(dmb_allocate(&own, dmb_arena_block_size(&arena)));
+    assert_null(dmb_allocate(&own, (size_t)PTRDIFF_MAX + 1));
+    assert_int_equal(l.last_size, 0);
+    assert_int_equal(l.live, 0);
+}
+
 static void arrays(void **state)
 {
     ledger l;
@@ -143,6 +158,7 @@ int main(void)
         cmocka_unit_test(default_allocator),
         cmocka_unit_test(own_allocator_sees_the_same_sizes),
         cmocka_unit_test(failures),
+        cmocka_unit_test(more_than_any_object),
         cmocka_unit_test(arrays),
         cmocka_unit_test(copies),
     };
