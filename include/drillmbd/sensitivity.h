@@ -55,13 +55,14 @@ DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double tim
 
 /* Channels and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the
  * channel over that of the parameter], shape (count, parameters). Errors: those of the channels' queries, with a
- * message of the sim; DMB_ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; nothing is written
+ * message of the sim; DMB_ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was
+ * moved by other calls, or a callback failed behind a step that dmb_sensitivity_advance took back; nothing is written
  * then. */
 DMB_API int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel *channels, uint32_t count,
                                          double *values, double *derivatives);
 /* Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free
  * and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many
- * there are; with both arrays NULL that is all. */
+ * there are; with both arrays NULL that is all. Errors: _ORDER as above. */
 DMB_API int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter, double *pose, double *velocity,
                                      uint32_t *rows);
 /* *kinks [-]: accepted steps so far in which the parameter was not smooth. Errors: DMB_ERR_VALUE for a number that is

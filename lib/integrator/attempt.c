@@ -286,7 +286,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
 {
     dmb_counters *counters = sim->counters;
     dmb_system_accept(&attempt->evaluation);
-    dmb_factor_reuse_end(sim, attempt);
+    if (!attempt->deferred) dmb_factor_reuse_end(sim, attempt, &sim->trial);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;

@@ -310,22 +310,22 @@ static void count_pause(dmb_factor_reuse *reuse, int32_t tried)
 }
 
 /* Factors of a step near touch have its weight of the damping in them: they are good for no other step. */
-static int32_t is_near_touch(const dmb_sim *sim)
+static int32_t is_near_touch(const dmb_sim *sim, const dmb_configuration *reached)
 {
     for (uint32_t s = 0; dmb_scene_has_touch(sim->scene) && s < sim->scene->site_count; s++)
-        if (fabs(sim->trial.site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_EXCESS]) > DMB_REUSE_WEIGHT) return 1;
+        if (fabs(reached->site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_EXCESS]) > DMB_REUSE_WEIGHT) return 1;
     return 0;
 }
 
-void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt)
+void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached)
 {
     if (!attempt->whole) return;
     if (attempt->factored == DMB_FACTORS_REUSED) {
         count_success(sim->reuse, attempt->iterations);
     } else if (attempt->factored == DMB_FACTORS_FRESH) {
         count_pause(sim->reuse, attempt->tried);
-        dmb_keep_factors(sim);
-        sim->reuse->step = is_near_touch(sim) ? 0.0 : attempt->end.step;
+        dmb_keep_factors(sim, reached->quaternion);
+        sim->reuse->step = is_near_touch(sim, reached) ? 0.0 : attempt->end.step;
         sim->reuse->corrections = sim->reuse->excess = 0;
     }
 }

@@ -32,9 +32,9 @@ int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attemp
 /* Factors that are there do when two more corrections at the present rate reach what they aim at; kept ones also for a
  * first correction, which shows their rate. */
 int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course);
-/* After a successful step: its factors are kept for the steps to come, until the corrections that these have taken
- * beyond the first such step have cost as much as new ones. Where reused factors did not do within a step, the next try
- * waits, longer each time. */
-void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt);
+/* After a successful step that reached this configuration: its factors are kept for the steps to come, until the
+ * corrections that these have taken beyond the first such step have cost as much as new ones. Where reused factors did
+ * not do within a step, the next try waits, longer each time. */
+void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached);
 
 #endif

@@ -8,6 +8,7 @@
 #include "drillmbd/sim.h"
 #include "integrator/attempt.h"
 #include "integrator/corner.h"
+#include "integrator/newton.h"
 #include "math/elementary.h"
 #include "sim/access.h"
 #include "sim/layout.h"
@@ -41,6 +42,48 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
     return check.status;
 }
 
+/* 1: behind an accepted step a function of the caller's may be asked. */
+static int asks_behind(const dmb_scene *scene)
+{
+    return scene->has_callback && (scene->drive_count > 0 || scene->stuck_count > 0 || scene->hole.cuts > 0);
+}
+
+/* Accelerations anew where forces, or the rate of a programme, jump at the time reached; *jumped: they do. A failure
+ * other than that of a callback leaves the accelerations of before, which is what there was anyway. */
+static int32_t walk_corner(dmb_sim *sim, int *jumped)
+{
+    const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
+    const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
+    const int32_t turns = freed > 0 || widened ? 1 : dmb_system_rate_jumps(sim);
+    *jumped = turns > 0;
+    if (turns <= 0) return turns;
+    sim->busy = DMB_BUSY_CHANGING;
+    const int32_t status = dmb_system_jump(sim);
+    sim->busy = DMB_BUSY_READABLE;
+    if (status == DMB_ERR_CALLBACK) return status;
+    if (freed > 0) dmb_forget_factors(sim);
+    return DMB_OK;
+}
+
+/* The state that a failure brings back is set aside unless the call has done that; factors are kept only when none can
+ * come any more, and are lost where the accelerations were made anew from others. */
+static int32_t accept(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
+{
+    int jumped = 0;
+    attempt->deferred = asks_behind(sim->scene);
+    if (attempt->deferred && !walk->set_aside) dmb_state_back_up(sim);
+    dmb_attempt_commit(sim, attempt);
+    const int32_t status = walk_corner(sim, &jumped);
+    if (status >= 0) {
+        if (attempt->deferred && !jumped) dmb_factor_reuse_end(sim, attempt, &sim->now);
+        return DMB_OK;
+    }
+    if (!walk->set_aside) dmb_state_restore(sim);
+    walk->report.steps--;
+    walk->report.rejected++;
+    return status;
+}
+
 int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
     if (sim->follower != NULL) {
@@ -61,20 +104,7 @@ int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
     walk->report.last_step = attempt->end.step;
     walk->rejected = walk->report.rejected;
     walk->iterations = walk->report.iterations;
-    dmb_attempt_commit(sim, attempt);
-    return DMB_OK;
-}
-
-/* A failure here leaves everything as before, the accelerations of before included, which is what there was anyway. */
-void dmb_walk_corner(dmb_sim *sim)
-{
-    const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
-    const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
-    if (freed > 0) dmb_forget_factors(sim);
-    if (freed == 0 && !widened && !dmb_system_rate_jumps(sim)) return;
-    sim->busy = DMB_BUSY_CHANGING;
-    (void)dmb_system_jump(sim);
-    sim->busy = DMB_BUSY_READABLE;
+    return accept(sim, attempt, walk);
 }
 
 int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step)
@@ -179,7 +209,6 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
             }
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;
-            dmb_walk_corner(sim);
             walk->arrived = attempt.end.arrives;
             *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a corner nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
@@ -293,7 +322,6 @@ int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *wa
             if (error.here > 1.0) walk->too_coarse = 1;
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;
-            dmb_walk_corner(sim);
             dmb_advance_propose(sim, *wanted);
             return status;
         }

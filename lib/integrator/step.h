@@ -24,10 +24,9 @@ int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *wa
 int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound);
 /* DMB_ERR_VALUE with a message unless value is <= bound. */
 int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound);
-/* Accepts the step, unless the sim's follower refuses it. */
+/* Accepts the step, unless the sim's follower refuses it, with accelerations anew where forces or a rate jump at the
+ * time reached. Where a function of the caller's fails in that, the step is taken back: DMB_ERR_CALLBACK. */
 int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk);
-/* Accelerations anew where a motion programme has a kink at the time reached. */
-void dmb_walk_corner(dmb_sim *sim);
 /* DMB_ERR_VALUE: the clock cannot tell a step of this length, the value of `field`. */
 int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step);
 void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk);

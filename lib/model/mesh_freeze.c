@@ -104,6 +104,16 @@ static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+static int32_t has_callback(const dmb_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->model->programmes.count; ++i) {
+        const dmb_programme *programme = (const dmb_programme *)mesh->model->programmes.items + i;
+        for (uint32_t k = 0; k < programme->count; ++k)
+            if (programme->terms[k].kind == DMB_TERM_CALLBACK) return 1;
+    }
+    return mesh->forces.count > 0 || mesh->callbacks.count > 0;
+}
+
 static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->node_count = (uint32_t)mesh->nodes.count;
@@ -130,6 +140,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->spring_count = (uint32_t)mesh->springs.count;
     scene->spring_point_count = (uint32_t)mesh->spring_points.count;
     scene->programme_count = mesh->model->programmes.count;
+    scene->has_callback = has_callback(mesh);
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
     scene->body_count = (uint32_t)mesh->bodies.count; /* bits and rings included */

@@ -257,7 +257,7 @@ typedef struct dmb_scene {
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
-    int32_t has_flow_input, input_reserved;
+    int32_t has_flow_input, has_callback;         /* 1: a programme, force or constraint is the caller's function */
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */

@@ -172,8 +172,8 @@ static int32_t step_again(hunt *h, double length, const dmb_clock *reached, gaps
         dmb_walk_reject(sim, &attempt, &h->walk);
         return status;
     }
-    dmb_walk_commit(sim, &attempt, &h->walk);
-    dmb_walk_corner(sim);
+    status = dmb_walk_commit(sim, &attempt, &h->walk);
+    if (status < 0) return status;
     dmb_advance_propose(sim, h->wanted);
     return ask(sim, found);
 }

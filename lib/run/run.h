@@ -18,6 +18,8 @@ int32_t dmb_events_check(dmb_sim *sim);
 
 /* ---- Snapshots --------------------------------------------------------------------------------------------------- */
 
+#define DMB_ROTATION_ROUNDING 1e-6 /* [-] of lengths and products of unit vectors: more than a run ever gathers */
+
 /* Checks the fields as they stand in a snapshot, from `from` on, one after the other. The sim lends scratch memory and
  * takes the message. DMB_OK or DMB_ERR_VALUE. O(bytes). */
 int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, const unsigned char *from);

@@ -18,10 +18,11 @@
 
 /* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
 #define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
-#define DMB_NAMES_BOUND(type, name, count, check)                                                                 \
-    _Static_assert(DMB_DOUBLES(type) ==                                                                           \
-                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS ||        \
-                        DMB_CHECK_##check == DMB_CHECK_SET_INPUTS || DMB_CHECK_##check == DMB_CHECK_EVENT_TIMES), \
+#define DMB_NAMES_BOUND(type, name, count, check)                                                                  \
+    _Static_assert(DMB_DOUBLES(type) ==                                                                            \
+                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS ||         \
+                        DMB_CHECK_##check == DMB_CHECK_SET_INPUTS || DMB_CHECK_##check == DMB_CHECK_EVENT_TIMES || \
+                        DMB_CHECK_##check == DMB_CHECK_FRAMES),                                                    \
                    #name ": its check does not fit its type");
 DMB_CONFIGURATION_LIST(DMB_NAMES_BOUND)
 DMB_MEMORY_LIST(DMB_NAMES_BOUND)
@@ -197,6 +198,19 @@ static int32_t check_factors(const probe *p)
     return DMB_OK;
 }
 
+/* Frames of the nodes where the factors were made; zeros where none are kept, by which they are not of use either. */
+static int32_t check_frames(const probe *p)
+{
+    const int32_t status = check_numbers(p, 0, p->field->bytes / sizeof(double));
+    for (size_t i = 0; i < p->field->bytes / sizeof(double) && status >= 0; i += 4) {
+        double square = 0.0;
+        for (size_t k = i; k < i + 4; k++) square += number_at(p, k) * number_at(p, k);
+        if (square != 0.0 && !(fabs(sqrt(square) - 1.0) <= DMB_ROTATION_ROUNDING))
+            return refuse(p, i, number_at(p, i), "with the three after it of length 1, or 0 with them");
+    }
+    return status;
+}
+
 static int32_t check_field(const probe *p)
 {
     const dmb_hole *hole = &p->sim->scene->hole;
@@ -218,6 +232,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_LEDGER: return check_numbers(p, 0, sizeof(dmb_ledger) / sizeof(double)); /* all members are */
     case DMB_CHECK_COUNTERS: return check_counters(p);
     case DMB_CHECK_REUSE: return check_factors(p);
+    case DMB_CHECK_FRAMES: return check_frames(p);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
 }

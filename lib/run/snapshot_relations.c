@@ -11,7 +11,8 @@
  *   turns have to fit: the former are solved for, of the latter whole revolutions are kept.
  * - A choice of dependent coordinates whose matrix is singular: the step says so. One that leaves equations out is made
  *   anew, or they are found violated.
- * - Kept factors of another matrix: a correction by them has to lower the true residual, or new ones are made.
+ * - Kept factors of another matrix: a correction by them leaves held rows alone and has to lower the true residual, or
+ *   new ones are made.
  * - Rock, loads, drives, actuators, energies, powers and statistics: any finite history is one that might have been. */
 #include "run/run.h"
 
@@ -24,10 +25,9 @@
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
-#define DMB_ROTATION_ROUNDING 1e-6 /* [-] of lengths and products of unit vectors: more than a run ever gathers */
-#define DMB_REST_ROUNDING 1e-9     /* [-] of the largest speed, that is none */
-#define DMB_RADIUS_ROUNDING 1e-9   /* [-] of a radius, that is none */
-#define DMB_TIME_LEEWAY 1e-5       /* [-] of the time: a corner that a step nearly reached counts as reached */
+#define DMB_REST_ROUNDING 1e-9   /* [-] of the largest speed, that is none */
+#define DMB_RADIUS_ROUNDING 1e-9 /* [-] of a radius, that is none */
+#define DMB_TIME_LEEWAY 1e-5     /* [-] of the time: a corner that a step nearly reached counts as reached */
 
 static int32_t refuse(dmb_sim *sim, const char *field, size_t item, double value, const char *bound)
 {

@@ -125,7 +125,7 @@
     X(double, reused_diagonal, kd, NUMBERS)                                                                             \
     X(double, reused_lower, kl, NUMBERS)                                                                                \
     X(double, reused_upper, kl, NUMBERS)                                                                                \
-    X(double, reused_quaternion, 4 * kn, NUMBERS) /* of the nodes where they were made */                               \
+    X(double, reused_quaternion, 4 * kn, FRAMES) /* of the nodes where they were made */                               \
     X(dmb_factor_reuse, reuse, 1, REUSE) /* integrator/newton; cleared by system/solve/solve */
 /* clang-format on */
 

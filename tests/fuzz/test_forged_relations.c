@@ -9,135 +9,8 @@
 
 #include <cmocka.h>
 
-#include "forged.h"
-#include "run/run.h"
-#include "sim/layout.h"
+#include "forging.h"
 #include "system/constrain/constrain.h"
-
-static void take(subject *s)
-{
-    assert_int_equal(dmb_sim_snapshot_size(s->sim, &s->size), DMB_OK);
-    s->sound = malloc(s->size);
-    s->forged = malloc(s->size);
-    assert_true(s->sound != NULL && s->forged != NULL);
-    assert_int_equal(dmb_sim_snapshot(s->sim, s->sound, s->size), DMB_OK);
-    memcpy(s->forged, s->sound, s->size);
-    s->hash = hash_of(s->sim);
-}
-
-static subject open_subject(int which)
-{
-    subject s = {.scene = saved_scene_open(which)};
-    s.sim = saved_sim(&s.scene);
-    saved_run(&s.scene, s.sim);
-    take(&s);
-    return s;
-}
-
-static void close_subject(subject *s)
-{
-    free(s->sound);
-    free(s->forged);
-    dmb_sim_destroy(&s->sim);
-    dmb_model_destroy(&s->scene.model);
-}
-
-/* ---- Forging ----------------------------------------------------------------------------------------------------- */
-
-/* Item i of a field in the forged snapshot. */
-static unsigned char *at(const subject *s, const char *name, size_t item, size_t size)
-{
-    dmb_field fields[DMB_FIELD_MAX];
-    const size_t count = dmb_sim_fields(s->sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
-    size_t place = HEADER, i = 0;
-    while (i < count && strcmp(fields[i].name, name) != 0) place += fields[i++].bytes;
-    assert_true(i < count && fields[i].bytes >= (item + 1) * size);
-    return s->forged + place + item * size;
-}
-
-static void put(const subject *s, const char *name, size_t item, double value)
-{
-    memcpy(at(s, name, item, sizeof value), &value, sizeof value);
-}
-
-static double got(const subject *s, const char *name, size_t item)
-{
-    double value;
-    memcpy(&value, at(s, name, item, sizeof value), sizeof value);
-    return value;
-}
-
-static void put_word(const subject *s, const char *name, size_t item, uint32_t value)
-{
-    memcpy(at(s, name, item, sizeof value), &value, sizeof value);
-}
-
-static uint32_t got_word(const subject *s, const char *name, size_t item)
-{
-    uint32_t value;
-    memcpy(&value, at(s, name, item, sizeof value), sizeof value);
-    return value;
-}
-
-static int32_t restore(subject *s)
-{
-    const uint64_t content = dmb_fnv_block(DMB_FNV_START, s->forged + HEADER, s->size - HEADER);
-    memcpy(s->forged + CONTENT_AT, &content, sizeof content);
-    return dmb_sim_restore(s->sim, s->forged, s->size);
-}
-
-/* The forged snapshot is refused for that field, and the next is sound again. */
-static void refused(subject *s, const char *field)
-{
-    char wanted[64];
-    (void)snprintf(wanted, sizeof wanted, "snapshot: %s, number", field);
-    const int32_t status = restore(s);
-    const char *message = dmb_sim_message(s->sim);
-    if (status != DMB_ERR_VALUE) fail_msg("%s: status %s", field, dmb_status_name(status));
-    if (strstr(message, wanted) == NULL || strstr(message, " = ") == NULL || strstr(message, "must be ") == NULL ||
-        strstr(message, "take another") == NULL)
-        fail_msg("%s: message: %s", field, message);
-    assert_int_equal(hash_of(s->sim), s->hash);
-    memcpy(s->forged, s->sound, s->size);
-}
-
-static void finite(const dmb_sim *sim)
-{
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        assert_true(isfinite(sim->now.velocity[i]) && isfinite(sim->now.acceleration[i]));
-    for (uint32_t i = 0; i < 3 * sim->scene->node_count; i++) assert_true(isfinite(sim->now.displacement[i]));
-}
-
-/* [m, rad] equations of joints left in the accepted state. */
-static double violation_of(dmb_sim *sim)
-{
-    double most = 0.0;
-    for (uint32_t r = 0; r < sim->scene->constraint_row_count; r++)
-        if (sim->constraint_type[r] == DMB_ROW_POSITION) most = fmax(most, fabs(sim->constraint_value[r]));
-    return most;
-}
-
-/* Taken; steps end on the constraints, or are refused with a message and change nothing. Returns how many ended. */
-static int harmless(subject *s, const char *what)
-{
-    int ended = 0;
-    const int32_t status = restore(s);
-    if (status < 0) fail_msg("%s: %s", what, dmb_sim_message(s->sim));
-    for (int i = 0; i < 3; i++) {
-        const uint64_t before = hash_of(s->sim);
-        const int32_t stepped = dmb_sim_step(s->sim, 2e-4, NULL);
-        assert_string_not_equal(dmb_status_name(stepped), "DMB_UNKNOWN");
-        if (stepped >= 0 && violation_of(s->sim) > 1e-6) fail_msg("%s: %g is left", what, violation_of(s->sim));
-        if (stepped < 0 && hash_of(s->sim) != before) fail_msg("%s: a failing step changed something", what);
-        if (stepped < 0 && dmb_sim_message(s->sim)[0] == '\0') fail_msg("%s: no message", what);
-        ended += stepped >= 0;
-    }
-    finite(s->sim);
-    memcpy(s->forged, s->sound, s->size);
-    assert_int_equal(restore(s), DMB_OK);
-    assert_int_equal(hash_of(s->sim), s->hash);
-    return ended;
-}
 
 /* ---- Refused: rotations ------------------------------------------------------------------------------------------ */
 
@@ -362,35 +235,6 @@ static void contacts_that_are_not_there(void **state)
     close_subject(&s);
 }
 
-/* Factors of no matrix at all: the step ends where it does without any. */
-static void factors_of_nothing(void **state)
-{
-    (void)state;
-    static const double values[] = {0.0, 1.0, -1e-9, 1e12, 1e-300};
-    subject s = open_subject(SAVED_SIDEWAYS);
-    const double h = got(&s, "reuse", 0);
-    double with[64], without[64];
-    const uint32_t rows = s.sim->scene->row_count;
-    assert_true(h > 0.0 && rows <= 64);
-    put(&s, "reuse", 0, 0.0);
-    assert_int_equal(restore(&s), DMB_OK);
-    assert_int_equal(dmb_sim_step(s.sim, h, NULL), DMB_OK);
-    memcpy(without, s.sim->now.velocity, rows * sizeof(double));
-    for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
-        memcpy(s.forged, s.sound, s.size);
-        for (uint32_t i = 0; i < s.sim->scene->layout.diag[s.sim->scene->node_count]; i++)
-            put(&s, "reused_diagonal", i, values[k]);
-        assert_int_equal(restore(&s), DMB_OK);
-        const int32_t status = dmb_sim_step(s.sim, h, NULL);
-        if (status < 0) fail_msg("factors %g: %s", values[k], dmb_sim_message(s.sim));
-        memcpy(with, s.sim->now.velocity, rows * sizeof(double));
-        for (uint32_t i = 0; i < rows; i++)
-            if (fabs(with[i] - without[i]) > 1e-4 * (1e-3 + fabs(without[i])))
-                fail_msg("factors %g: row %u: %g, not %g", values[k], i, with[i], without[i]);
-    }
-    close_subject(&s);
-}
-
 static void parts_that_are_apart(void **state)
 {
     (void)state;
@@ -515,7 +359,6 @@ int main(void)
         cmocka_unit_test(histories_increase),
         cmocka_unit_test(cutters_leave_no_more_than_their_size),
         cmocka_unit_test(contacts_that_are_not_there),
-        cmocka_unit_test(factors_of_nothing),
         cmocka_unit_test(parts_that_are_apart),
         cmocka_unit_test(joints_in_other_states),
         cmocka_unit_test(partitions_that_are_singular),

@@ -611,6 +611,14 @@ static void test_input(void **state)
     assert_true(fabs(derivative - formula) <= 5e-4 * fabs(formula));
     must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
     assert_int_equal(dmb_sensitivity_step(sensitivity, 1e-3, NULL), DMB_ERR_ORDER);
+    const double told = derivative; /* of where the sim has been: not of where it is */
+    double velocity[6];
+    uint32_t rows = 0;
+    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "moved by other calls"));
+    assert_int_equal(dmb_sensitivity_rows(sensitivity, 0, NULL, velocity, &rows), DMB_ERR_ORDER);
+    assert_int_equal(dmb_sensitivity_rows(sensitivity, 0, NULL, NULL, &rows), DMB_OK);
+    assert_true(derivative == told && rows <= 6);
     dmb_sensitivity_destroy(&sensitivity);
     rig_close(&low);
     rig_close(&high);

@@ -70,6 +70,8 @@ void dmb_sensitivity_aside(dmb_sensitivity *s, const dmb_rated_parameter *p, int
 int32_t dmb_sensitivity_alive(const dmb_sensitivity *s);
 /* The rates belong to these displacements, velocities and accelerations. */
 void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of);
+/* DMB_ERR_ORDER with a message: the sim is not where the rates are. */
+int32_t dmb_sensitivity_stands(const dmb_sensitivity *s);
 /* Rates as before the call (back), or those reached for the next one to begin with. */
 void dmb_sensitivity_settle(dmb_sensitivity *s, int back);
 /* After accelerations were made anew, by a corner or by the caller: rates that fit them. Errors as dmb_system_jump,

@@ -63,7 +63,8 @@ int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel
     int32_t status = dmb_sensitivity_alive(s);
     if (status < 0) return status;
     if (channels == NULL || derivatives == NULL) return DMB_ERR_NULL;
-    status = check_channels(s, channels, count);
+    status = dmb_sensitivity_stands(s);
+    if (status >= 0) status = check_channels(s, channels, count);
     if (status >= 0) status = dmb_sensitivity_catch_up(s);
     if (status < 0) return status;
     dmb_sensitivity_stand(s);
@@ -123,9 +124,11 @@ int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter_nu
                              uint32_t *rows)
 {
     const dmb_sensitivity *s = sensitivity;
-    const int32_t status = check_parameter(s, parameter_number);
+    int32_t status = check_parameter(s, parameter_number);
     if (status < 0) return status;
     if (rows == NULL) return DMB_ERR_NULL;
+    if (velocity != NULL || pose != NULL) status = dmb_sensitivity_stands(s);
+    if (status < 0) return status;
     const dmb_rated_parameter *p = &s->parameters[parameter_number];
     *rows = s->sim->scene->row_count;
     if (velocity != NULL) memcpy(velocity, dmb_rates_of(s, p, s->sim->now.velocity), *rows * sizeof(double));

@@ -224,6 +224,15 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back)
     if (back) dmb_sensitivity_take_sight(s, &s->sim->now);
 }
 
+int32_t dmb_sensitivity_stands(const dmb_sensitivity *s)
+{
+    if (stands_as_seen(s)) return DMB_OK;
+    dmb_message_set(&s->sim->message,
+                    "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance, or a "
+                    "callback failed behind a step that was taken back; make one anew from here");
+    return DMB_ERR_ORDER;
+}
+
 int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
 {
     if (accelerates_as_seen(s)) return DMB_OK;
@@ -243,12 +252,8 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
 {
     int32_t status = dmb_sensitivity_alive(s);
     if (status < 0) return status;
-    if (!stands_as_seen(s)) {
-        dmb_message_set(&s->sim->message,
-                        "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make "
-                        "one anew from here");
-        return DMB_ERR_ORDER;
-    }
+    status = dmb_sensitivity_stands(s);
+    if (status < 0) return status;
     if (!is_set_as_made(s)) {
         dmb_message_set(&s->sim->message,
                         "sensitivity: inputs were set since it was made, must stay; make one anew from here");

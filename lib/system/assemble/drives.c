@@ -83,14 +83,22 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     return DMB_OK;
 }
 
-int32_t dmb_system_rate_jumps(const dmb_sim *sim)
+int32_t dmb_system_rate_jumps(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (dmb_actuators_jump(sim)) return 1;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
-        if (target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate) < 0) continue;
+        const int32_t status = target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate);
+        if (status < 0) {
+            dmb_message name;
+            dmb_message_set(&sim->message,
+                            "%s: callback of its programme failed or gave a value beyond +-1e30 at time %g, where it "
+                            "was asked for its rate from there on",
+                            dmb_drive_text(scene, i, &name), sim->clock->time);
+            return status;
+        }
         const int on_joint = scene->drives[i].joint != DMB_NONE;
         const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))

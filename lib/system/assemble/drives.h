@@ -18,8 +18,8 @@ double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configura
  * increment, velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
 /* 1 if after the corner reached the programme of a motion drive goes on with another slope than the step before ended
- * with. */
-int32_t dmb_system_rate_jumps(const dmb_sim *sim);
+ * with. DMB_ERR_CALLBACK with a message. */
+int32_t dmb_system_rate_jumps(dmb_sim *sim);
 void dmb_gather_drives(dmb_evaluation *evaluation);
 
 /* All fields of drives are written here and by the calls below; what they mean: sim/sim.h. */

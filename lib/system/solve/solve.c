@@ -367,13 +367,12 @@ void dmb_solve_refined(dmb_sim *sim, const dmb_block_matrix *matrix, double *pro
     for (uint32_t i = 0; i < rows; i++) sim->correction[i] += product[i];
 }
 
-void dmb_keep_factors(dmb_sim *sim)
+void dmb_keep_factors(dmb_sim *sim, const double *quaternion)
 {
     swap_blocks(&sim->stiffness_diagonal, &sim->reused_diagonal);
     swap_blocks(&sim->stiffness_lower, &sim->reused_lower);
     swap_blocks(&sim->stiffness_upper, &sim->reused_upper);
-    if (sim->scene->site_count)
-        memcpy(sim->reused_quaternion, sim->trial.quaternion, 4 * sim->scene->node_count * sizeof(double));
+    if (sim->scene->site_count) memcpy(sim->reused_quaternion, quaternion, 4 * sim->scene->node_count * sizeof(double));
 }
 
 void dmb_forget_factors(dmb_sim *sim)
@@ -420,7 +419,6 @@ void dmb_solve_reused(const dmb_sim *sim, double *z)
     const int twisted = sim->scene->site_count > 0;
     if (twisted) twist_rows(sim, sim->trial.quaternion, sim->reused_quaternion, z);
     solve_chains(sim, &factors, z);
-    if (!twisted) return;
-    twist_rows(sim, sim->reused_quaternion, sim->trial.quaternion, z);
-    clear_held(sim->scene, z);
+    if (twisted) twist_rows(sim, sim->reused_quaternion, sim->trial.quaternion, z);
+    clear_held(sim->scene, z); /* the twist moves them, and so may factors that were restored from forged bytes */
 }

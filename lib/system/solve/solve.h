@@ -66,8 +66,9 @@ void dmb_solve_refined(dmb_sim *sim, const dmb_block_matrix *matrix, double *pro
  * which they were made. (Where only one of two directions across is held this mixes it with the other: an approximate
  * inverse may.) */
 
-/* The factors of this step at hand, by inverses, become those to be reused, in the frames of the trial. */
-void dmb_keep_factors(dmb_sim *sim);
+/* The factors of this step at hand, by inverses, become those to be reused, in the frames that the step reached: four
+ * numbers of each node. */
+void dmb_keep_factors(dmb_sim *sim, const double *quaternion);
 /* No factors are left to be reused: the state does not go on from the steps that made them. */
 void dmb_forget_factors(dmb_sim *sim);
 /* z: right-hand side in, solution by the reused factors out; no joints. */

@@ -79,7 +79,7 @@ static void they_hold_at_any_angle(void **state)
     turn_to(sim, 0.0, 20.0);
     factor(sim);
     solve(sim, DMB_FACTORS_FRESH, residual, first);
-    dmb_keep_factors(sim);
+    dmb_keep_factors(sim, sim->trial.quaternion);
     for (int k = 0; k < 4; k++) {
         turn_to(sim, angles[k], 20.0);
         factor(sim);
