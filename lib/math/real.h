@@ -18,7 +18,7 @@
 #define DMB_ROUNDING 0x1.8p52 /* added and taken off again, it rounds a number below 2^51 to an integer */
 
 /* Short products that are made many times: in lanes a call would take its vectors through memory. */
-#if defined(__GNUC__) && defined(DMB_LANES)
+#if defined(__GNUC__) && defined(DMB_LANES) && !defined(DMB_COUNTED)
 #define DMB_REAL_INLINE static inline __attribute__((always_inline))
 #else
 #define DMB_REAL_INLINE static inline
