@@ -70,6 +70,80 @@ static void hanging(void **state)
         }
 }
 
+/* ---- Several strings --------------------------------------------------------------------------------------------- */
+
+static void unread(const rig *s, int32_t quantity, dmb_id part, int32_t wanted)
+{
+    const dmb_channel channel = {dmb_station(part, 0, 0.0), quantity, 0};
+    double value = 7.0;
+    if (dmb_query_channel(s->sim, &channel, &value) != wanted) fail_msg("%s", dmb_channel_name(quantity, NULL));
+    assert_true(value == 7.0);
+    assert_int_equal(dmb_channel_check(s->sim, &channel, 1), wanted);
+    if (wanted != DMB_ERR_ID)
+        assert_non_null(strstr(dmb_sim_message(s->sim), "that has what is read: a bit, with a rock"));
+}
+
+static dmb_id add_falling(rig *s, int32_t first_kind, double depth, double speed)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    string.start_free = DMB_FREE_CYLINDRICAL;
+    string.start_depth = depth;
+    string.velocity[0] = speed;
+    string.velocity[3] = 2.0 * speed;
+    pipe.string = add_string(s, &string);
+    pipe.kind = first_kind;
+    (void)add_pipes(s, &pipe, 1);
+    pipe.kind = DMB_PIPE_FLEXIBLE;
+    (void)add_pipes(s, &pipe, 2);
+    return pipe.string;
+}
+
+/* Each string is read by itself: one with a bit that has no rock law and a load, one with a rigid pipe first and no
+ * bit; a drive pulls the first one, another the joint of a body beside them. */
+static void each_string_by_itself(void **state)
+{
+    (void)state;
+    static const int32_t of_bits[3] = {DMB_CHANNEL_WEIGHT_ON_BIT, DMB_CHANNEL_TORQUE_ON_BIT,
+                                       DMB_CHANNEL_RATE_OF_PENETRATION};
+    const dmb_wall_def hole = s1_hole();
+    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_id string[2];
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    (void)add_wall(&s, &hole);
+    for (int i = 0; i < 2; i++)
+        string[i] = add_falling(&s, i ? DMB_PIPE_RIGID : DMB_PIPE_FLEXIBLE, 10.0 + 20.0 * i, 0.3 + 0.5 * i);
+    bit.string = string[0];
+    bit.load = add_constant(&s, 250.0);
+    must_model(&s, dmb_model_add_bit(s.model, &bit, NULL));
+    const dmb_id block = add_body(&s, &body);
+    const dmb_id slide =
+        add_joint_between(&s, DMB_JOINT_CYLINDRICAL, dmb_station((dmb_id){0, 0}, 0, 0.0), dmb_station(block, 0, 0.0));
+    const dmb_id pull = add_constant(&s, 400.0);
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, string[0], DMB_X, pull);
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, slide, DMB_X, pull);
+    (void)rig_start(&s, NULL);
+    check_close("weight on the bit of the first string [N]", reading(&s, DMB_CHANNEL_WEIGHT_ON_BIT, string[0]), 250.0,
+                0.0);
+    check_close("    rate of penetration [m/s]", reading(&s, DMB_CHANNEL_RATE_OF_PENETRATION, string[0]), 0.3, 1e-12);
+    check_close("    force of its rig [N]", reading(&s, DMB_CHANNEL_RIG_FORCE, string[0]), -400.0, 1e-9);
+    check_close("    of the other [N]", reading(&s, DMB_CHANNEL_RIG_FORCE, string[1]), 0.0, 1e-9);
+    for (int i = 0; i < 2; i++) {
+        check_close("feed speed [m/s]", reading(&s, DMB_CHANNEL_FEED_SPEED, string[i]), 0.3 + 0.5 * i, 1e-12);
+        check_close("    bit speed [rad/s]", reading(&s, DMB_CHANNEL_BIT_SPEED, string[i]), 0.6 + i, 1e-12);
+        check_close("    bit depth [m]", reading(&s, DMB_CHANNEL_BIT_DEPTH, string[i]), 14.5 + 20.0 * i, 1e-9);
+    }
+    for (int i = 0; i < 3; i++) unread(&s, of_bits[i], string[1], DMB_ERR_UNSUPPORTED);
+    unread(&s, DMB_CHANNEL_OFF_BOTTOM, string[0], DMB_ERR_UNSUPPORTED); /* no rock */
+    unread(&s, DMB_CHANNEL_OFF_BOTTOM, string[1], DMB_ERR_UNSUPPORTED); /* no bit */
+    unread(&s, DMB_CHANNEL_HOOK_LOAD, string[1], DMB_ERR_UNSUPPORTED);  /* a rigid pipe has no section */
+    unread(&s, DMB_CHANNEL_ROTATION_TORQUE, string[1], DMB_ERR_UNSUPPORTED);
+    unread(&s, DMB_CHANNEL_STRETCH, (dmb_id){0, 7}, DMB_ERR_ID);
+    rig_close(&s);
+}
+
 /* ---- In a run ---------------------------------------------------------------------------------------------------- */
 
 typedef struct drilling {
@@ -354,8 +428,13 @@ static void refused_in_responses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hanging),        cmocka_unit_test(balances),     cmocka_unit_test(window_of_a_sine),
-        cmocka_unit_test(windows_refuse), cmocka_unit_test(in_responses), cmocka_unit_test(refused_in_responses),
+        cmocka_unit_test(hanging),
+        cmocka_unit_test(each_string_by_itself),
+        cmocka_unit_test(balances),
+        cmocka_unit_test(window_of_a_sine),
+        cmocka_unit_test(windows_refuse),
+        cmocka_unit_test(in_responses),
+        cmocka_unit_test(refused_in_responses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
