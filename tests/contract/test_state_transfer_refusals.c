@@ -39,6 +39,7 @@ typedef enum difference {
     INPUT_TARGET,
     INPUT_PART,
     INPUT_BOUNDS,
+    INPUT_LOWER_BOUND,
     INPUT_INITIAL,
     EVENT_NAME,
     EVENT_DIRECTION,
@@ -46,7 +47,9 @@ typedef enum difference {
     JOINT_KIND,
     JOINT_PART,
     JOINT_GROUND,
+    JOINT_FAR_PART,
     COUPLING_COUNT,
+    COUPLING_JOINT,
     COUPLING_COMPONENT,
     CONSTRAINT_KIND,
     CONSTRAINT_ROWS,
@@ -55,6 +58,7 @@ typedef enum difference {
     FRICTION_LAW,
     WALL_ORIGIN,
     WALL_STATIONS,
+    WALL_DEPTHS,
     WALL_DIRECTIONS,
     PIPE_KIND,
     PIPE_ELEMENTS,
@@ -76,8 +80,9 @@ static void add_hole(scene *s, difference d)
 {
     static const double bent[9] = {0.0, PI / 2.0, 0.0, 30.0, PI / 2.0, 0.0, 60.0, 1.56, 0.0};
     static const double more[9] = {0.0, PI / 2.0, 0.0, 30.0, PI / 2.0, 0.0, 60.0, 1.55, 0.0};
+    static const double later[9] = {0.0, PI / 2.0, 0.0, 31.0, PI / 2.0, 0.0, 60.0, 1.56, 0.0};
     dmb_wall_def wall = s1_hole();
-    wall.survey = d == WALL_DIRECTIONS ? more : bent;
+    wall.survey = d == WALL_DIRECTIONS ? more : d == WALL_DEPTHS ? later : bent;
     wall.survey_count = d == WALL_STATIONS ? 2 : 3;
     if (d == WALL_ORIGIN) wall.origin[2] = 1.0;
     if (d == NORMAL_LAW) wall.normal_law = DMB_NORMAL_EXACT;
@@ -186,7 +191,7 @@ static void add_inputs(scene *s, difference d)
     input.target = d == INPUT_TARGET ? DMB_TARGET_SET_POINT : DMB_TARGET_LOAD_FACTOR;
     input.part = d == INPUT_TARGET ? s->drives[1] : s->loads[0];
     if (d == INPUT_PART) input.part = s->loads[1];
-    input.low = -2.0;
+    input.low = d == INPUT_LOWER_BOUND ? -3.0 : -2.0;
     input.high = d == INPUT_BOUNDS ? 3.0 : 2.0;
     if (d == INPUT_INITIAL) input.initial = 1.0;
     if (d != NO_INPUT) must_model(&s->r, dmb_model_add_input(s->r.model, &input, NULL));
@@ -261,10 +266,12 @@ static void add_links(scene *s, difference d)
     joint.kind = d == JOINT_KIND ? DMB_JOINT_PLANAR : DMB_JOINT_CYLINDRICAL;
     joint.place_a = dmb_station(d == JOINT_GROUND ? ground : s->block, 0, 0.0);
     joint.place_b = dmb_station(s->arm, 0, 0.0);
+    if (d == JOINT_FAR_PART) joint.place_b = dmb_station(s->string, 0, 0.0);
     if (d == JOINT_PART) joint.place_a = dmb_station(s->string, 0, 0.0);
     if (d != NO_JOINT) s->axle = add_joint(&s->r, &joint);
     gear.joint[0] = gear.joint[1] = s->hinge;
     gear.component[0] = DMB_X, gear.component[1] = DMB_RX;
+    if (d == COUPLING_JOINT) gear.joint[1] = s->axle;
     if (d == COUPLING_COMPONENT) gear.component[0] = DMB_RX, gear.component[1] = DMB_X;
     if (d == COUPLING_COUNT) gear.third_joint = s->axle;
     if (d != NO_COUPLING) must_model(&s->r, dmb_model_add_coupling(s->r.model, &gear, NULL));
@@ -353,6 +360,7 @@ static const struct {
     {INPUT_TARGET, "input 0 (push): target, "},
     {INPUT_PART, "input 0 (push): part, "},
     {INPUT_BOUNDS, "input 0 (push): low or high, "},
+    {INPUT_LOWER_BOUND, "input 0 (push): low or high, "},
     {INPUT_INITIAL, "input 0 (push): initial (given or not), "},
     {EVENT_NAME, "event 0 (down): name, "},
     {EVENT_DIRECTION, "event 0 (up): direction, "},
@@ -360,6 +368,8 @@ static const struct {
     {JOINT_KIND, "joint 1: kind, "},
     {JOINT_PART, "joint 1: part of place_a, "},
     {JOINT_GROUND, "joint 1: part of place_a, "},
+    {JOINT_FAR_PART, "joint 1: part of place_b, "},
+    {COUPLING_JOINT, "coupling 0: joint or component, "},
     {COUPLING_COUNT, "coupling 0: joint or component, "},
     {COUPLING_COMPONENT, "coupling 0: joint or component, "},
     {CONSTRAINT_KIND, "constraint 0: kind, "},
@@ -369,6 +379,7 @@ static const struct {
     {FRICTION_LAW, "wall 0: friction_law, "},
     {WALL_ORIGIN, "wall 0: axis, "},
     {WALL_STATIONS, "wall 0: axis, "},
+    {WALL_DEPTHS, "wall 0: axis, "},
     {WALL_DIRECTIONS, "wall 0: axis, "},
     {PIPE_KIND, "string 0, pipe 2: kind, must be as of pipe 2 of the sim it goes on from"},
     {PIPE_ELEMENTS, "string 0, pipe 2: elements, "},

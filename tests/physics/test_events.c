@@ -321,6 +321,7 @@ static void refused(void **state)
 /* A force that its caller refuses to tell for times before the latest one, as on a step that is taken back. */
 typedef struct recorded_force {
     double latest; /* [s] */
+    double end;    /* [s] of the record; 0: none */
     int32_t replays;
 } recorded_force;
 
@@ -328,6 +329,7 @@ static int32_t force_of_record(void *context, double time, double out[3])
 {
     recorded_force *record = context;
     if (time < record->latest && !record->replays) return -1;
+    if (record->end > 0.0 && time > record->end) return -1;
     record->latest = fmax(record->latest, time);
     out[0] = 4.0, out[1] = 0.0, out[2] = 4.0 * time;
     return 0;
@@ -352,6 +354,11 @@ static void a_location_that_fails(void **state)
     (void)body_with(&s, DMB_X, &drive, &force);
     event(&s, "speed", DMB_CHANNEL_VELOCITY_X, s.body, DMB_EVENT_RISING, 1.0, 0.0);
     start(&s, 1e-9);
+    record.end = 0.2;
+    record.replays = 1;
+    assert_int_equal(dmb_sim_advance_to_event(s.sim, 3.0, &report, &work), DMB_ERR_CALLBACK);
+    assert_true(now(&s) <= 0.2);
+    record = (recorded_force){0};
     assert_int_equal(dmb_sim_advance_to_event(s.sim, 3.0, &report, &work), DMB_ERR_CALLBACK);
     const double before = now(&s);
     assert_true(before < 0.5 && work.rejected >= 1);
@@ -361,6 +368,40 @@ static void a_location_that_fails(void **state)
     record.replays = 1;
     assert_int_equal(next(&s, 3.0), 1);
     close_to(now(&s), 0.5, 1e-9);
+    end(&s);
+}
+
+/* A count of contacts that comes down to its level has not crossed it; and structs that are none. */
+static void down_to_the_level(void **state)
+{
+    (void)state;
+    scene s = {0};
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_event_report event_report = dmb_event_report_default();
+    dmb_step_report report = dmb_step_report_default();
+    must(dmb_model_create(NULL, &s.model));
+    must(dmb_model_add_wall(s.model, &wall, NULL));
+    body.contact_diameter = 0.074;
+    body.position[0] = 1.0;
+    body.position[2] = -0.00999;
+    body.velocity[2] = -0.5;
+    must(dmb_model_add_body(s.model, &body, &s.body));
+    event(&s, "touches", DMB_CHANNEL_CONTACTS_CLOSED, (dmb_id){0, 0}, DMB_EVENT_EITHER, 0.0, 0.0);
+    event(&s, "gap", DMB_CHANNEL_SITE_GAP, (dmb_id){0, 0}, DMB_EVENT_RISING, 1e-3, 0.0);
+    start(&s, 1e-8);
+    event_report.struct_size = report.struct_size = 3;
+    const uint64_t before = hash_of(s.sim);
+    assert_int_equal(dmb_sim_advance_to_event(s.sim, 1.0, &event_report, NULL), DMB_ERR_STRUCT_SIZE);
+    assert_int_equal(dmb_sim_advance_to_event(s.sim, 1.0, NULL, &report), DMB_ERR_STRUCT_SIZE);
+    assert_int_equal(hash_of(s.sim), before);
+    dmb_contact_total contacts = dmb_contact_total_default();
+    for (uint64_t told = 0; !(told & 2);) {
+        told = next(&s, 1.0);
+        if (told == 0) fail_msg("the body does not come back");
+        must(dmb_query_contact_total(s.sim, &contacts));
+        assert_int_equal(contacts.closed, told & 1); /* told where it closes, not where it opens */
+    }
     end(&s);
 }
 
@@ -374,6 +415,7 @@ int main(void)
         cmocka_unit_test(in_order),
         cmocka_unit_test(refused),
         cmocka_unit_test(a_location_that_fails),
+        cmocka_unit_test(down_to_the_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

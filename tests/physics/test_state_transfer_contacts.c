@@ -38,7 +38,7 @@ static void add_one(scene *s, int i, uint32_t pipes, double depth)
     s->string[i] = add_string(&s->r, &string);
     pipe.string = s->string[i];
     pipe.elements = 2;
-    pipe.contact_points = 3;
+    pipe.contact_points = 3 + 2 * (uint32_t)i;
     (void)add_pipes(&s->r, &pipe, pipes);
     ring.string = s->string[i];
     ring.pipe = pipes - 1;
@@ -52,7 +52,7 @@ static void add_one(scene *s, int i, uint32_t pipes, double depth)
     s->end[i] = add_body(&s->r, &body);
 }
 
-/* Accelerations begin anew, as a start has them, which moves bodies by 1e-9 m; friction that begins anew by 1e-5 m. */
+/* Accelerations begin anew, as a start has them. */
 static void check_blocks(const scene *from, const scene *to)
 {
     for (int i = 0; i < 2; i++) {
@@ -64,7 +64,7 @@ static void check_blocks(const scene *from, const scene *to)
     }
 }
 
-/* `pipes` in the first string, 3 in the second. */
+/* `pipes` in the first string, one less in the second. */
 static scene open_scene(int32_t friction_law, uint32_t pipes)
 {
     scene s;
@@ -76,7 +76,7 @@ static scene open_scene(int32_t friction_law, uint32_t pipes)
     (void)add_wall(&s.r, &wall);
     add_block(&s, 0);
     add_one(&s, 0, pipes, 20.0 - 1.5 * pipes);
-    add_one(&s, 1, 3, 50.0);
+    add_one(&s, 1, pipes - 1, 50.0 - 1.5 * pipes);
     add_block(&s, 1);
     (void)rig_start(&s.r, NULL);
     return s;
@@ -96,7 +96,7 @@ static int matching(const scene *from, const scene *to, uint32_t added, uint32_t
         dmb_contact contact = dmb_contact_default();
         must(&to->r, dmb_query_contact(to->r.sim, *after, &contact));
         if (!same_id(contact.part, was->part)) continue;
-        const int moved = same_id(was->part, from->string[0]) && was->pipe != DMB_NONE;
+        const int moved = same_id(was->part, from->string[0]) || same_id(was->part, from->string[1]);
         if (contact.pipe != was->pipe + (moved ? added : 0)) continue;
         *out = contact;
         (*after)++;
@@ -119,7 +119,8 @@ static void check_contacts(const scene *from, const scene *to, uint32_t added)
     for (uint32_t i = 0; i < sites_of(from); i++) {
         dmb_contact was = dmb_contact_default(), is;
         must(&from->r, dmb_query_contact(from->r.sim, i, &was));
-        if (was.pipe == DMB_NONE) continue; /* a rig end, where it was */
+        if (was.pipe == UINT32_MAX || (added && same_id(was.part, from->end[1])))
+            continue; /* the rig end, where it was */
         const uint32_t begin = after;
         if (!matching(from, to, added, sites_of(to), &was, &after, &is)) {
             after = begin;
