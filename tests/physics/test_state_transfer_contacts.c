@@ -1,6 +1,6 @@
 /* Places at the wall that a state transfer takes along: of two strings with rings, points along their elements, bodies
- * at their ends and free bodies beside them. What held them holds them on, and free bodies go on as if nothing had
- * happened. Axial-torsional pipes that are described off the line they are on are refused. */
+ * at their ends and free bodies beside them. Forces there stay, and free bodies go on by themselves. Axial-torsional
+ * pipes that are described off the line they are on are refused. */
 #include <string.h>
 
 #include "rig.h"
