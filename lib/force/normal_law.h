@@ -98,6 +98,10 @@ static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real
 {
     const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0), p = was[DMB_TOUCH_PART];
     const dmb_mask closes = dmb_mask_at_most(before, zero), second = dmb_mask_less(zero, p);
+    const dmb_real rest = dmb_real_abs(was[DMB_TOUCH_TIME]) + dmb_real_abs(was[DMB_TOUCH_EXCESS]);
+    out->weight = one;
+    out->by_depth = is[DMB_TOUCH_EXCESS] = is[DMB_TOUCH_TIME] = is[DMB_TOUCH_PART] = zero;
+    if (!dmb_mask_any(closes | second | dmb_mask_less(zero, rest))) return; /* as below, without its divisions */
     const dmb_real way = dmb_real_select(closes, depth - before, one), part = depth / way;
     const dmb_real first = DMB_TOUCH_FIRST * part, next = DMB_TOUCH_FIRST - p * (5.0 / 3.0 - 0.5 * p);
     const dmb_real time = was[DMB_TOUCH_TIME], excess = was[DMB_TOUCH_EXCESS];

@@ -14,6 +14,12 @@
 #else
 #define DMB_LANES_INLINE static inline
 #endif
+/* Copies of the last group of a run: once, out of the way of all others. */
+#if defined(__GNUC__)
+#define DMB_LANES_CALL static __attribute__((noinline, unused))
+#else
+#define DMB_LANES_CALL static inline
+#endif
 
 #if defined(DMB_LANES) && defined(__has_builtin)
 #if DMB_LANES >= 4 && __has_builtin(__builtin_shufflevector)
@@ -24,16 +30,23 @@
 /* Places of a group of lanes in a run: behind its end the last one is taken again, and left out when results are
  * stored. */
 typedef struct lane_group {
-    size_t place[DMB_REAL_LANES];
-    uint32_t used;
+    uint32_t first, used;
 } lane_group;
 
 static inline lane_group group_at(uint32_t first, uint32_t count)
 {
-    lane_group g;
-    g.used = count - first < DMB_REAL_LANES ? count - first : DMB_REAL_LANES;
-    for (uint32_t l = 0; l < DMB_REAL_LANES; l++) g.place[l] = l < g.used ? first + l : count - 1;
+    const lane_group g = {first, count - first < DMB_REAL_LANES ? count - first : DMB_REAL_LANES};
     return g;
+}
+
+static inline size_t place_at(const lane_group *g, uint32_t lane)
+{
+    return (size_t)g->first + (lane < g->used ? lane : g->used - 1);
+}
+
+static inline int is_whole(const lane_group *g)
+{
+    return DMB_REAL_LANES == 1 || g->used == DMB_REAL_LANES;
 }
 
 /* One bit for each lane that is not one again. */
@@ -42,12 +55,34 @@ static inline uint32_t lanes_used(const lane_group *g)
     return (1u << g->used) - 1;
 }
 
-/* A number of each lane. */
-DMB_LANES_INLINE dmb_real load_one(const double *from, size_t size, const lane_group *g)
+/* Places of lanes in a run of something else. */
+typedef struct lane_places {
+    size_t place[DMB_REAL_LANES];
+    int32_t together; /* 1: the numbers of each lane stand behind those of the one before */
+    int32_t reserved;
+} lane_places;
+
+/* ---- Numbers that do not stand one lane behind the other: copied to where they do ---------------------------------
+ */
+
+/* `count` numbers of each lane from places of `size` numbers to rows of `stride`. */
+DMB_LANES_CALL void gather_rest(const double *from, size_t size, uint32_t count, size_t stride, const lane_group *g,
+                                double *rows)
 {
-    dmb_real x = dmb_real_of(from[size * g->place[0]]);
-    for (int l = 1; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, l, from[size * g->place[l]]);
-    return x;
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
+        for (uint32_t i = 0; i < count; i++) rows[stride * l + i] = from[size * place_at(g, l) + i];
+}
+
+DMB_LANES_CALL void scatter_rest(const double *rows, uint32_t count, const lane_group *g, double *to)
+{
+    for (size_t i = 0; i < (size_t)count * g->used; i++) to[(size_t)count * g->first + i] = rows[i];
+}
+
+DMB_LANES_CALL void gather_places(const double *from, size_t size, uint32_t count, const lane_places *places,
+                                  double *rows)
+{
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
+        for (uint32_t i = 0; i < count; i++) rows[count * l + i] = from[size * places->place[l] + i];
 }
 
 /* ---- Four numbers of each lane ----------------------------------------------------------------------------------- */
@@ -96,35 +131,29 @@ DMB_LANES_INLINE void lanes_transpose(const dmb_real x[4], dmb_real out[4])
 /* The four numbers of one lane, from the first and the second half of transposed vectors. */
 #if DMB_LANES == 4
 #define DMB_LANES_FIRST(rows, k) (rows)[k]
-#define DMB_LANES_JOIN(from, size, g, k) load_row((from) + (size) * (g)->place[k])
+#define DMB_LANES_JOIN(at, size, k) load_row((at) + (size) * (k))
 #else
 #define DMB_LANES_FIRST(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 0, 1, 2, 3)
 #define DMB_LANES_SECOND(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 4, 5, 6, 7)
-#define DMB_LANES_JOIN(from, size, g, k)                                                                              \
-    __builtin_shufflevector(load_row((from) + (size) * (g)->place[k]), load_row((from) + (size) * (g)->place[4 + k]), \
-                            0, 1, 2, 3, 4, 5, 6, 7)
+#define DMB_LANES_JOIN(at, size, k) \
+    __builtin_shufflevector(load_row((at) + (size) * (k)), load_row((at) + (size) * (4 + (k))), 0, 1, 2, 3, 4, 5, 6, 7)
 #endif
 
-DMB_LANES_INLINE void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
+/* Four numbers of each lane, `size` of them from one lane to the next. */
+DMB_LANES_INLINE void load_four(const double *at, size_t size, dmb_real x[4])
 {
-    const dmb_real rows[4] = {DMB_LANES_JOIN(from, size, g, 0), DMB_LANES_JOIN(from, size, g, 1),
-                              DMB_LANES_JOIN(from, size, g, 2), DMB_LANES_JOIN(from, size, g, 3)};
+    const dmb_real rows[4] = {DMB_LANES_JOIN(at, size, 0), DMB_LANES_JOIN(at, size, 1), DMB_LANES_JOIN(at, size, 2),
+                              DMB_LANES_JOIN(at, size, 3)};
     lanes_transpose(rows, x);
 }
 
-DMB_LANES_INLINE void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
+DMB_LANES_INLINE void store_four(const dmb_real x[4], size_t size, double *to)
 {
     dmb_real rows[4];
     lanes_transpose(x, rows);
-    store_row(DMB_LANES_FIRST(rows, 0), to + size * g->place[0]);
-    if (g->used > 1) store_row(DMB_LANES_FIRST(rows, 1), to + size * g->place[1]);
-    if (g->used > 2) store_row(DMB_LANES_FIRST(rows, 2), to + size * g->place[2]);
-    if (g->used > 3) store_row(DMB_LANES_FIRST(rows, 3), to + size * g->place[3]);
+    for (int k = 0; k < 4; k++) store_row(DMB_LANES_FIRST(rows, k), to + size * (size_t)k);
 #if DMB_LANES == 8
-    if (g->used > 4) store_row(DMB_LANES_SECOND(rows, 0), to + size * g->place[4]);
-    if (g->used > 5) store_row(DMB_LANES_SECOND(rows, 1), to + size * g->place[5]);
-    if (g->used > 6) store_row(DMB_LANES_SECOND(rows, 2), to + size * g->place[6]);
-    if (g->used > 7) store_row(DMB_LANES_SECOND(rows, 3), to + size * g->place[7]);
+    for (int k = 0; k < 4; k++) store_row(DMB_LANES_SECOND(rows, k), to + size * (size_t)(4 + k));
 #endif
 }
 
@@ -149,17 +178,110 @@ DMB_LANES_INLINE void add_four(const dmb_real x[4], uint32_t lanes, double *cons
 #endif
 }
 
-#else
+/* ---- One, two or three numbers of each lane: the vectors in which they stand --------------------------------------
+ */
 
-DMB_LANES_INLINE void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
+typedef dmb_real dmb_real_anywhere __attribute__((aligned(8)));
+
+DMB_LANES_INLINE dmb_real load_vector(const double *from)
 {
-    for (uint32_t i = 0; i < 4; i++) x[i] = load_one(from + i, size, g);
+    return *(const dmb_real_anywhere *)from;
 }
 
-DMB_LANES_INLINE void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
+DMB_LANES_INLINE void store_vector(dmb_real x, double *to)
 {
-    for (uint32_t l = 0; l < g->used; l++)
-        for (uint32_t i = 0; i < 4; i++) to[size * g->place[l] + i] = dmb_real_lane(x + i, (int)l);
+    *(dmb_real_anywhere *)to = x;
+}
+
+#if DMB_LANES == 4
+#define DMB_PAIR_EVEN 0, 2, 4, 6
+#define DMB_PAIR_ODD 1, 3, 5, 7
+#define DMB_PAIR_LOW 0, 4, 1, 5
+#define DMB_PAIR_HIGH 2, 6, 3, 7
+#define DMB_THREE_LOAD_0 0, 3, 6, 0
+#define DMB_THREE_LOAD_1 1, 4, 7, 0
+#define DMB_THREE_LOAD_2 2, 5, 0, 0
+#define DMB_THREE_LAST_0 0, 1, 2, 5
+#define DMB_THREE_LAST_1 0, 1, 2, 6
+#define DMB_THREE_LAST_2 0, 1, 4, 7
+#define DMB_THREE_STORE_0 0, 4, 0, 1
+#define DMB_THREE_STORE_1 5, 0, 2, 6
+#define DMB_THREE_STORE_2 0, 3, 7, 0
+#define DMB_THREE_WITH_0 0, 1, 4, 3
+#define DMB_THREE_WITH_1 0, 5, 2, 3
+#define DMB_THREE_WITH_2 6, 1, 2, 7
+#else
+#define DMB_PAIR_EVEN 0, 2, 4, 6, 8, 10, 12, 14
+#define DMB_PAIR_ODD 1, 3, 5, 7, 9, 11, 13, 15
+#define DMB_PAIR_LOW 0, 8, 1, 9, 2, 10, 3, 11
+#define DMB_PAIR_HIGH 4, 12, 5, 13, 6, 14, 7, 15
+#define DMB_THREE_LOAD_0 0, 3, 6, 9, 12, 15, 0, 0
+#define DMB_THREE_LOAD_1 1, 4, 7, 10, 13, 0, 0, 0
+#define DMB_THREE_LOAD_2 2, 5, 8, 11, 14, 0, 0, 0
+#define DMB_THREE_LAST_0 0, 1, 2, 3, 4, 5, 10, 13
+#define DMB_THREE_LAST_1 0, 1, 2, 3, 4, 8, 11, 14
+#define DMB_THREE_LAST_2 0, 1, 2, 3, 4, 9, 12, 15
+#define DMB_THREE_STORE_0 0, 8, 0, 1, 9, 0, 2, 10
+#define DMB_THREE_STORE_1 0, 3, 11, 0, 4, 12, 0, 5
+#define DMB_THREE_STORE_2 13, 0, 6, 14, 0, 7, 15, 0
+#define DMB_THREE_WITH_0 0, 1, 8, 3, 4, 9, 6, 7
+#define DMB_THREE_WITH_1 10, 1, 2, 11, 4, 5, 12, 7
+#define DMB_THREE_WITH_2 0, 13, 2, 3, 14, 5, 6, 15
+#endif
+
+DMB_LANES_INLINE void load_few(const double *at, size_t stride, uint32_t count, dmb_real *x)
+{
+    (void)stride; /* it is count */
+    const dmb_real a = load_vector(at);
+    if (count == 1) {
+        x[0] = a;
+        return;
+    }
+    const dmb_real b = load_vector(at + DMB_LANES);
+    if (count == 2) {
+        x[0] = __builtin_shufflevector(a, b, DMB_PAIR_EVEN);
+        x[1] = __builtin_shufflevector(a, b, DMB_PAIR_ODD);
+        return;
+    }
+    const dmb_real c = load_vector(at + 2 * DMB_LANES);
+    x[0] = __builtin_shufflevector(__builtin_shufflevector(a, b, DMB_THREE_LOAD_0), c, DMB_THREE_LAST_0);
+    x[1] = __builtin_shufflevector(__builtin_shufflevector(a, b, DMB_THREE_LOAD_1), c, DMB_THREE_LAST_1);
+    x[2] = __builtin_shufflevector(__builtin_shufflevector(a, b, DMB_THREE_LOAD_2), c, DMB_THREE_LAST_2);
+}
+
+DMB_LANES_INLINE void store_few(const dmb_real *x, uint32_t count, double *to)
+{
+    if (count == 1) {
+        store_vector(x[0], to);
+        return;
+    }
+    if (count == 2) {
+        store_vector(__builtin_shufflevector(x[0], x[1], DMB_PAIR_LOW), to);
+        store_vector(__builtin_shufflevector(x[0], x[1], DMB_PAIR_HIGH), to + DMB_LANES);
+        return;
+    }
+    const dmb_real a = __builtin_shufflevector(x[0], x[1], DMB_THREE_STORE_0);
+    const dmb_real b = __builtin_shufflevector(x[0], x[1], DMB_THREE_STORE_1);
+    const dmb_real c = __builtin_shufflevector(x[0], x[1], DMB_THREE_STORE_2);
+    store_vector(__builtin_shufflevector(a, x[2], DMB_THREE_WITH_0), to);
+    store_vector(__builtin_shufflevector(b, x[2], DMB_THREE_WITH_1), to + DMB_LANES);
+    store_vector(__builtin_shufflevector(c, x[2], DMB_THREE_WITH_2), to + 2 * DMB_LANES);
+}
+
+#else
+
+DMB_LANES_INLINE void load_few(const double *at, size_t stride, uint32_t count, dmb_real *x)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        x[i] = dmb_real_of(at[i]);
+        for (int l = 1; l < DMB_REAL_LANES; l++) dmb_real_set_lane(x + i, l, at[stride * (size_t)l + i]);
+    }
+}
+
+DMB_LANES_INLINE void store_few(const dmb_real *x, uint32_t count, double *to)
+{
+    for (int l = 0; l < DMB_REAL_LANES; l++)
+        for (uint32_t i = 0; i < count; i++) to[count * (uint32_t)l + i] = dmb_real_lane(x + i, l);
 }
 
 DMB_LANES_INLINE void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
@@ -172,45 +294,86 @@ DMB_LANES_INLINE void add_four(const dmb_real x[4], uint32_t lanes, double *cons
 
 /* ---- Any number of them ------------------------------------------------------------------------------------------ */
 
-/* x[i] = numbers i of `size` at each place, i < count */
+/* x[i] = number i < count of each lane, `stride` numbers from one lane to the next; fewer than four stand close. */
+DMB_LANES_INLINE void load_together(const double *at, size_t stride, uint32_t count, dmb_real *x)
+{
+#ifdef DMB_LANES_TRANSPOSED
+    if (count > 3) {
+        for (uint32_t i = 0; i + 4 <= count; i += 4) load_four(at + i, stride, x + i);
+        if (count % 4 != 0) load_four(at + count - 4, stride, x + count - 4); /* some twice */
+        return;
+    }
+#endif
+    load_few(at, stride, count, x);
+}
+
+DMB_LANES_INLINE void store_together(const dmb_real *x, uint32_t count, double *to)
+{
+#ifdef DMB_LANES_TRANSPOSED
+    if (count > 3) {
+        for (uint32_t i = 0; i + 4 <= count; i += 4) store_four(x + i, count, to + i);
+        if (count % 4 != 0) store_four(x + count - 4, count, to + count - 4);
+        return;
+    }
+#endif
+    store_few(x, count, to);
+}
+
+/* x[i] = number i of `size` at each place, i < count, `next` places on */
 DMB_LANES_INLINE void load(const double *from, size_t size, uint32_t count, const lane_group *g, uint32_t next,
                            dmb_real *x)
 {
-    uint32_t i = 0;
-    from += size * next;
-    for (; i + 4 <= count; i += 4) load_four(from + i, size, g, x + i);
-    if (i < count && count > 4) /* some twice */
-        load_four(from + count - 4, size, g, x + count - 4);
-    else
-        for (; i < count; i++) x[i] = load_one(from + i, size, g);
+    const double *at = from + size * ((size_t)g->first + next);
+    double rows[DMB_REAL_LANES * 36];
+    if (!is_whole(g)) {
+        gather_rest(from + size * next, size, count, size, g, rows);
+        at = rows;
+    }
+    load_together(at, size, count, x);
 }
 
 DMB_LANES_INLINE void store(const dmb_real *x, uint32_t size, const lane_group *g, double *to)
 {
-    uint32_t i = 0;
-    for (; i + 4 <= size; i += 4) store_four(x + i, size, g, to + i);
-    if (i < size && size > 4)
-        store_four(x + size - 4, size, g, to + size - 4);
-    else
-        for (; i < size; i++)
-            for (uint32_t l = 0; l < g->used; l++) to[size * g->place[l] + i] = dmb_real_lane(x + i, (int)l);
+    double rows[DMB_REAL_LANES * 36];
+    const int whole = is_whole(g);
+    store_together(x, size, whole ? to + (size_t)size * g->first : rows);
+    if (!whole) scatter_rest(rows, size, g, to);
 }
 
-/* One number of each place, in groups whose places follow one another. */
+/* x[i] = number i < count behind each place, a place being `size` numbers */
+DMB_LANES_INLINE void load_at(const double *from, size_t size, uint32_t count, const lane_places *places, dmb_real *x)
+{
+    const double *at = from + size * places->place[0];
+    double rows[DMB_REAL_LANES * 6];
+    if (DMB_REAL_LANES > 1 && !places->together) {
+        gather_places(from, size, count, places, rows);
+        at = rows;
+    }
+    load_together(at, count, count, x);
+}
+
+/* One number of each place. */
 DMB_LANES_INLINE dmb_real load_line(const double *from, const lane_group *g)
 {
     dmb_real x;
-    if (g->used < DMB_REAL_LANES) return load_one(from, 1, g);
-    memcpy(&x, from + g->place[0], sizeof x);
+    load(from, 1, 1, g, 0, &x);
     return x;
 }
 
 DMB_LANES_INLINE void store_line(dmb_real x, const lane_group *g, double *to)
 {
-    if (g->used < DMB_REAL_LANES)
-        store(&x, 1, g, to);
+    store(&x, 1, g, to);
+}
+
+/* to += the number of each lane, one after the other */
+DMB_LANES_INLINE void add_each(dmb_real x, const lane_group *g, double *to)
+{
+    double sum = *to;
+    if (is_whole(g))
+        for (int l = 0; l < DMB_REAL_LANES; l++) sum += dmb_real_lane(&x, l);
     else
-        memcpy(to + g->place[0], &x, sizeof x);
+        for (uint32_t l = 0; l < g->used; l++) sum += dmb_real_lane(&x, (int)l);
+    *to = sum;
 }
 
 /* to[l][i] += lane l of x[i], i < count >= 4, for the lanes given, one bit each; lane by lane, for some may go to the
@@ -243,6 +406,34 @@ DMB_LANES_INLINE dmb_real lanes_behind(dmb_real before, dmb_real x)
 #else
     return __builtin_shufflevector(before, x, 7, 8, 9, 10, 11, 12, 13, 14);
 #endif
+}
+
+/* Lane l is lane l + 1 of x; the last one is given. */
+DMB_LANES_INLINE dmb_real lanes_ahead(dmb_real x, double last)
+{
+#if DMB_REAL_LANES == 1
+    (void)x;
+    return last;
+#elif !defined(DMB_LANES_TRANSPOSED)
+    dmb_real ahead = dmb_real_of(last);
+    for (int l = 0; l + 1 < DMB_REAL_LANES; l++) dmb_real_set_lane(&ahead, l, dmb_real_lane(&x, l + 1));
+    return ahead;
+#elif DMB_LANES == 4
+    return __builtin_shufflevector(x, dmb_real_of(last), 1, 2, 3, 4);
+#else
+    return __builtin_shufflevector(x, dmb_real_of(last), 1, 2, 3, 4, 5, 6, 7, 8);
+#endif
+}
+
+/* Numbers of the near and of the far nodes of elements; `last` is the run's last node, which stands for all behind it.
+ */
+DMB_LANES_INLINE void load_ends(const double *from, uint32_t count, const lane_group *nodes, uint32_t last, dmb_real *a,
+                                dmb_real *b)
+{
+    const uint32_t next = nodes->first + DMB_REAL_LANES;
+    const double *far = from + (size_t)count * (next < last ? next : last);
+    load(from, count, count, nodes, 0, a);
+    for (uint32_t i = 0; i < count; i++) b[i] = lanes_ahead(a[i], far[i]);
 }
 
 /* Numbers of the first node, which something else may have added to. */

@@ -18,8 +18,9 @@ typedef struct lane_types {
 
 static void load_types(const dmb_beam_job *job, const lane_group *g, int first, lane_types *types)
 {
+    if (!first && is_whole(g) && memcmp(types->type, job->type + g->first, sizeof types->type) == 0) return;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = job->type[g->place[l]];
+        const uint32_t type = job->type[place_at(g, (uint32_t)l)];
         if (!first && types->type[l] == type) continue;
         types->type[l] = type;
         dmb_beam_load_constants(job->types + type, l, &types->constants);
@@ -27,11 +28,10 @@ static void load_types(const dmb_beam_job *job, const lane_group *g, int first, 
 }
 
 /* Vector from node A to node B, and the largest magnitude that enters it. */
-static inline void load_span(const dmb_beam_job *job, const lane_group *g, dmb_beam_input *in)
+static inline void load_span(const dmb_beam_job *job, const lane_group *g, const lane_group *nodes, dmb_beam_input *in)
 {
     dmb_real ua[3], ub[3];
-    load(job->displacement, 3, 3, g, 0, ua);
-    load(job->displacement, 3, 3, g, 1, ub);
+    load_ends(job->displacement, 3, nodes, job->count, ua, ub);
     load(job->span, 3, 3, g, 0, in->span);
     in->reach = dmb_real_of(0.0);
     for (int i = 0; i < 3; i++) {
@@ -43,18 +43,15 @@ static inline void load_span(const dmb_beam_job *job, const lane_group *g, dmb_b
 DMB_LANES_INLINE void load_input(const dmb_beam_job *job, const dmb_beam_task *task, const lane_group *g,
                                  dmb_beam_input *in)
 {
-    load(job->quaternion, 4, 4, g, 0, in->qa);
-    load(job->quaternion, 4, 4, g, 1, in->qb);
+    const lane_group nodes = group_at(g->first, job->count + 1);
+    load_ends(job->quaternion, 4, &nodes, job->count, in->qa, in->qb);
     dmb_quat_to_matrix(in->qa, in->Ra);
-    load_span(job, g, in);
+    load_span(job, g, &nodes, in);
     if (!task->dynamic) return;
-    load(job->velocity, 6, 6, g, 0, in->va);
-    load(job->velocity, 6, 6, g, 1, in->vb);
-    load(job->acceleration, 6, 6, g, 0, in->aa);
-    load(job->acceleration, 6, 6, g, 1, in->ab);
+    load_ends(job->velocity, 6, &nodes, job->count, in->va, in->vb);
+    load_ends(job->acceleration, 6, &nodes, job->count, in->aa, in->ab);
     if (!task->tangent) return;
-    load(job->increment, 6, 6, g, 0, in->za);
-    load(job->increment, 6, 6, g, 1, in->zb);
+    load_ends(job->increment, 6, &nodes, job->count, in->za, in->zb);
 }
 
 /* Parts of the nodes of the next group that come from the far ends of elements. */
@@ -92,13 +89,10 @@ static inline void add_ends(const dmb_beam_job *job, const dmb_beam_task *task, 
 
 static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
 {
-    for (uint32_t l = 0; l < g->used; l++) {
-        const int lane = (int)l;
-        job->rounding += dmb_real_lane(&out->rounding, lane);
-        job->potential -= dmb_real_lane(&out->potential, lane);
-        job->damping -= dmb_real_lane(&out->damping, lane);
-        job->inertia -= dmb_real_lane(&out->inertia, lane);
-    }
+    add_each(out->rounding, g, &job->rounding);
+    add_each(-out->potential, g, &job->potential);
+    add_each(-out->damping, g, &job->damping);
+    add_each(-out->inertia, g, &job->inertia);
 }
 
 DMB_LANES_INLINE void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out, beam_ends *ends)
@@ -127,9 +121,8 @@ static uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dm
     dmb_beam_shape_at(c, job->arms, in->qa, in->Ra, in->qb, in->span, &shape);
     const dmb_real angle2 = dmb_vec3_norm_squared(shape.d + 3);
     for (uint32_t l = 0; l + 1 < g->used; l++)
-        if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX))
-            return (uint32_t)g->place[l];
-    return (uint32_t)g->place[g->used - 1];
+        if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX)) return g->first + l;
+    return g->first + g->used - 1;
 }
 
 DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
@@ -172,12 +165,12 @@ static void extrapolate(const dmb_beam_job *job)
     lane_types types;
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, job->count);
+        const lane_group nodes = group_at(first, job->count + 1);
         dmb_beam_shape shape;
         dmb_real za[6], zb[6], dd[6], stress[6];
         load_types(job, &g, first == 0, &types);
         load(job->strain, 6, 6, &g, 0, shape.d);
-        load(job->velocity, 6, 6, &g, 0, za);
-        load(job->velocity, 6, 6, &g, 1, zb);
+        load_ends(job->velocity, 6, &nodes, job->count, za, zb);
         dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
         dmb_beam_operators_at(&types.constants, &shape);
         if (job->arms) {

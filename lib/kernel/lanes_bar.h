@@ -15,7 +15,7 @@ typedef struct lane_sum {
 /* Lanes that repeat the last row count nothing. */
 static inline void sum_add(dmb_real x, const lane_group *g, lane_sum *sum)
 {
-    const size_t part = g->place[0] / DMB_REAL_LANES % SUM_PARTS;
+    const size_t part = g->first / DMB_REAL_LANES % SUM_PARTS;
     for (uint32_t l = g->used; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, (int)l, 0.0);
     sum->part[part] = sum->part[part] + x;
 }
@@ -52,7 +52,7 @@ static inline void load_bar(const dmb_bar_job *job, const dmb_element_type *type
 static inline int are_same_bars(const dmb_bar_job *job, const lane_group *g, const bar_constants *c)
 {
     uint32_t other = g->used < DMB_REAL_LANES || DMB_REAL_LANES == 1 ? 1 : 0;
-    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * job->type[g->place[l] / 2]);
+    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * job->type[place_at(g, (uint32_t)l) / 2]);
     return other == 0;
 }
 
@@ -60,7 +60,8 @@ static inline void load_bars(const dmb_bar_job *job, const lane_group *g, bar_co
 {
     if (are_same_bars(job, g, c)) return;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = job->type[g->place[l] / 2], torsion = g->place[l] & 1, key = 1 + 2 * type + torsion;
+        const uint32_t type = job->type[place_at(g, (uint32_t)l) / 2], torsion = place_at(g, (uint32_t)l) & 1,
+                       key = 1 + 2 * type + torsion;
         if (c->key[l] == key) continue;
         c->key[l] = key;
         load_bar(job, job->types + type, (int)torsion, l, c);
@@ -72,8 +73,8 @@ static inline dmb_real load_place(const dmb_bar_job *job, const lane_group *g, s
 {
     dmb_real x = dmb_real_of(0.0);
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const size_t node = g->place[l] / 2 + after;
-        dmb_real_set_lane(&x, l, g->place[l] & 1 ? job->turn[node] : job->displacement[3 * node]);
+        const size_t node = place_at(g, (uint32_t)l) / 2 + after;
+        dmb_real_set_lane(&x, l, place_at(g, (uint32_t)l) & 1 ? job->turn[node] : job->displacement[3 * node]);
     }
     return x;
 }

@@ -2,6 +2,7 @@
 #ifndef DMB_KERNEL_LANES_NODE_H
 #define DMB_KERNEL_LANES_NODE_H
 
+#include <stddef.h>
 #include <string.h>
 
 #include "element/rigid_mass.h"
@@ -28,39 +29,62 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
  * is on one of the group's nodes. */
 static inline int has_rigid_masses(const dmb_node_force_job *job, const lane_group *g, uint32_t *next)
 {
-    while (*next < job->rigid_mass_count && job->rigid_masses[*next].node < job->first + g->place[0]) (*next)++;
-    return *next < job->rigid_mass_count && job->rigid_masses[*next].node <= job->first + g->place[DMB_REAL_LANES - 1];
+    while (*next < job->rigid_mass_count && job->rigid_masses[*next].node < job->first + g->first) (*next)++;
+    return *next < job->rigid_mass_count &&
+           job->rigid_masses[*next].node <= job->first + place_at(g, DMB_REAL_LANES - 1);
 }
+
+/* 1 if each node of the group has one rigid mass. */
+static inline int has_mass_each(const dmb_node_force_job *job, const lane_group *g, uint32_t next)
+{
+    uint32_t other = 0;
+    if (!is_whole(g) || job->rigid_mass_count - next < DMB_REAL_LANES) return 0;
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
+        other |= job->rigid_masses[next + l].node ^ (job->first + g->first + l);
+    return other == 0;
+}
+
+_Static_assert(offsetof(dmb_rigid_mass, inertia) == 4 * sizeof(double), "mass, moment, inertia");
 
 /* Constants of the rigid_masses on a group of nodes, from `next` on; 0 where there is none. */
 static inline void load_rigid_masses(const dmb_node_force_job *job, const lane_group *g, uint32_t next,
                                      dmb_rigid_mass_constants *c)
 {
+    enum { NUMBERS = sizeof(dmb_rigid_mass) / sizeof(double) };
     static const dmb_rigid_mass none;
-    for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const size_t node = job->first + g->place[l];
-        while (next < job->rigid_mass_count && job->rigid_masses[next].node < node) next++;
-        const int has = next < job->rigid_mass_count && job->rigid_masses[next].node == node;
-        dmb_rigid_mass_load(has ? job->rigid_masses + next : &none, l, c);
+    dmb_rigid_mass rigid_masses[DMB_REAL_LANES];
+    const dmb_rigid_mass *from = job->rigid_masses + next;
+    dmb_real constants[10];
+    if (!has_mass_each(job, g, next)) {
+        for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
+            const size_t node = job->first + place_at(g, l);
+            while (next < job->rigid_mass_count && job->rigid_masses[next].node < node) next++;
+            const int has = next < job->rigid_mass_count && job->rigid_masses[next].node == node;
+            rigid_masses[l] = has ? job->rigid_masses[next] : none;
+        }
+        from = rigid_masses;
     }
+    load_together((const double *)(const void *)from, NUMBERS, 10, constants);
+    c->mass = constants[0];
+    for (int i = 0; i < 3; i++) c->moment[i] = constants[1 + i];
+    for (int i = 0; i < 6; i++) c->inertia[i] = constants[4 + i];
 }
 
 /* f = M v' - v^^T p */
-static inline void add_rigid_masses(dmb_node_force_job *job, uint32_t next, node_group *g)
+DMB_LANES_INLINE void add_rigid_masses(dmb_node_force_job *job, uint32_t next, int tangent, node_group *g)
 {
     dmb_rigid_mass_constants rigid_mass;
     dmb_real a[6], f[6], p[6], gyroscopic[6];
     load_rigid_masses(job, &g->place, next, &rigid_mass);
     load(job->acceleration, 6, 6, &g->place, 0, a);
     dmb_rigid_mass_momentum(&rigid_mass, a, f);
-    const dmb_real power = dmb_vec6_dot(g->v, f);
-    for (uint32_t l = 0; l < g->place.used; l++) job->inertia_power -= dmb_real_lane(&power, (int)l);
+    add_each(-dmb_vec6_dot(g->v, f), &g->place, &job->inertia_power);
     dmb_rigid_mass_momentum(&rigid_mass, g->v, p);
     dmb_ad_transpose(g->v, p, gyroscopic);
     for (int i = 0; i < 6; i++) f[i] = -f[i];
     node_apply(f, g); /* one by one: on a free body these two are all that balances */
     node_apply(gyroscopic, g);
-    if (job->tangent) dmb_rigid_mass_add_tangent(&rigid_mass, g->v, p, job->mass_factor, job->velocity_factor, g->C);
+    if (tangent) dmb_rigid_mass_add_tangent(&rigid_mass, g->v, p, job->mass_factor, job->velocity_factor, g->C);
 }
 
 static inline void store_weight_tangent(const dmb_node_force_job *job, const lane_group *g, const dmb_real force[6],
@@ -74,11 +98,11 @@ static inline void store_weight_tangent(const dmb_node_force_job *job, const lan
                                  {zero, -by_rotation[3], -by_rotation[4], -by_rotation[5]},
                                  {zero, -by_rotation[6], -by_rotation[7], -by_rotation[8]}};
     double *to[DMB_REAL_LANES];
-    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = job->stiffness + 36 * g->place[l] + 2;
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = job->stiffness + 36 * place_at(g, (uint32_t)l) + 2;
     for (uint32_t i = 0; i < 6; i++) add_four(rows[i], lanes_used(g), to, 6 * i);
 }
 
-static inline void add_weight(dmb_node_force_job *job, node_group *g)
+static inline void add_weight(dmb_node_force_job *job, int tangent, node_group *g)
 {
     dmb_real q[4], R[9], mass, moment[3], force[6], by_rotation[9];
     load(job->quaternion, 4, 4, &g->place, 0, q);
@@ -88,45 +112,49 @@ static inline void add_weight(dmb_node_force_job *job, node_group *g)
     dmb_vec3_scale(dmb_real_of(job->load_factor), moment, moment);
     dmb_weight_at(job->gravity, R, job->load_factor * mass, moment, force, by_rotation);
     node_apply(force, g);
-    if (job->dynamic) {
-        const dmb_real power = dmb_vec6_dot(force, g->v);
-        for (uint32_t l = 0; l < g->place.used; l++) job->potential += dmb_real_lane(&power, (int)l);
-    }
-    if (job->tangent) store_weight_tangent(job, &g->place, force, by_rotation);
+    if (job->dynamic) add_each(dmb_vec6_dot(force, g->v), &g->place, &job->potential);
+    if (tangent) store_weight_tangent(job, &g->place, force, by_rotation);
 }
 
-static inline void add_damping(dmb_node_force_job *job, node_group *g)
+static inline void add_damping(dmb_node_force_job *job, int tangent, node_group *g)
 {
     dmb_real c[5], force[6];
     load(job->damping, 5, 5, &g->place, 0, c);
     dmb_damping_force(c, g->v, force);
     node_apply(force, g);
-    const dmb_real power = dmb_vec6_dot(force, g->v);
-    for (uint32_t l = 0; l < g->place.used; l++) job->damping_power += dmb_real_lane(&power, (int)l);
-    if (job->tangent) dmb_damping_add_tangent(c, job->velocity_factor, g->C);
+    add_each(dmb_vec6_dot(force, g->v), &g->place, &job->damping_power);
+    if (tangent) dmb_damping_add_tangent(c, job->velocity_factor, g->C);
 }
 
-static void node_forces(dmb_node_force_job *job)
+DMB_LANES_INLINE void node_forces_of(dmb_node_force_job *job, int tangent)
 {
     uint32_t next = 0;
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         node_group g;
         g.place = group_at(first, job->count);
         const int rigid_masses = has_rigid_masses(job, &g.place, &next),
-                  inertia = job->tangent && (rigid_masses || job->damping);
+                  inertia = tangent && (rigid_masses || job->damping);
         load(job->residual, 6, 6, &g.place, 0, g.residual);
         load(job->scale, 6, 6, &g.place, 0, g.scale);
         for (int i = 0; i < 6; i++) g.v[i] = dmb_real_of(0.0);
         if (job->dynamic) load(job->velocity, 6, 6, &g.place, 0, g.v);
-        dmb_mat6_zero(g.C);
         if (inertia) load(job->inertia, 36, 36, &g.place, 0, g.C);
-        if (rigid_masses) add_rigid_masses(job, next, &g);
-        if (job->gravity) add_weight(job, &g);
-        if (job->damping) add_damping(job, &g);
+        if (rigid_masses) add_rigid_masses(job, next, inertia, &g);
+        if (job->gravity) add_weight(job, tangent, &g);
+        if (job->damping) add_damping(job, inertia, &g);
         store(g.residual, 6, &g.place, job->residual);
         store(g.scale, 6, &g.place, job->scale);
         if (inertia) store(g.C, 36, &g.place, job->inertia);
     }
+}
+
+/* Most evaluations want no tangent. */
+static void node_forces(dmb_node_force_job *job)
+{
+    if (job->tangent)
+        node_forces_of(job, 1);
+    else
+        node_forces_of(job, 0);
 }
 
 /* Rows one after the other, all alike: as wide as the compiler makes the loops for this processor. gcc gives up where

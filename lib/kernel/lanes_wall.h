@@ -3,6 +3,8 @@
 #ifndef DMB_KERNEL_LANES_WALL_H
 #define DMB_KERNEL_LANES_WALL_H
 
+#include <stddef.h>
+
 #include "element/beam_math.h"
 #include "force/contact_law.h"
 #include "force/hole.h"
@@ -12,11 +14,17 @@
 
 /* Rings of a group. */
 typedef struct wall_group {
-    lane_group site, node, row;
+    lane_group site;
+    lane_places node, row;
     dmb_real offset, clearance, length;
     dmb_real x[3];                                 /* [m] their centres, world */
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
     dmb_real penetration, impact_speed;
+    dmb_mask touches;
+    uint32_t touching;             /* one bit for each lane that touches and is not one again */
+    dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
+    dmb_real bristle[2];           /* [m] the same */
+    uint32_t sticking;
     dmb_contact_frame frame;
 #if DMB_REAL_LANES == 1
     dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
@@ -42,30 +50,43 @@ static inline const dmb_friction_law *friction_law_of(const dmb_wall_job *job, c
 #define friction_law_of(job, g) ((job)->friction_law)
 #endif
 
+_Static_assert(offsetof(dmb_site, length) == 3 * sizeof(double), "offset, radius, clearance, length");
+
+/* Rings stand in the order of their nodes: those of neighbours are together as their nodes and rows are. */
+static inline void load_places(const dmb_wall_job *job, wall_group *g)
+{
+    size_t apart = 0;
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
+        const size_t node = job->sites[place_at(&g->site, l)].node;
+        g->node.place[l] = node;
+        g->row.place[l] = job->row[node];
+        apart |= (node - g->node.place[0] - l) | (g->row.place[l] - g->row.place[0] - 6 * (size_t)l);
+    }
+    g->node.together = g->row.together = apart == 0;
+}
+
 static inline void load_sites(const dmb_wall_job *job, wall_group *g)
 {
-    for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const dmb_site *site = job->sites + g->site.place[l];
-        g->node.place[l] = site->node;
-        g->row.place[l] = job->row[site->node];
-        dmb_real_set_lane(&g->offset, l, site->offset);
-        dmb_real_set_lane(&g->clearance, l, site->clearance);
-        dmb_real_set_lane(&g->length, l, site->length);
-        dmb_real_set_lane(&g->frame.radius, l, site->radius);
-    }
-    g->node.used = g->row.used = g->site.used;
+    enum { NUMBERS = sizeof(dmb_site) / sizeof(double) };
+    dmb_real head[4];
+    load_places(job, g);
+    load((const double *)(const void *)job->sites, NUMBERS, 4, &g->site, 0, head);
+    g->offset = head[0];
+    g->frame.radius = head[1];
+    g->clearance = head[2];
+    g->length = head[3];
 }
 
 static inline void load_motion(const dmb_wall_job *job, wall_group *g)
 {
     dmb_real q[4], u[3];
-    load(job->quaternion, 4, 4, &g->node, 0, q);
+    load_at(job->quaternion, 4, 4, &g->node, q);
     dmb_quat_to_matrix(q, g->R);
-    load(job->reference, 3, 3, &g->node, 0, g->x);
-    load(job->displacement, 3, 3, &g->node, 0, u);
+    load_at(job->reference, 3, 3, &g->node, g->x);
+    load_at(job->displacement, 3, 3, &g->node, u);
     for (int i = 0; i < 3; i++) g->x[i] = g->x[i] + u[i] + g->R[3 * i] * g->offset;
     if (!job->dynamic) return;
-    load(job->velocity, 1, 6, &g->row, 0, g->frame.V);
+    load_at(job->velocity, 1, 6, &g->row, g->frame.V);
     dmb_arm_velocity(g->offset, g->frame.V);
 }
 
@@ -73,7 +94,7 @@ static inline void load_motion(const dmb_wall_job *job, wall_group *g)
 static inline void project_survey(const dmb_wall_job *job, wall_group *g, dmb_real point[3])
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const size_t s = g->site.place[l];
+        const size_t s = place_at(&g->site, (uint32_t)l);
         const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
         double at[3], tangent[3], bend[3];
         job->trial.segment[s] = job->now.segment[s];
@@ -95,7 +116,7 @@ static inline void project_line(const dmb_wall_job *job, wall_group *g, dmb_real
     dmb_line_project(job->hole->origin, job->hole->direction, g->x, &depth, point);
     for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(job->hole->direction[i]);
     store_line(depth, &g->site, job->trial.depth);
-    for (uint32_t l = 0; l < g->site.used; l++) job->trial.segment[g->site.place[l]] = 0;
+    for (uint32_t l = 0; l < g->site.used; l++) job->trial.segment[place_at(&g->site, (uint32_t)l)] = 0;
 }
 
 static inline void locate(const dmb_wall_job *job, wall_group *g)
@@ -114,8 +135,8 @@ static inline void locate(const dmb_wall_job *job, wall_group *g)
 static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g)
 {
     dmb_real q[4], R[9], V[6];
-    load(job->now_velocity, 1, 6, &g->row, 0, V);
-    load(job->now_quaternion, 4, 4, &g->node, 0, q);
+    load_at(job->now_velocity, 1, 6, &g->row, V);
+    load_at(job->now_quaternion, 4, 4, &g->node, q);
     dmb_arm_velocity(g->offset, V);
     dmb_quat_to_matrix(q, R);
     dmb_mat3_vec(R, V, V);
@@ -149,7 +170,7 @@ static inline void enter_section(const dmb_wall_job *job, wall_group *g)
     static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
     const dmb_hole *hole = job->hole;
     const dmb_friction_law *friction = job->friction_law != NULL ? job->friction_law : &none;
-    const double depth = job->trial.depth[g->site.place[0]];
+    const double depth = job->trial.depth[g->site.first];
     dmb_vec3_zero(g->section.curvature);
     if (!dmb_hole_is_straight(hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
     dmb_local_wall_at(hole, job->normal_law, friction, depth, job->softer, &g->section.wall);
@@ -180,34 +201,44 @@ static inline void place_rings(const dmb_wall_job *job, wall_group *g)
     store(g->frame.speed + 1, 2, &g->site, job->trial.slip);
 }
 
-/* Rings that touch keep what the friction law gave them. */
-static inline void forget_bristles(const dmb_wall_job *job, const wall_group *g, uint32_t touching)
+/* Rings that do not touch keep nothing of the friction law. */
+static inline void keep_bristles(const dmb_wall_job *job, const wall_group *g)
 {
-    for (uint32_t l = 0; l < g->site.used; l++) {
-        const size_t s = g->site.place[l];
-        if (touching >> l & 1) continue;
-        job->trial.bristle[2 * s] = job->trial.bristle[2 * s + 1] = 0.0;
-        job->trial.sticks[s] = 0;
-    }
+    const dmb_real zero = dmb_real_of(0.0);
+    const dmb_real z[2] = {dmb_real_select(g->touches, g->bristle[0], zero),
+                           dmb_real_select(g->touches, g->bristle[1], zero)};
+    store(z, 2, &g->site, job->trial.bristle);
+    for (uint32_t l = 0; l < g->site.used; l++)
+        job->trial.sticks[g->site.first + l] = (int32_t)((g->sticking & g->touching) >> l & 1);
 }
 
-static inline void bristles(const dmb_wall_job *job, const wall_group *g, dmb_real N, dmb_real F[2],
-                            dmb_real by_speed[4], dmb_real by_normal[2])
+/* Where friction is not asked for, rings that touch keep what they have. */
+static inline void begin_bristles(const dmb_wall_job *job, wall_group *g)
+{
+    g->sticking = 0;
+    g->bristle[0] = g->bristle[1] = dmb_real_of(0.0);
+    if (g->touching == 0 || (job->friction_law != NULL && job->dynamic)) return;
+    load(job->trial.bristle, 2, 2, &g->site, 0, g->bristle);
+    for (uint32_t l = 0; l < g->site.used; l++)
+        g->sticking |= (uint32_t)(job->trial.sticks[g->site.first + l] != 0) << l;
+}
+
+static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, dmb_real F[2], dmb_real by_speed[4],
+                            dmb_real by_normal[2])
 {
     const dmb_real *v = g->frame.speed + 1;
-    dmb_real z_old[2], v_old[2], z[2], stuck = dmb_real_of(0.0);
+    dmb_real z_old[2], v_old[2], stuck = dmb_real_of(0.0);
     load(job->now.bristle, 2, 2, &g->site, 0, z_old);
     load(job->now.slip, 2, 2, &g->site, 0, v_old);
     for (int l = 0; l < DMB_REAL_LANES; l++)
-        dmb_real_set_lane(&stuck, l, job->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
+        dmb_real_set_lane(&stuck, l, job->now.sticks[place_at(&g->site, (uint32_t)l)] ? 1.0 : 0.0);
     const dmb_mask sticks =
         dmb_friction_bristle(friction_law_of(job, g), N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
-                             job->step, z, F, by_speed, by_normal);
-    store(z, 2, &g->site, job->trial.bristle);
-    for (uint32_t l = 0; l < g->site.used; l++) job->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
+                             job->step, g->bristle, F, by_speed, by_normal);
+    g->sticking = dmb_mask_bits(sticks);
 }
 
-static inline void add_friction(const dmb_wall_job *job, const wall_group *g, dmb_contact_force *c)
+static inline void add_friction(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
@@ -259,32 +290,43 @@ static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
     return force * force;
 }
 
-static inline void add_forces(dmb_wall_job *job, const wall_group *g, uint32_t touching, const dmb_contact_force *c,
+/* Adds what each ring does to the rows of its node; -0 changes nothing. */
+static inline void add_rows(const wall_group *g, const dmb_real x[6], double *rows)
+{
+    const dmb_real nothing = dmb_real_of(-0.0);
+    dmb_real sum[6];
+    double *to[DMB_REAL_LANES];
+    if (DMB_REAL_LANES == 1 || g->row.together) {
+        load_at(rows, 1, 6, &g->row, sum);
+        for (int i = 0; i < 6; i++) sum[i] = sum[i] + dmb_real_select(g->touches, x[i], nothing);
+        store_together(sum, 6, rows + g->row.place[0]);
+        return;
+    }
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = rows + g->row.place[l];
+    add_lanes(x, 6, g->touching, to);
+}
+
+static inline void add_touching(dmb_real x, const wall_group *g, double *to)
+{
+    add_each(dmb_real_select(g->touches, x, dmb_real_of(-0.0)), &g->site, to);
+}
+
+static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_contact_force *c,
                               const dmb_real wrench[6])
 {
     const dmb_real *v = g->frame.speed;
-    const dmb_real rounding = rounding_of(g, c->by_depth[0]), potential = c->elastic * v[0];
-    const dmb_real impact = (c->F[0] + c->elastic) * v[0], friction = c->F[1] * v[1] + c->F[2] * v[2];
     dmb_real force[6], magnitude[6];
-    double *residual[DMB_REAL_LANES], *scale[DMB_REAL_LANES];
     for (int i = 0; i < 6; i++) {
         force[i] = -wrench[i];
         magnitude[i] = dmb_real_abs(wrench[i]);
     }
-    for (int l = 0; l < DMB_REAL_LANES; l++) {
-        residual[l] = job->residual + g->row.place[l];
-        scale[l] = job->scale + g->row.place[l];
-    }
-    add_lanes(force, 6, touching, residual);
-    add_lanes(magnitude, 6, touching, scale);
-    for (int l = 0; l < DMB_REAL_LANES; l++) {
-        if (!(touching >> l & 1)) continue;
-        job->rounding += dmb_real_lane(&rounding, l);
-        if (!job->dynamic) continue;
-        job->potential -= dmb_real_lane(&potential, l);
-        job->impact += dmb_real_lane(&impact, l);
-        job->friction += dmb_real_lane(&friction, l);
-    }
+    add_rows(g, force, job->residual);
+    add_rows(g, magnitude, job->scale);
+    add_touching(rounding_of(g, c->by_depth[0]), g, &job->rounding);
+    if (!job->dynamic) return;
+    add_touching(-(c->elastic * v[0]), g, &job->potential);
+    add_touching((c->F[0] + c->elastic) * v[0], g, &job->impact);
+    add_touching(c->F[1] * v[1] + c->F[2] * v[2], g, &job->friction);
 }
 
 #if DMB_REAL_LANES == 1
@@ -321,37 +363,30 @@ static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_norma
     touch->weight = one;
     touch->by_depth = zero;
     if (!is_weighted(job, normal_law_of(job, g))) return;
-    const dmb_mask pinned = dmb_mask_at_most(g->clearance, zero);
+    const dmb_mask opens = g->touches & dmb_mask_not(dmb_mask_at_most(g->clearance, zero));
     const dmb_real before = load_line(job->now.penetration, &g->site);
-    dmb_normal_touch_at(dmb_real_select(pinned, one, before), g->penetration, dmb_real_of(job->step), was, touch, kept);
-}
-
-static inline void keep_touch(const dmb_wall_job *job, const wall_group *g, uint32_t touching,
-                              const dmb_real kept[DMB_TOUCH_SIZE])
-{
-    for (uint32_t l = 0; l < g->site.used; l++)
-        for (uint32_t i = 0; touching >> l & 1 && i < DMB_TOUCH_SIZE; i++)
-            job->trial.touch[DMB_TOUCH_SIZE * (size_t)g->site.place[l] + i] = dmb_real_lane(kept + i, (int)l);
+    dmb_normal_touch_at(dmb_real_select(opens, before, one), g->penetration, dmb_real_of(job->step), was, touch, kept);
 }
 
 /* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
  * contact that opens let go. */
-static inline void forget_touch(const dmb_wall_job *job, const wall_group *g, uint32_t touching)
+static inline void keep_touch(const dmb_wall_job *job, wall_group *g)
 {
     const dmb_normal_law *law = normal_law_of(job, g);
-    const dmb_real way = dmb_real_abs(g->penetration);
-    const dmb_real spring = law->stiffness * dmb_normal_reduced_power(law->exponent, way) * way;
-    const dmb_real force = law->damping * g->frame.speed[0] - spring;
-    for (uint32_t l = 0; l < g->site.used; l++) {
-        double *to = job->trial.touch + DMB_TOUCH_SIZE * (size_t)g->site.place[l];
-        if (touching >> l & 1) continue;
-        to[DMB_TOUCH_EXCESS] = to[DMB_TOUCH_TIME] = to[DMB_TOUCH_PART] = 0.0;
-        to[DMB_TOUCH_FORCE] = dmb_real_lane(&force, (int)l);
+    const dmb_real zero = dmb_real_of(0.0);
+    dmb_real kept[DMB_TOUCH_SIZE] = {zero, zero, zero, zero};
+    if (g->touching != lanes_used(&g->site)) {
+        const dmb_real way = dmb_real_abs(g->penetration);
+        const dmb_real spring = law->stiffness * dmb_normal_reduced_power(law->exponent, way) * way;
+        kept[DMB_TOUCH_FORCE] = law->damping * g->frame.speed[0] - spring;
     }
+    for (int i = 0; g->touching != 0 && i < DMB_TOUCH_SIZE; i++)
+        kept[i] = dmb_real_select(g->touches, g->kept[i], kept[i]);
+    store(kept, DMB_TOUCH_SIZE, &g->site, job->trial.touch);
 }
 
 /* Normal force, its damping weighted where that jumps at touch. */
-static inline void press_normally(const dmb_wall_job *job, wall_group *g, uint32_t touching, dmb_contact_force *c)
+static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
 {
     const dmb_normal_law *law = normal_law_of(job, g);
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
@@ -360,18 +395,16 @@ static inline void press_normally(const dmb_wall_job *job, wall_group *g, uint32
         return;
     }
     dmb_normal_touch touch;
-    dmb_real kept[DMB_TOUCH_SIZE];
-    weigh(job, g, &touch, kept);
+    weigh(job, g, &touch, g->kept);
     at.touch = &touch;
     dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
-    kept[DMB_TOUCH_FORCE] = c->whole;
-    keep_touch(job, g, touching, kept);
+    g->kept[DMB_TOUCH_FORCE] = c->whole;
 #if DMB_REAL_LANES == 1
     if (has_sections(job)) g->section.wall.damping_slope *= touch.weight;
 #endif
 }
 
-static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
+static inline void press(dmb_wall_job *job, wall_group *g)
 {
     const int friction = job->friction_law != NULL;
     const int arms =
@@ -379,15 +412,15 @@ static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
     dmb_contact_force c;
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
-    press_normally(job, g, touching, &c);
+    press_normally(job, g, &c);
     if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
 #if DMB_REAL_LANES == 1
     if (has_sections(job)) press_section(job, g, &c, wrench);
 #endif
-    if (job->tangent) add_tangent(job, g, touching, arms, &c, wrench);
+    if (job->tangent) add_tangent(job, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
-    add_forces(job, g, touching, &c, wrench);
+    add_forces(job, g, &c, wrench);
 }
 
 static void walls(dmb_wall_job *job)
@@ -397,11 +430,12 @@ static void walls(dmb_wall_job *job)
         g.site = group_at(first, job->count);
         place_rings(job, &g);
         const dmb_real zero = dmb_real_of(0.0);
-        const dmb_mask touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
-        const uint32_t touching = dmb_mask_bits(touches) & lanes_used(&g.site);
-        if (touching) press(job, &g, touching);
-        if (job->bristles) forget_bristles(job, &g, touching);
-        if (job->touches) forget_touch(job, &g, touching);
+        g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
+        g.touching = dmb_mask_bits(g.touches) & lanes_used(&g.site);
+        if (job->bristles) begin_bristles(job, &g);
+        if (g.touching) press(job, &g);
+        if (job->bristles) keep_bristles(job, &g);
+        if (job->touches) keep_touch(job, &g);
     }
 }
 

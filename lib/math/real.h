@@ -102,6 +102,12 @@ static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
 
 #else
 
+/* Processors have instructions for what the language has no vector word for. */
+#if (DMB_LANES == 4 && defined(__AVX2__)) || (DMB_LANES == 8 && defined(__AVX512F__))
+#include <immintrin.h>
+#define DMB_LANES_NATIVE
+#endif
+
 #define DMB_REAL_LANES DMB_LANES
 typedef double dmb_real __attribute__((vector_size(8 * DMB_LANES)));
 typedef int64_t dmb_real_bits __attribute__((vector_size(8 * DMB_LANES)));
@@ -133,14 +139,6 @@ static inline dmb_real dmb_real_follow(dmb_real s, dmb_real x)
     const dmb_real_bits turned = (dmb_real_bits)(s < dmb_real_of(0.0));
     return (dmb_real)((dmb_real_bits)x ^ (turned & INT64_MIN));
 }
-static inline int dmb_real_below(dmb_real a, dmb_real b)
-{
-    const dmb_real_bits below = (dmb_real_bits)(a < b);
-    int64_t all = -1;
-    for (int lane = 0; lane < DMB_LANES; lane++) all &= below[lane];
-    return all != 0;
-}
-
 typedef dmb_real_bits dmb_mask;
 
 static inline dmb_mask dmb_mask_less(dmb_real a, dmb_real b)
@@ -155,18 +153,26 @@ static inline dmb_mask dmb_mask_not(dmb_mask mask)
 {
     return ~mask;
 }
-static inline int dmb_mask_any(dmb_mask mask)
-{
-    int64_t any = 0;
-    for (int lane = 0; lane < DMB_LANES; lane++) any |= mask[lane];
-    return any != 0;
-}
 /* One bit for each lane. */
 static inline uint32_t dmb_mask_bits(dmb_mask mask)
 {
+#ifndef DMB_LANES_NATIVE
     uint32_t bits = 0;
     for (int lane = 0; lane < DMB_LANES; lane++) bits |= (uint32_t)(mask[lane] & 1) << lane;
     return bits;
+#elif DMB_LANES == 4
+    return (uint32_t)_mm256_movemask_pd((__m256d)mask);
+#else
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask);
+#endif
+}
+static inline int dmb_mask_any(dmb_mask mask)
+{
+    return dmb_mask_bits(mask) != 0;
+}
+static inline int dmb_real_below(dmb_real a, dmb_real b)
+{
+    return dmb_mask_bits(dmb_mask_less(a, b)) == (1u << DMB_LANES) - 1;
 }
 static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
 {
@@ -182,8 +188,14 @@ static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
 /* Square root, which IEEE 754 rounds exactly. */
 static inline dmb_real dmb_real_sqrt(dmb_real x)
 {
+#ifndef DMB_LANES_NATIVE
     for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, sqrt(dmb_real_lane(&x, lane)));
     return x;
+#elif DMB_LANES == 4
+    return (dmb_real)_mm256_sqrt_pd((__m256d)x);
+#else
+    return (dmb_real)_mm512_sqrt_pd((__m512d)x);
+#endif
 }
 
 /* The angle of a direction in the plane, in the number of math/real.h. */

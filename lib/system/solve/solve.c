@@ -24,10 +24,12 @@ static void add_components(uint32_t size, double arm, const double *rest, const 
     }
 }
 
-/* Nodes from `first` on that have as many rows as it. */
+/* Nodes from `first` on that have as many rows as it; 2 or 6. */
 static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end)
 {
+    const uint32_t rows = scene->layout.row[end] - scene->layout.row[first];
     uint32_t i = first + 1;
+    if (rows == scene->layout.size[first] * (end - first)) return end - first;
     while (i < end && scene->layout.size[i] == scene->layout.size[first]) i++;
     return i - first;
 }
