@@ -231,11 +231,108 @@ static void test_allocates_nothing(void **state)
     assert_int_equal(live, 0);
 }
 
+/* ---- Forces of the caller that fail ------------------------------------------------------------------------------ */
+
+static uint32_t calls, fails_at; /* of the force; 0: never */
+
+static int32_t pull(void *context, double time, uint32_t count, const double (*poses)[12],
+                    const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    (void)context, (void)time, (void)count, (void)velocities, (void)tangent, (void)potential;
+    forces[0][0] = -50.0 * poses[0][0];
+    return ++calls == fails_at;
+}
+
+/* A body on that force, pushed by a drive. */
+static rig pulled_body(double velocity, dmb_id *push)
+{
+    dmb_body_def body = dmb_body_def_default();
+    dmb_force_def force = dmb_force_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    body.velocity[0] = velocity;
+    force.place[0] = dmb_station(add_body(&s, &body), 0, 0.0);
+    force.callback = pull;
+    must_model(&s, dmb_model_add_force(s.model, &force, NULL));
+    *push = add_simple_drive(&s, DMB_DRIVE_LOAD, force.place[0].part, DMB_X, add_constant(&s, 0.0));
+    (void)rig_start(&s, NULL);
+    return s;
+}
+
+typedef struct derivative {
+    double pose[6], velocity[6];
+} derivative;
+
+static derivative rates_of(const rig *s, dmb_sensitivity *sensitivity)
+{
+    derivative d;
+    uint32_t rows = 0;
+    memset(&d, 0, sizeof d);
+    must(s, dmb_sensitivity_rows(sensitivity, 0, d.pose, d.velocity, &rows));
+    assert_int_equal(rows, 6);
+    return d;
+}
+
+/* The force fails at its first call of a step, then at the second, and so on through the steps beside: each time the
+ * state stays, and so do the derivatives. In the second step the drive has just been set, so that accelerations jump.
+ * Then the step is as if nothing had failed: the derivative by the speed at the start is that of an oscillator. */
+static void test_forces_that_fail(void **state)
+{
+    (void)state;
+    for (int32_t one_sided = 0; one_sided < 2; one_sided++) {
+        dmb_id push, other;
+        rig s = pulled_body(0.1, &push), low = pulled_body(0.1 - 1e-4, &other), high = pulled_body(0.1 + 1e-4, &other);
+        dmb_sensitivity *sensitivity;
+        dmb_parameter parameter = dmb_parameter_default();
+        uint32_t failures = 0;
+        parameter.step = 1e-4;
+        parameter.one_sided = one_sided;
+        parameter.low = low.sim;
+        parameter.high = high.sim;
+        must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+        for (int step = 0; step < 2; step++) {
+            if (step == 1) must(&s, dmb_sim_set_drive(s.sim, push, 3.0));
+            const uint64_t before = rig_hash(&s);
+            const derivative rates = rates_of(&s, sensitivity);
+            int32_t status = DMB_ERR_CALLBACK;
+            for (uint32_t k = 1; status < 0; k++) {
+                calls = 0;
+                fails_at = k;
+                status = dmb_sensitivity_step(sensitivity, 1e-3, NULL);
+                fails_at = 0;
+                if (status >= 0) break;
+                failures++;
+                assert_int_equal(status, DMB_ERR_CALLBACK);
+                assert_true(dmb_sim_message(s.sim)[0] != '\0');
+                assert_true(rig_hash(&s) == before);
+                const derivative now = rates_of(&s, sensitivity);
+                if (step == 0) assert_memory_equal(&now, &rates, sizeof now);
+                assert_true(largest_difference(12, (const double *)&now, (const double *)&rates) <= 1e-14);
+            }
+        }
+        print_message("    %u failures\n", failures);
+        assert_true(failures > 10);
+        const double w = sqrt(50.0), t = 2e-3;
+        const derivative last = rates_of(&s, sensitivity);
+        check_close("    displacement by the speed at the start", last.pose[0], sin(w * t) / w, 1e-8);
+        check_close("    speed by the speed at the start", last.velocity[0], cos(w * t), 1e-6);
+        dmb_sensitivity_destroy(&sensitivity);
+        rig_close(&s);
+        rig_close(&low);
+        rig_close(&high);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bits),     cmocka_unit_test(test_corner),       cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_failures), cmocka_unit_test(test_times_differ), cmocka_unit_test(test_allocates_nothing),
+        cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_times_differ),
+        cmocka_unit_test(test_allocates_nothing),
+        cmocka_unit_test(test_forces_that_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

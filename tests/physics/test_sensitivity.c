@@ -20,6 +20,8 @@ typedef struct scene_case {
     int settled; /* 1: begins with dmb_analysis_static */
 } scene_case;
 
+static int32_t one_sided; /* 1: derivatives of the sims in between and above */
+
 static dmb_sim_options sharp(void)
 {
     dmb_sim_options options = dmb_sim_options_default();
@@ -97,6 +99,7 @@ static void check_case(const scene_case *c)
     dmb_parameter parameter = dmb_parameter_default();
     const uint32_t count = c->channels(&s, channels);
     parameter.step = c->step;
+    parameter.one_sided = one_sided;
     parameter.low = low.sim;
     parameter.high = high.sim;
     must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
@@ -127,6 +130,7 @@ static void check_case(const scene_case *c)
 /* Their parameters. */
 static double mu = 0.3, stiffness = 1e6, diameter = 0.073, damping = 5.0, young = 210e9, energy = 3e7, speed = 6.0;
 static double joint_spring = 8.0;
+static double lag = 0.0, back_drag = 0.0, direction = 1.0; /* of an actuator; 0: none */
 static int32_t friction_law = DMB_FRICTION_STRIBECK, pipe_kind = DMB_PIPE_FLEXIBLE, rock_law = DMB_ROCK_RATE;
 
 static void drive_string(rig *s)
@@ -137,7 +141,13 @@ static void drive_string(rig *s)
     dmb_term ramp = dmb_term_default();
     ramp.kind = DMB_TERM_STEP5;
     ramp.x1 = 0.1;
-    ramp.h1 = speed;
+    ramp.h1 = direction * speed;
+    turn.lag = lag;
+    if (lag > 0.0) {
+        turn.force_rate = 2e5;
+        turn.drag = 3.0;
+        turn.back_drag = back_drag;
+    }
     turn.programme = add_programme(s, &ramp, 1);
     turn.gain = 400.0;
     turn.integral_gain = 200.0;
@@ -425,12 +435,82 @@ static void test_settings_stay(void **state)
     for (int i = 0; i < 3; i++) rig_close(&sides[i]);
 }
 
+/* Rows of bars: along the hole and about it, as channels tell them. */
+static void test_rows_of_bars(void **state)
+{
+    const scene_case c = {"rows of bars", describe_bars, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 30, 0};
+    rig low = begin(&c, -c.step), high = begin(&c, c.step), s = begin(&c, 0.0);
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    double pose[14], velocity[14];
+    uint32_t rows = 0;
+    (void)state;
+    parameter.step = c.step;
+    parameter.low = low.sim;
+    parameter.high = high.sim;
+    must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+    for (uint32_t i = 0; i < c.steps; i++) must(&s, dmb_sensitivity_step(sensitivity, c.time_step, NULL));
+    must(&s, dmb_sensitivity_rows(sensitivity, 0, pose, velocity, &rows));
+    assert_int_equal(rows, 14);
+    for (uint32_t k = 0; k < 6; k++) {
+        const dmb_place end = dmb_station(last_string, k, 1.0);
+        const dmb_channel channels[4] = {channel_of(end, DMB_CHANNEL_POSITION_X), channel_of(end, DMB_CHANNEL_ROTATION),
+                                         channel_of(end, DMB_CHANNEL_BODY_VELOCITY + DMB_X),
+                                         channel_of(end, DMB_CHANNEL_SPIN)};
+        const double *row = pose + 2 * (size_t)(k + 1), *rate = velocity + 2 * (size_t)(k + 1);
+        const double got[4] = {row[0], row[1], rate[0], rate[1]};
+        double want[4];
+        must(&s, dmb_sensitivity_channels(sensitivity, channels, 4, NULL, want));
+        for (int i = 0; i < 4; i++) check_close("a row of bars", got[i], want[i], 1e-6 * fabs(want[i]) + 1e-10);
+    }
+    dmb_sensitivity_destroy(&sensitivity);
+    rig_close(&low);
+    rig_close(&high);
+    rig_close(&s);
+}
+
 static void test_bristles(void **state)
 {
     const scene_case c = {
         "friction of bristles", describe_bristles, &mu, string_channels, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
+    const scene_case bars = {
+        "bristles of bars", describe_bristles, &mu, string_channels, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
     (void)state;
     check_case(&c);
+    pipe_kind = DMB_PIPE_AXIAL_TORSIONAL;
+    check_case(&bars);
+    pipe_kind = DMB_PIPE_FLEXIBLE;
+}
+
+/* A drive with a lag, whose force changes no faster than it may, turned both ways against a drag that is another one
+ * backwards. */
+static void test_actuators(void **state)
+{
+    const scene_case cases[2] = {
+        {"lag of an actuator", describe_bars, &lag, string_channels, 2e-5, 2e-4, 1e-3, 1e-5, 80, 0},
+        {"drag of an actuator, backwards", describe_bars, &back_drag, string_channels, 1e-4, 1e-3, 1e-3, 1e-5, 80, 0},
+    };
+    (void)state;
+    lag = 0.02;
+    back_drag = 9.0;
+    check_case(&cases[0]);
+    direction = -1.0;
+    check_case(&cases[1]);
+    direction = 1.0;
+    lag = back_drag = 0.0;
+}
+
+/* One side: the same derivatives but for the step times the second one. */
+static void test_one_side(void **state)
+{
+    const scene_case cases[2] = {
+        {"modulus, one side", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 2e-3, 80, 0},
+        {"spring of a joint, one side", describe_rods, &joint_spring, rod_channels, 1e-6, 1e-3, 2e-3, 1e-5, 300, 0},
+    };
+    (void)state;
+    one_sided = 1;
+    for (int i = 0; i < 2; i++) check_case(&cases[i]);
+    one_sided = 0;
 }
 
 static void test_drilling(void **state)
@@ -629,7 +709,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oscillator), cmocka_unit_test(test_input),         cmocka_unit_test(test_joints),
-        cmocka_unit_test(test_corners),    cmocka_unit_test(test_strings),       cmocka_unit_test(test_bristles),
+        cmocka_unit_test(test_corners),    cmocka_unit_test(test_strings),       cmocka_unit_test(test_rows_of_bars),
+        cmocka_unit_test(test_bristles),   cmocka_unit_test(test_actuators),     cmocka_unit_test(test_one_side),
         cmocka_unit_test(test_settings),   cmocka_unit_test(test_settings_stay), cmocka_unit_test(test_ball),
         cmocka_unit_test(test_drilling),
     };

@@ -6,7 +6,6 @@
 #include "analysis/static/static.h"
 #include "base/memory.h"
 #include "math/mat6.h"
-#include "math/so3.h"
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/drives.h"
@@ -134,10 +133,8 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
         double f[6], R[9];
         if (load->frame == DMB_FRAME_BODY || sim->trial.load_factor[i] == 0.0) continue;
         dmb_mat3_identity(R);
-        if (load->frame == DMB_FRAME_HOLE && scene->has_hole)
+        if (load->frame == DMB_FRAME_HOLE) /* of a scene that has one */
             dmb_hole_frame_rotation(&scene->hole, scene->reference_depth[load->node], R);
-        else if (load->frame == DMB_FRAME_HOLE)
-            dmb_quat_to_matrix(scene->reference_quaternion + 4 * (size_t)load->node, R);
         dmb_mat3_vec(R, load->force, f);
         dmb_mat3_vec(R, load->moment, f + 3);
         if (turns(axis, f) || turns(axis, f + 3))
@@ -171,21 +168,17 @@ static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
 }
 
 /* Springs to the ground along what turns or moves are not steady. */
-static int32_t check_ground(dmb_sim *sim, const dmb_steady *steady)
+static int32_t check_ground(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const dmb_scene_joint *joint = scene->joints + j;
         if (joint->a.node != DMB_NONE || joint->law == DMB_NONE || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
-        if (size_of(scene, steady->twist) == 0.0) continue;
-        for (int i = 0; i < 6; i++) {
-            if ((joint->law_mask >> i & 1) == 0) continue;
-            return DMB_STEADY_REFUSE(
-                sim,
-                "joint %u: it has a law about the ground, which is not steady where the whole turns; take "
-                "DMB_STEADY_AT_REST",
-                j);
-        }
+        return DMB_STEADY_REFUSE(
+            sim,
+            "joint %u: it has a law about the ground, which is not steady where the whole turns; take "
+            "DMB_STEADY_AT_REST",
+            j);
     }
     return DMB_OK;
 }
@@ -221,7 +214,7 @@ static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
     int32_t status = take_twist(sim, steady);
     if (status >= 0) status = check_steady_forces(sim, steady);
     if (status >= 0) status = check_hole(sim, steady);
-    if (status >= 0) status = check_ground(sim, steady);
+    if (status >= 0) status = check_ground(sim);
     return status;
 }
 

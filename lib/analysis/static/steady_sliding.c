@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "analysis/static/static.h"
-#include "base/memory.h"
 #include "sim/node.h"
 
 /* Sections of a string that turns about its own axis: its masses, its rest shape. */
@@ -79,8 +78,8 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
     return DMB_OK;
 }
 
-/* Speeds of the strings; `taken`: drive that gave each, DMB_NONE none yet. */
-static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t *taken)
+/* Speeds of the strings. Only one drive moves a component of a rig end. */
+static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
@@ -93,16 +92,7 @@ static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t
                                        "%s: it does not move a string along or about its axis, so that strings do "
                                        "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
                                        dmb_drive_text(sim->scene, i, &(dmb_message){""}));
-    const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
-    dmb_message first, second, string;
-    if (taken[k] != DMB_NONE && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
-        return DMB_STEADY_REFUSE(sim,
-                                 "%s and %s: they move %s at %g and at %g, which is not steady; give them one speed, "
-                                 "or take DMB_STEADY_AT_REST",
-                                 dmb_drive_text(sim->scene, taken[k], &first), dmb_drive_text(sim->scene, i, &second),
-                                 dmb_string_text(sim->scene, s, &string), steady->speed[k], speed);
-    taken[k] = i;
-    steady->speed[k] = speed;
+    steady->speed[2 * s + (uint32_t)drive->component / 3] = speed;
     return DMB_OK;
 }
 
@@ -136,14 +126,10 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
 int32_t dmb_steady_choose_sliding(dmb_sim *sim, dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
-    uint32_t *taken = dmb_allocate_array(&sim->allocator, 2 * (size_t)scene->string_count, sizeof *taken);
     int32_t status = DMB_OK;
-    if (taken == NULL) return DMB_ERR_NO_MEMORY;
     steady->kind = DMB_STEADY_SLIDING;
     memset(steady->speed, 0, 2 * (size_t)scene->string_count * sizeof(double));
-    for (uint32_t i = 0; i < 2 * scene->string_count; i++) taken[i] = DMB_NONE;
-    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = take_speed(sim, steady, i, taken);
-    dmb_release(&sim->allocator, taken, 2 * (size_t)scene->string_count * sizeof *taken);
+    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = take_speed(sim, steady, i);
     if (status >= 0) status = check_ends(sim, steady);
     if (status >= 0) status = check_round(sim, steady);
     return status < 0 ? status : check_turning_loads(sim, steady);
