@@ -67,13 +67,8 @@ void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, d
 {
     if (check->status < 0 || dmb_model_part_index(model, id, kind) != DMB_NONE) return;
     check->status = DMB_ERR_ID;
-    if (check->index == DMB_NONE) {
-        dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field, id.index,
-                        id.generation, what);
-    } else {
-        dmb_message_set(check->message, "%s %u: %s = {%u, %u}, must name a %s of this model", check->part, check->index,
-                        field, id.index, id.generation, what);
-    }
+    dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field, id.index,
+                    id.generation, what);
 }
 
 void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
@@ -161,33 +156,25 @@ static void principal_moments(const double J[6], double moment[3])
     }
 }
 
-static const char *part_text(const dmb_check *check, dmb_message *text)
-{
-    if (check->index == DMB_NONE) return check->part;
-    return dmb_part_text(text, check->part, check->index, "", 1);
-}
-
 static void check_moments(dmb_check *check, const char *field, const double moment[3])
 {
     if (moment[0] <= moment[1] + moment[2] + rounding * moment[0]) return;
     check->status = DMB_ERR_VALUE;
-    dmb_message part;
     dmb_message_set(
         check->message,
         "%s: %s gives the principal moments %g, %g, %g kg m2; no body has a moment above the sum of the two "
         "others: lower the first or raise the others, defaults and those of free axes too",
-        part_text(check, &part), field, moment[0], moment[1], moment[2]);
+        check->part, field, moment[0], moment[1], moment[2]);
 }
 
 void dmb_check_inertia_matrix(dmb_check *check, const char *field, const double J[6])
 {
     double moment[3];
-    dmb_message part;
     if (check->status < 0) return;
     if (!is_positive_definite(J)) {
         check->status = DMB_ERR_VALUE;
         dmb_message_set(check->message, "%s: %s = (%g, %g, %g, %g, %g, %g) kg m2, must be positive definite",
-                        part_text(check, &part), field, J[0], J[1], J[2], J[3], J[4], J[5]);
+                        check->part, field, J[0], J[1], J[2], J[3], J[4], J[5]);
         return;
     }
     principal_moments(J, moment);

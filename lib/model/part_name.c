@@ -85,14 +85,8 @@ static uint32_t find_run(const dmb_model *model, const char *name)
 
 static void refuse_taken(dmb_check *check, const char *word, uint32_t index, const char *name)
 {
-    dmb_message part;
-    if (check->status < 0) return;
     check->status = DMB_ERR_VALUE;
-    if (check->index == DMB_NONE)
-        dmb_message_set(&part, "%s", check->part);
-    else
-        dmb_message_set(&part, "%s %u", check->part, check->index);
-    dmb_message_set(check->message, "%s: name = %s, must be of its own, and %s %u has it; give another", part.text,
+    dmb_message_set(check->message, "%s: name = %s, must be of its own, and %s %u has it; give another", check->part,
                     name, word, index);
 }
 

@@ -240,10 +240,23 @@ static void looked_up(void **state)
     assert_int_equal(first, 5);
     assert_int_equal(count, 3);
     assert_int_equal(dmb_model_find_pipes(model, "", &found, &first, &count), DMB_ERR_ID);
+    must(dmb_model_find_pipes(model, "Schwerstangen \xc3\xa4", NULL, NULL, NULL)); /* they are there */
+    strcpy(pipe.name, "two\nlines");
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_ERR_VALUE);
+    expect(dmb_model_message(model), "name is no text");
+    must(dmb_model_clear_refused(model));
     must(dmb_model_set_name(model, programme, "120 rpm"));
     must_be(model, DMB_PART_ANY, "120 rpm", programme);
     must(dmb_model_set_name(model, programme, "60 rpm"));
     assert_int_equal(dmb_model_find(model, DMB_PART_ANY, "120 rpm", &found), DMB_ERR_ID);
+    const dmb_id second = constant(model, 2.0);
+    must(dmb_model_set_name(model, second, "90 rpm"));
+    must_be(model, DMB_PART_PROGRAMME, "90 rpm", second);
+    must_be(model, DMB_PART_PROGRAMME, "60 rpm", programme);
+    assert_int_equal(dmb_model_set_name(model, second, "60 rpm"), DMB_ERR_VALUE);
+    const dmb_id odd[3] = {
+        {0, head.generation}, {UINT32_C(60) << 24, head.generation}, {UINT32_C(18) << 24, head.generation}};
+    for (int i = 0; i < 3; i++) assert_int_equal(dmb_model_get_name(model, odd[i], text, sizeof text), DMB_ERR_ID);
     must(dmb_model_set_name(model, string, "main"));
     must(dmb_model_set_name(model, string, "main")); /* its own */
     must_be(model, DMB_PART_STRING, "main", string);

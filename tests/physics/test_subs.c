@@ -366,6 +366,45 @@ static void refused(rig *s, const dmb_sub_def *def, int32_t status, const char *
     if (strstr(dmb_model_message(s->model), says) == NULL) fail_msg("says: %s", dmb_model_message(s->model));
 }
 
+/* The place at the end of a string beside the axis of a straight hole: its origin, its direction times the depth, the
+ * offset across. One that a survey bends too sharply for compile is refused here too. */
+static void straight_and_broken_holes(void **state)
+{
+    (void)state;
+    static const double broken[3][3] = {{0.0, 0.1, 0.0}, {1.0, 3.1, 0.0}, {2.0, 0.1, 3.0}};
+    rig s;
+    dmb_wall_def wall = s1_hole();
+    dmb_string_def string = dmb_string_def_default(), section = string;
+    dmb_body_def body = dmb_body_def_default();
+    const double d[3] = {2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0};
+    rig_open(&s, 0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; i++) {
+        wall.origin[i] = 1.0 + i;
+        wall.direction[i] = 3.0 * d[i];
+    }
+    add_wall(&s, &wall);
+    string.start_depth = 4.0;
+    dmb_pipe_def pipe = pipe_of(add_string(&s, &string));
+    add_pipes(&s, &pipe, 3);
+    must_model(&s, dmb_model_place_at_end(s.model, pipe.string, 0.5, &body, &section));
+    const double depth = 4.0 + 3.0 * pipe.length + 0.5;
+    for (int i = 0; i < 3; i++)
+        check_close("end in a straight hole", body.position[i], wall.origin[i] + depth * d[i], 1e-12);
+    assert_true(section.start_depth == depth);
+    rig_close(&s);
+    rig_open(&s, 0.0, 0.0, 0.0);
+    wall = s1_hole();
+    wall.survey = broken[0];
+    wall.survey_count = 3;
+    add_wall(&s, &wall);
+    pipe.string = add_string(&s, &string);
+    add_pipes(&s, &pipe, 3);
+    assert_int_equal(dmb_model_place_at_end(s.model, pipe.string, 0.5, &body, &section), DMB_ERR_GEOMETRY);
+    assert_non_null(strstr(dmb_model_message(s.model), "turns too much between two stations"));
+    assert_true(section.start_depth == depth);
+    dmb_model_destroy(&s.model);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -385,8 +424,22 @@ static void refusals(void **state)
     refused(&s, &def, DMB_ERR_NOT_FINITE, "length");
     def.length = 0.1;
     dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = 99;
+    dmb_body_def body = dmb_body_def_default();
+    dmb_string_def section = dmb_string_def_default();
+    joint.struct_size = body.struct_size = section.struct_size = 3;
+    def.section = &section;
+    refused(&s, &def, DMB_ERR_STRUCT_SIZE, "");
+    def.body = &body;
+    refused(&s, &def, DMB_ERR_STRUCT_SIZE, "");
+    def.section = NULL;
+    def.body = NULL;
+    def.before = &joint;
+    refused(&s, &def, DMB_ERR_STRUCT_SIZE, "");
+    def.before = NULL;
     def.after = &joint;
+    refused(&s, &def, DMB_ERR_STRUCT_SIZE, "");
+    joint = dmb_joint_def_default();
+    joint.kind = 99;
     refused(&s, &def, DMB_ERR_VALUE, "kind = 99");
     must_model(&s, dmb_model_clear_refused(s.model));
     def.after = NULL;
@@ -420,9 +473,15 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_typed_by_hand), cmocka_unit_test(as_not_interrupted), cmocka_unit_test(at_rest),
-        cmocka_unit_test(taken_over),       cmocka_unit_test(by_its_mass),        cmocka_unit_test(several_in_a_hole),
-        cmocka_unit_test(along_arcs),       cmocka_unit_test(refusals),
+        cmocka_unit_test(as_typed_by_hand),
+        cmocka_unit_test(as_not_interrupted),
+        cmocka_unit_test(at_rest),
+        cmocka_unit_test(taken_over),
+        cmocka_unit_test(by_its_mass),
+        cmocka_unit_test(several_in_a_hole),
+        cmocka_unit_test(along_arcs),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(straight_and_broken_holes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

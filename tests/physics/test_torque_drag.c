@@ -440,6 +440,136 @@ static void refused(void **state)
     destroy(&s);
 }
 
+/* A tool of 100 kg at the far end of a string that hangs in mud: the hook holds its weight less that of the mud which
+ * it displaces, E A growing with neither; of a bit too. Rings and pipes of another string count for nothing. */
+static void tools_at_the_far_end(void **state)
+{
+    static const double down[2][3] = {{0.0, 0.0, 0.0}, {300.0, 0.0, 0.0}};
+    const double density = 1200.0, mass[2] = {100.0, 40.0}, volume[2] = {0.01, 0.004};
+    double hook[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) { /* bare, with a tool, with tool, bit and another string */
+        scene s = describe(10, down[0], 2);
+        dmb_body_def tool = dmb_body_def_default();
+        dmb_bit_def bit = dmb_bit_def_default();
+        dmb_ring_def ring = dmb_ring_def_default();
+        dmb_string_def other = dmb_string_def_default();
+        dmb_pipe_def pipe = dmb_pipe_def_default();
+        s.environment.fluid_density = density;
+        add_string(&s, 1);
+        tool.attach = DMB_ATTACH_END;
+        bit.string = tool.string = s.pipe.string;
+        tool.mass = mass[0];
+        tool.displaced_volume = volume[0];
+        bit.mass = mass[1];
+        bit.displaced_volume = volume[1];
+        bit.diameter = 0.0;
+        other.start_depth = 50.0;
+        if (k > 0) must(dmb_model_add_body(s.model, &tool, NULL), dmb_model_message(s.model));
+        if (k > 1) {
+            must(dmb_model_add_bit(s.model, &bit, NULL), dmb_model_message(s.model));
+            must(dmb_model_add_string(s.model, &other, &pipe.string), dmb_model_message(s.model));
+            must(dmb_model_add_pipes(s.model, &pipe, 3, NULL), dmb_model_message(s.model));
+            ring.string = pipe.string;
+            must(dmb_model_add_ring(s.model, &ring, NULL), dmb_model_message(s.model));
+        }
+        finish_scene(&s);
+        hook[k] = row_of(&s, DMB_OPERATION_PICK_UP).hook_load;
+        destroy(&s);
+    }
+    for (int k = 0; k < 2; k++)
+        check_relative("weight of a tool in mud", hook[k + 1] - hook[k], 9.81 * (mass[k] - density * volume[k]), 1e-10);
+}
+
+static int32_t no_force(void *context, double time, uint32_t count, const double (*poses)[12],
+                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
+    return 0;
+}
+
+/* The string may be either side of a joint or spring, and any place of a force. */
+static void from_either_side(void **state)
+{
+    const dmb_operation up = usual(DMB_OPERATION_PICK_UP);
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        scene s = describe(10, NULL, 0);
+        dmb_body_def body = dmb_body_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_spring_def spring = dmb_spring_def_default();
+        dmb_force_def force = dmb_force_def_default();
+        dmb_torque_drag_row row = dmb_torque_drag_row_default();
+        dmb_id beside;
+        add_string(&s, 1);
+        must(dmb_model_add_body(s.model, &body, &beside), dmb_model_message(s.model));
+        const dmb_place there = dmb_station(beside, 0, 0.0), below = dmb_station(s.pipe.string, 5, 1.0);
+        const dmb_place rig_end = dmb_station(s.pipe.string, 0, 0.0);
+        joint.kind = DMB_JOINT_SPHERICAL;
+        joint.match = 1;
+        joint.place_a = there;
+        joint.place_b = k == 0 ? below : rig_end;
+        if (k < 2) must(dmb_model_add_joint(s.model, &joint, NULL), dmb_model_message(s.model));
+        spring.place_a = k == 2 ? below : rig_end;
+        spring.place_b = there;
+        spring.stiffness = 10.0;
+        spring.offset_b[1] = 0.5;
+        if (k == 2 || k == 3) must(dmb_model_add_spring(s.model, &spring, NULL), dmb_model_message(s.model));
+        force.place_count = 2;
+        force.place[0] = there;
+        force.place[1] = k == 4 ? below : rig_end;
+        force.callback = no_force;
+        if (k >= 4) must(dmb_model_add_force(s.model, &force, NULL), dmb_model_message(s.model));
+        finish_scene(&s);
+        assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, &up, 1, &row), k % 2 ? DMB_OK : DMB_ERR_UNSUPPORTED);
+        if (k % 2 == 0) assert_non_null(strstr(dmb_sim_message(s.sim), "below its rig end"));
+        destroy(&s);
+    }
+}
+
+/* Each of the three calls takes its options, operations and handle alike. */
+static void refused_alike(void **state)
+{
+    scene s = describe(10, NULL, 0);
+    dmb_operation operations[2] = {usual(DMB_OPERATION_PICK_UP), usual(DMB_OPERATION_PICK_UP)};
+    dmb_torque_drag_options options = dmb_torque_drag_options_default();
+    dmb_torque_drag_row rows[2] = {dmb_torque_drag_row_default(), dmb_torque_drag_row_default()};
+    double found = 7.0, depth[2] = {7.0, 7.0};
+    (void)state;
+    compile(&s);
+    dmb_sim *none = (dmb_sim *)(void *)s.model;
+    assert_int_equal(dmb_analysis_torque_drag(none, NULL, operations, 1, rows), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_analysis_torque_drag_profile(none, NULL, operations, 2, depth, NULL, NULL, NULL),
+                     DMB_ERR_HANDLE);
+    assert_int_equal(dmb_analysis_friction_factor(none, NULL, operations, 0, 1e3, &found), DMB_ERR_HANDLE);
+    options.friction = 11.0;
+    assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, &options, operations, 2, depth, NULL, NULL, NULL),
+                     DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_friction_factor(s.sim, &options, operations, 0, 1e3, &found), DMB_ERR_VALUE);
+    operations[1].struct_size -= 8;
+    assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, operations, 2, rows), DMB_ERR_STRUCT_SIZE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "not that of the first"));
+    operations[0].weight_on_bit = (double)NAN;
+    assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, NULL, operations, 2, depth, NULL, NULL, NULL),
+                     DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, operations, 0, 1e3, &found), DMB_ERR_NOT_FINITE);
+    assert_true(found == 7.0 && depth[0] == 7.0 && depth[1] == 7.0);
+    destroy(&s);
+    s = describe(10, NULL, 0);
+    add_string(&s, 0);
+    finish_scene(&s);
+    operations[0] = usual(DMB_OPERATION_PICK_UP);
+    assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, operations, 1, rows), DMB_ERR_UNSUPPORTED);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "the model has no hole; add a wall"));
+    destroy(&s);
+    s = describe(10, NULL, 0);
+    s.string.follows_hole = 0;
+    compile(&s);
+    assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, operations, 1, rows), DMB_ERR_UNSUPPORTED);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "the string does not follow the hole"));
+    destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -452,6 +582,9 @@ int main(void)
         cmocka_unit_test(consistent),
         cmocka_unit_test(friction_is_found_again),
         cmocka_unit_test(shallow),
+        cmocka_unit_test(tools_at_the_far_end),
+        cmocka_unit_test(from_either_side),
+        cmocka_unit_test(refused_alike),
         cmocka_unit_test(refused),
         cmocka_unit_test(joints_below_the_rig_end_are_refused),
         cmocka_unit_test(forces_below_the_rig_end_are_refused),
