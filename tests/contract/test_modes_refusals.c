@@ -40,6 +40,37 @@ static void close_scene(scene *s)
     assert_int_equal(s->memory.live, 0);
 }
 
+/* ---- Nothing to move --------------------------------------------------------------------------------------------- */
+
+/* A body that its guide holds altogether, and one that a drive moves. */
+static void nothing_is_free(void **state)
+{
+    (void)state;
+    for (int driven = 0; driven < 2; driven++) {
+        dmb_model *model = NULL;
+        dmb_sim *sim = NULL;
+        dmb_modes *modes = NULL;
+        dmb_body_def body = dmb_body_def_default();
+        dmb_drive_def drive = dmb_drive_def_default();
+        const dmb_term zero = dmb_term_default();
+        assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+        body.free_mask = driven ? DMB_FREE_RX : DMB_FREE_NONE;
+        assert_int_equal(dmb_model_add_body(model, &body, &drive.part), DMB_OK);
+        drive.component = DMB_RX;
+        assert_int_equal(dmb_model_add_programme(model, &zero, 1, &drive.programme), DMB_OK);
+        if (driven) assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_OK);
+        assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
+        assert_int_equal(dmb_sim_create(model, NULL, &sim), DMB_OK);
+        const uint64_t before = hash_of(sim);
+        assert_int_equal(dmb_analysis_modes(sim, NULL, &modes), DMB_ERR_VALUE);
+        assert_null(modes);
+        assert_non_null(strstr(dmb_sim_message(sim), "no coordinates that are free to move"));
+        assert_true(hash_of(sim) == before);
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+    }
+}
+
 /* ---- Memory that runs out ---------------------------------------------------------------------------------------- */
 
 static void memory_that_runs_out(void **state)
@@ -211,8 +242,11 @@ static void modes_outlive_their_sim(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_that_runs_out),       cmocka_unit_test(options_out_of_bounds_are_named),
-        cmocka_unit_test(what_cannot_be_had_is_said), cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(nothing_is_free),
+        cmocka_unit_test(memory_that_runs_out),
+        cmocka_unit_test(options_out_of_bounds_are_named),
+        cmocka_unit_test(what_cannot_be_had_is_said),
+        cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(modes_outlive_their_sim),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -756,6 +756,116 @@ static double *array(const rig *s, int32_t which, uint64_t *count)
     return values;
 }
 
+/* Shapes of all coordinates are unit motions; those of a basis are orthonormal in M, and stretch K as A says. */
+static void shapes_of_the_coordinates(void **state)
+{
+    (void)state;
+    string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
+    dmb_modes_options lowest = dmb_modes_options_default();
+    dmb_state_space_options options = dmb_state_space_options_default();
+    dmb_modes *modes = NULL;
+    const dmb_input input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
+    lowest.count = 4;
+    must(&r.s, dmb_analysis_modes(r.s.sim, &lowest, &modes));
+    for (int reduced = 0; reduced < 2; reduced++) {
+        options.form = reduced ? DMB_STATE_REDUCED : DMB_STATE_FULL;
+        options.modes = reduced ? modes : NULL;
+        dmb_state_space *space = NULL;
+        dmb_state_space_info info = dmb_state_space_info_default();
+        must(&r.s, dmb_analysis_state_space(r.s.sim, &options, &input, 1, NULL, 0, &space));
+        assert_int_equal(dmb_state_space_get_info(space, &info), DMB_OK);
+        const size_t n = info.coordinates, rows = info.rows;
+        double *shapes = calloc(n * rows, sizeof *shapes), *A = matrix(space, DMB_MATRIX_A, 2 * n, 2 * n);
+        double worst[2] = {0.0, 0.0};
+        assert_int_equal(dmb_state_space_shapes(space, shapes), DMB_OK);
+        triplets M = sparse(space, DMB_MATRIX_MASS), K = sparse(space, DMB_MATRIX_STIFFNESS);
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = 0; b < n; b++) {
+                double mass = 0.0, stiff = 0.0, unit = 0.0;
+                for (uint64_t i = 0; i < M.count; i++)
+                    mass += shapes[rows * a + M.rows[i]] * M.values[i] * shapes[rows * b + M.columns[i]];
+                for (uint64_t i = 0; i < K.count; i++)
+                    stiff += shapes[rows * a + K.rows[i]] * K.values[i] * shapes[rows * b + K.columns[i]];
+                for (size_t i = 0; i < rows; i++) unit += shapes[rows * a + i] * shapes[rows * b + i];
+                const double same = reduced ? mass : unit;
+                worst[0] = fmax(worst[0], fabs(same - (a == b)));
+                if (reduced) worst[1] = fmax(worst[1], fabs(stiff + A[2 * n * (n + a) + b]) / fabs(A[2 * n * n]));
+            }
+        check_below(reduced ? "basis: orthonormal in M" : "unit motions", worst[0], reduced ? 1e-9 : 0.0);
+        if (reduced) check_below("    stiffness, over the first one", worst[1], 1e-6);
+        release(&M), release(&K);
+        free(shapes);
+        free(A);
+        dmb_state_space_destroy(&space);
+    }
+    dmb_modes_destroy(&modes);
+    rig_close(&r.s);
+}
+
+/* ---- Calls ---------------------------------------------------------------------------------------------------------
+ */
+
+static void numbers_of_matrices_and_handles(void **state)
+{
+    (void)state;
+    string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
+    const dmb_input input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
+    dmb_sim *none = (dmb_sim *)(void *)r.s.model;
+    dmb_state_space *space = NULL;
+    double values[24] = {7.0};
+    uint32_t rows[24] = {7}, found = 7;
+    uint64_t count = 7;
+    const dmb_place place = dmb_station(r.string, 1, 0.5);
+    assert_int_equal(dmb_analysis_state_space(none, NULL, &input, 1, NULL, 0, &space), DMB_ERR_HANDLE);
+    assert_null(space);
+    assert_int_equal(dmb_analysis_state_space(r.s.sim, NULL, NULL, 1, NULL, 0, &space), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_state_space(r.s.sim, NULL, NULL, 0, NULL, 1, &space), DMB_ERR_NULL);
+    must(&r.s, dmb_analysis_state_space(r.s.sim, NULL, &input, 1, NULL, 0, &space));
+    assert_int_equal(dmb_state_space_dense(space, DMB_MATRIX_A - 1, values), DMB_ERR_VALUE);
+    assert_int_equal(dmb_state_space_dense(space, DMB_MATRIX_D + 1, values), DMB_ERR_VALUE);
+    assert_int_equal(dmb_state_space_dense(space, DMB_MATRIX_A, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_state_space_shapes(space, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_state_space_shapes(NULL, values), DMB_ERR_NULL);
+    assert_int_equal(dmb_state_space_shapes((dmb_state_space *)(void *)r.s.model, values), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_state_space_sparse(space, DMB_MATRIX_D, NULL, NULL, NULL, &count), DMB_ERR_VALUE);
+    assert_int_equal(dmb_state_space_sparse(space, DMB_MATRIX_COORDINATES + 1, NULL, NULL, NULL, &count),
+                     DMB_ERR_VALUE);
+    assert_int_equal(dmb_state_space_sparse(space, DMB_MATRIX_MASS, rows, rows, NULL, &count), DMB_ERR_NULL);
+    assert_int_equal(dmb_state_space_sparse(space, DMB_MATRIX_MASS, NULL, NULL, values, &count), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_array(none, DMB_ARRAY_VELOCITY, values, &count), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_analysis_array(r.s.sim, DMB_ARRAY_VELOCITY - 1, NULL, &count), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_array(r.s.sim, DMB_ARRAY_RESIDUAL + 1, NULL, &count), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_place_rows(none, place, DMB_FRAME_WORLD, DMB_X, rows, values, &found),
+                     DMB_ERR_HANDLE);
+    assert_int_equal(dmb_analysis_place_rows(r.s.sim, place, DMB_FRAME_HOLE, DMB_X, rows, values, &found),
+                     DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_place_rows(r.s.sim, place, DMB_FRAME_WORLD, -1, rows, values, &found), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_place_rows(r.s.sim, place, -1, DMB_X, rows, values, &found), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_place_rows(r.s.sim, place, DMB_FRAME_BODY, 6, rows, values, &found), DMB_ERR_VALUE);
+    assert_true(values[0] == 7.0 && rows[0] == 7 && count == 7 && found == 7);
+    dmb_state_space_destroy(&space);
+    rig_close(&r.s);
+}
+
+/* 350 pipes have 4200 states, more than the bound of dense matrices. */
+static void more_states_than_the_bound(void **state)
+{
+    (void)state;
+    rig s;
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_state_space *space = NULL;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    string.start_free = DMB_FREE_NONE;
+    pipe.string = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 350);
+    (void)rig_start(&s, NULL);
+    assert_int_equal(dmb_analysis_state_space(s.sim, NULL, NULL, 0, NULL, 0, &space), DMB_ERR_TOO_LARGE);
+    assert_null(space);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "4200 states, must be <= 4096"));
+    rig_close(&s);
+}
+
 /* In a run: kinetic energy v M v/2, J v = 0, J R = 0, residual + J^T multiplier = 0 in rows that are free, positions,
  * and speeds of places by their rows. */
 static void arrays(void **state)
@@ -982,6 +1092,9 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shapes_of_the_coordinates),
+        cmocka_unit_test(numbers_of_matrices_and_handles),
+        cmocka_unit_test(more_states_than_the_bound),
         cmocka_unit_test(transfer_of_a_string),
         cmocka_unit_test(transfer_of_a_crowded_string),
         cmocka_unit_test(rate_is_refused),
