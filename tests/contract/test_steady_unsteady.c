@@ -421,7 +421,7 @@ static int32_t no_force(void *context, double time, uint32_t count, const double
     return 0;
 }
 
-/* Beside a string that turns, a flap on a hinge with a spring. What acts on the flap alone is steady. */
+/* Beside a string that turns, a flap on a hinge with a spring. Forces on the flap alone are steady. */
 static dmb_id string_and_flap(rig *s, dmb_id *flap, dmb_id *joint)
 {
     const dmb_id string = moved_string(s, 0.0, 3.0), none = {0, 0};
