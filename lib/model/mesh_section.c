@@ -35,13 +35,6 @@ static section_values of_section(const dmb_wall_def *wall, const dmb_hole_sectio
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static int32_t refuse(const dmb_mesh *mesh, uint32_t i, const char *text, double value, double bound)
-{
-    dmb_message *message = &mesh->model->message;
-    dmb_message_set(message, text, i, value, bound);
-    return DMB_ERR_GEOMETRY;
-}
-
 /* The bounds that the laws set to the wall's constants, with those of the wall filled in. */
 static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const section_values *s)
 {
@@ -60,17 +53,19 @@ static int32_t check_place(const dmb_mesh *mesh, const dmb_hole_section *all, ui
     const dmb_hole_section *s = all + i;
     if (i + 1 == count) {
         if (s->shape == DMB_HOLE_STEP) return DMB_OK;
-        return refuse(mesh, i,
-                      "hole section %u: shape = DMB_HOLE_LINE (%g), must be DMB_HOLE_STEP (%g) in the last one; add a "
-                      "section that the line leads to",
-                      s->shape, DMB_HOLE_STEP);
+        dmb_message_set(&mesh->model->message,
+                        "hole section %u: shape = DMB_HOLE_LINE (%d), must be DMB_HOLE_STEP (%d) in the last one; add "
+                        "a section that the line leads to",
+                        i, s->shape, DMB_HOLE_STEP);
+        return DMB_ERR_GEOMETRY;
     }
     const double room = s[1].depth - s->depth, need = 0.5 * (s->transition + s[1].transition);
     if (room >= need) return DMB_OK;
-    return refuse(mesh, i,
-                  "hole section %u: depth is %g m above the next one's, must be >= %g m, half of both transitions; "
-                  "give shorter transitions",
-                  room, need);
+    dmb_message_set(&mesh->model->message,
+                    "hole section %u: depth is %g m above the next one's, must be >= %g m, half of both transitions; "
+                    "give shorter transitions",
+                    i, room, need);
+    return DMB_ERR_GEOMETRY;
 }
 
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
@@ -128,11 +123,15 @@ static int32_t pass_transition(section_walk *walk, const dmb_hole_section *s, co
         end.v[k] = values->v[k] + h * slope->v[k];
         middle.v[k] = (end.v[k] - walk->at.v[k]) / h - 0.5 * (walk->slope.v[k] + slope->v[k]);
     }
-    if (fabs(middle.v[DMB_WALL_RADIUS]) > DMB_HOLE_SLOPE_MAX)
-        return refuse(walk->mesh, (uint32_t)(s - (const dmb_hole_section *)walk->mesh->model->sections.items),
-                      "hole section %u: its radius changes by %g m/m within the transition, must be <= %g; give a "
-                      "longer transition",
-                      fabs(middle.v[DMB_WALL_RADIUS]), DMB_HOLE_SLOPE_MAX);
+    if (fabs(middle.v[DMB_WALL_RADIUS]) > DMB_HOLE_SLOPE_MAX) {
+        dmb_model *model = walk->mesh->model;
+        dmb_message_set(&model->message,
+                        "hole section %u: its radius changes by %g m/m within the transition, must be <= %g; give a "
+                        "longer transition",
+                        (uint32_t)(s - (const dmb_hole_section *)model->sections.items),
+                        fabs(middle.v[DMB_WALL_RADIUS]), DMB_HOLE_SLOPE_MAX);
+        return DMB_ERR_GEOMETRY;
+    }
     int32_t status = push_parabola(walk, h, &middle);
     if (status >= 0) status = push_parabola(walk, h, slope);
     walk->at = end; /* without the rounding of the way */
