@@ -1,6 +1,6 @@
 /* Where it stays stable: scenes, easy and hard, in steps of 10 us to 0.1 s at three spectral radii; and what a million
- * steps drift by. usage: limits ROWS.csv TABLE.md [grid | drift [NAME]]. One line a result; tests/bench/run calls it.
- */
+ * steps drift by. usage: limits ROWS.csv TABLE.md [grid | drift [NAME [TOLERANCE STEPS]]]. One line a result;
+ * tests/bench/run calls it. TOLERANCE of Newton, default 1e-12, 0: it follows the error of the step. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -235,14 +235,16 @@ static int denormals(void)
 
 int main(int count, char **words)
 {
-    if (count < 3) return fputs("usage: limits ROWS.csv TABLE.md [grid | drift [NAME]]\n", stderr), 2;
+    if (count < 3) return fputs("usage: limits ROWS.csv TABLE.md [grid | drift [NAME [TOLERANCE STEPS]]]\n", stderr), 2;
     FILE *csv = fopen(words[1], "w"), *table = fopen(words[2], "w");
     if (!csv || !table) return fputs("limits: cannot write\n", stderr), 2;
     const int only_drift = count > 3 && strcmp(words[3], "drift") == 0;
     const int only_grid = count > 3 && strcmp(words[3], "grid") == 0;
+    const drift_choice choice = {count > 4 ? words[4] : NULL, count > 5 ? atof(words[5]) : 1e-12,
+                                 count > 6 ? atoi(words[6]) / DRIFT_SAMPLES : 1000};
     int failed = 0;
     if (!only_drift) failed |= grid(csv, table);
-    if (!only_grid) failed |= drift(csv, table, count > 4 ? words[4] : NULL);
+    if (!only_grid) failed |= drift(csv, table, &choice);
     if (!only_grid && count <= 4) failed |= denormals();
     (void)fclose(csv);
     (void)fclose(table);

@@ -1,4 +1,5 @@
-/* The drift of a million steps: energy, rotations off orthonormal, joints and guides off their place. */
+/* The drift of a million steps, or of as many as asked for: energy, rotations off orthonormal, joints and guides off
+ * their place. */
 #ifndef BENCH_LIMITS_DRIFT_H
 #define BENCH_LIMITS_DRIFT_H
 
@@ -7,7 +8,13 @@
 
 #include "limits_scenes.h"
 
-enum { DRIFT_SAMPLES = 1000, DRIFT_STEPS = 1000 /* between samples */ };
+enum { DRIFT_SAMPLES = 1000 };
+
+typedef struct drift_choice {
+    const char *only; /* name of the one to run, or NULL for all */
+    double tolerance; /* [-] of Newton; 0: it follows the error of the step */
+    int steps;        /* between samples */
+} drift_choice;
 
 typedef struct drifter {
     const char *name;
@@ -170,20 +177,20 @@ static void look(const limit_scene *s, int sample, drifted *d)
     if (drift_pipes > 0) look_at_string(s, sample, d);
 }
 
-static int32_t drift_one(const drifter *of, limit_scene *s, drifted *d)
+static int32_t drift_one(const drifter *of, const drift_choice *choice, limit_scene *s, drifted *d)
 {
     dmb_sim_options options = dmb_sim_options_default();
     memset(s, 0, sizeof *s);
     memset(d, 0, sizeof *d);
     options.spectral_radius = of->radius;
-    options.newton_tolerance = 1e-12;
+    options.newton_tolerance = choice->tolerance;
     of->describe(s);
     if (s->status >= 0) limit_note(s, dmb_model_compile(s->model, NULL));
     if (s->status >= 0) limit_note(s, dmb_sim_create(s->model, &options, &s->sim));
     if (s->status >= 0 && of->statics) limit_note(s, dmb_analysis_static(s->sim, NULL, NULL));
     if (s->status >= 0) look(s, 0, d);
     for (int k = 1; k <= DRIFT_SAMPLES && s->status >= 0; ++k) {
-        for (int i = 0; i < DRIFT_STEPS && s->status >= 0; ++i) limit_note(s, dmb_sim_step(s->sim, of->step, NULL));
+        for (int i = 0; i < choice->steps && s->status >= 0; ++i) limit_note(s, dmb_sim_step(s->sim, of->step, NULL));
         if (s->status >= 0) look(s, k, d);
     }
     return s->status;
@@ -208,8 +215,7 @@ static void print_drift(const drifter *of, const limit_scene *s, const drifted *
             d->balance, d->ortho, d->violation, d->crept);
 }
 
-/* only: name of the one to run, or NULL for all. */
-static int drift(FILE *csv, FILE *table, const char *only)
+static int drift(FILE *csv, FILE *table, const drift_choice *choice)
 {
     int failed = 0;
     fputs("drift,dt,radius,status,steps,iterations,worst,rejected,energy,energy_end,balance,orthonormal,violation,"
@@ -222,8 +228,8 @@ static int drift(FILE *csv, FILE *table, const char *only)
     for (size_t i = 0; i < sizeof drifters / sizeof *drifters; ++i) {
         limit_scene s;
         drifted d;
-        if (only && strcmp(only, drifters[i].name) != 0) continue;
-        failed |= drift_one(drifters + i, &s, &d) < 0;
+        if (choice->only && strcmp(choice->only, drifters[i].name) != 0) continue;
+        failed |= drift_one(drifters + i, choice, &s, &d) < 0;
         print_drift(drifters + i, &s, &d, csv, table);
         dmb_sim_destroy(&s.sim);
         dmb_model_destroy(&s.model);

@@ -12,6 +12,7 @@ import math
 MASS, STIFFNESS, DAMPING, GRAVITY, CLEARANCE, END = 11.4, 1e6, 1e3, 9.81, 0.0105, 0.1
 STEPS = [1e-3 / 2**i for i in range(5)]
 SPECTRAL_RADIUS = 0.8
+LOCATED = "steps that end at touch and opening"
 
 
 def exact(gap):
@@ -47,6 +48,7 @@ class Mass:
         self.beta = (self.gamma + 0.5)**2 / 4
         self.way, self.d, self.v, self.dv, self.a = way, -gap, 0.0, GRAVITY, GRAVITY
         self.age, self.part, self.length = 0, 0.0, 0.0
+        self.closed, self.parts = False, 0
 
     def damping_weight(self, d):
         """[-] of the damping at the depth d > 0."""
@@ -65,6 +67,8 @@ class Mass:
         return 1.0
 
     def force(self, d, v, h):
+        if self.way == LOCATED:
+            return STIFFNESS * d + DAMPING * v if self.closed else 0.0
         if self.way == "discrete gradient":
             # the mean of the elastic force over the way, damping by the closed part of the step
             if d <= 0 and self.d <= 0:
@@ -106,7 +110,7 @@ class Mass:
         ratio = h / self.length if self.length else 1.0
         start = (self.dv, self.dv + ratio * (self.a - self.dv))
         x, d, v, a = self.solve(h, start)
-        if self.way in ("discrete gradient", "impulses at the end of the step"):
+        if self.way in ("discrete gradient", "impulses at the end of the step", LOCATED):
             return x, d, v, a
         before, after = STIFFNESS * self.d + DAMPING * self.v, STIFFNESS * d + DAMPING * v
         if self.way == "as it is at the end of the step":
@@ -126,8 +130,34 @@ class Mass:
             self.part = d / (d - self.d)
         self.dv, self.d, self.v, self.a, self.length = x, d, v, a, h
 
+    def changes(self, d, v):
+        """True where a mass in the air is in the wall, or the force of one on it has come to 0."""
+        return STIFFNESS * d + DAMPING * v <= 0 if self.closed else self.d <= 0 < d
+
+    def step_to_event(self, h):
+        """A step that ends where touch or opening is, by halving its length; what of it is left."""
+        low, high = 0.0, h
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            if self.changes(*self.attempt(middle)[1:3]):
+                high = middle
+            else:
+                low = middle
+        self.take(high, self.attempt(high))
+        self.parts += 1
+        self.closed = not self.closed
+        if self.closed:
+            self.d = 0.0
+        self.dv = self.a = GRAVITY - self.force(self.d, self.v, h) / MASS  # the scheme begins anew
+        return h - high
+
     def step(self, h):
-        self.take(h, self.attempt(h))
+        if self.way != LOCATED:
+            return self.take(h, self.attempt(h))
+        while h > 0 and self.changes(*self.attempt(h)[1:3]):
+            h = self.step_to_event(h)
+        if h > 0:
+            self.take(h, self.attempt(h))
 
 
 def error(way, h):
@@ -145,7 +175,7 @@ def main():
     print("| touch within a step | " + " | ".join(f"{1e3 * h:g} ms" for h in STEPS) + " |")
     print("|---|" + "---|" * len(STEPS))
     for way in ("as it is at the end of the step", "impulses at the end of the step", "discrete gradient",
-                "weight p + 1/2 in one step", "weights over two steps", "weights over three steps"):
+                "weight p + 1/2 in one step", "weights over two steps", "weights over three steps", LOCATED):
         print(f"| {way} | " + " | ".join(f"{error(way, h):.1e}" for h in STEPS) + " |", flush=True)
 
 
