@@ -110,7 +110,7 @@ double dmb_normal_factor_slope(const dmb_normal_law *law, double e)
     switch (law->kind) {
     case DMB_NORMAL_HUNT_CROSSLEY: return -1.5;
     case DMB_NORMAL_LANKARANI_NIKRAVESH: return -1.5 * e;
-    case DMB_NORMAL_FLORES: return e > DMB_RESTITUTION_FLOOR ? -1.6 / (e * e) : 0.0;
+    case DMB_NORMAL_FLORES: return e > DMB_RESTITUTION_FLOOR ? -1.6 / (e * e) : -1.6 / DMB_RESTITUTION_FLOOR;
     case DMB_NORMAL_EXACT: {
         const double by_e = mu * mu * e / (1.0 - mu * e), by_mu = e * e * mu / (1.0 - mu * e) - mu / (1.0 + mu);
         return e > DMB_RESTITUTION_FLOOR && e < 1.0 && by_mu != 0.0 ? -by_e / by_mu : 0.0;

@@ -39,6 +39,54 @@ static void conversions_it_does_not_know(void **state)
     assert_string_equal(m.text, "a ?");
     set(&m, open);
     assert_string_equal(m.text, "50 ?");
+    static const char *const others[] = {"%zd", "%z", "%l", "%ld", "%ll", "%lld", "%lx", "%p"};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        const char *volatile other = others[i];
+        set(&m, other, 1ull);
+        assert_string_equal(m.text, "?");
+    }
+}
+
+/* UTF-8 (RFC 3629): characters of one to four bytes at the bounds of each; overlong forms, surrogates, codes beyond
+ * 0x10FFFF, bytes that go on without a beginning and the other way round, and control characters are none. */
+static void characters(void **state)
+{
+    static const char *const texts[] = {" ",
+                                        "~",
+                                        "\xC2\xA0",
+                                        "\xDF\xBF",
+                                        "\xE0\xA0\x80",
+                                        "\xED\x9F\xBF",
+                                        "\xEE\x80\x80",
+                                        "\xEF\xBF\xBD",
+                                        "\xF0\x90\x80\x80",
+                                        "\xF4\x8F\xBF\xBF",
+                                        "a\xC3\xBCz"};
+    static const char *const none[] = {"\x1F",
+                                       "\x7F",
+                                       "\t",
+                                       "\xC2\x80",
+                                       "\xC2\x9F",
+                                       "\xC1\xBF",
+                                       "\xE0\x9F\xBF",
+                                       "\xED\xA0\x80",
+                                       "\xED\xBF\xBF",
+                                       "\xF0\x8F\xBF\xBF",
+                                       "\xF4\x90\x80\x80",
+                                       "\xF8\x88\x80\x80",
+                                       "\x80",
+                                       "\xBF",
+                                       "\xC3z",
+                                       "\xE2\x82z",
+                                       "\xC3",
+                                       "\xE2\x82",
+                                       "\xF0\x90\x80",
+                                       "\xFF"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        if (!dmb_is_text(texts[i], strlen(texts[i]) + 1)) fail_msg("text %zu is refused", i);
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        if (dmb_is_text(none[i], strlen(none[i]) + 1)) fail_msg("number %zu is taken for text", i);
 }
 
 static void too_long_a_text_is_cut(void **state)
@@ -94,6 +142,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(conversions),
+        cmocka_unit_test(characters),
         cmocka_unit_test(conversions_it_does_not_know),
         cmocka_unit_test(too_long_a_text_is_cut),
         cmocka_unit_test(fields),

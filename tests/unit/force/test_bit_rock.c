@@ -202,6 +202,8 @@ static void nonsense(void **state)
     CHECK_RELATIVE(r.weight_on_bit, 2162.0, 1e-14);
     history = (dmb_bit_history){.angle = NULL, .surface = surface, .capacity = 16};
     assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_NULL);
+    history = (dmb_bit_history){.angle = angle, .surface = NULL, .capacity = 16};
+    assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_NULL);
     history = (dmb_bit_history){.angle = angle, .surface = surface, .capacity = 15};
     assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_VALUE);
     law.blades = 0;

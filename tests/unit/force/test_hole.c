@@ -80,6 +80,13 @@ static void refusals(void **state)
     assert_int_equal(dmb_hole_setup_straight(&hole, zero, zero, 0.05), DMB_ERR_VALUE);
     assert_int_equal(dmb_hole_setup_straight(&hole, bad, x, 0.05), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_hole_setup_straight(&hole, zero, bad, 0.05), DMB_ERR_NOT_FINITE);
+    for (int k = 0; k < 3; ++k) {
+        double off[3] = {0, 0, 0}, way[3] = {1, 0, 0};
+        off[k] = way[k] = (double)INFINITY;
+        assert_int_equal(dmb_hole_setup_straight(&hole, off, x, 0.05), DMB_ERR_NOT_FINITE);
+        assert_int_equal(dmb_hole_setup_straight(&hole, zero, way, 0.05), DMB_ERR_NOT_FINITE);
+    }
+    assert_int_equal(dmb_hole_setup_straight(&hole, zero, x, (double)NAN), DMB_ERR_NOT_FINITE);
     const double survey[4][12] = {{0, 1, 0, 10, 1, 0, 10, 1, 0, 30, 1, 0},
                                   {0, 1, 0, 10, 1, (double)NAN, 20, 1, 0, 30, 1, 0},
                                   {0, 1, 0, 10, 1, 0, 20, 1, 0, 30, 1 + 2.51, 0},
@@ -89,6 +96,7 @@ static void refusals(void **state)
         assert_int_equal(dmb_hole_setup_survey(&hole, 4, survey[i], zero, 0.05, storage), expected[i]);
     assert_int_equal(dmb_hole_setup_survey(&hole, 1, survey[2], zero, 0.05, storage), 0);
     assert_int_equal(dmb_hole_setup_survey(&hole, 3, survey[2], bad, 0.05, storage), 0);
+    assert_int_equal(dmb_hole_setup_survey(&hole, 3, survey[2], zero, (double)INFINITY, storage), 0);
     assert_memory_equal(&hole, &before, sizeof hole);
     const double sharp[6] = {0, 1, 0, 10, 1 + 2.49, 0};
     assert_int_equal(dmb_hole_setup_survey(&hole, 2, sharp, zero, 0.05, storage), -1);

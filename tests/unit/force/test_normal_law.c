@@ -406,11 +406,39 @@ static void no_contact_and_nonsense(void **state)
     }
 }
 
+/* d mu/d e against differences; at the floor of e, below which mu goes on with e alone, on both sides; nothing for the
+ * laws without a factor, nor for EXACT where it is held. */
+static void slopes_of_the_factor(void **state)
+{
+    static const double e[6] = {0.05, 0.2, 0.5, 0.6, 0.8, 0.99};
+    (void)state;
+    for (int32_t kind = DMB_NORMAL_HUNT_CROSSLEY; kind <= DMB_NORMAL_EXACT; ++kind)
+        for (int i = 0; i < 6; ++i) {
+            const double h = 1e-5 * e[i],
+                         mid = dmb_normal_factor_slope(&(dmb_normal_law){.kind = DMB_NORMAL_NONE}, e[i]);
+            const dmb_normal_law at = law_of(kind, 1, 1, e[i]);
+            const double slope = (law_of(kind, 1, 1, e[i] + h).mu - law_of(kind, 1, 1, e[i] - h).mu) / (2.0 * h);
+            CHECK_CLOSE(dmb_normal_factor_slope(&at, e[i]), slope, 1e-8 * fabs(slope));
+            CHECK_CLOSE(mid, 0.0, 0.0);
+        }
+    const double below = 4e-7, h = 1e-8; /* the floor is 1e-6 */
+    const dmb_normal_law flores = law_of(DMB_NORMAL_FLORES, 1, 1, below), exact = law_of(DMB_NORMAL_EXACT, 1, 1, below);
+    const double slope =
+        (law_of(DMB_NORMAL_FLORES, 1, 1, below + h).mu - law_of(DMB_NORMAL_FLORES, 1, 1, below - h).mu) / (2.0 * h);
+    CHECK_CLOSE(dmb_normal_factor_slope(&flores, below), slope, 1e-3 * fabs(slope));
+    CHECK_CLOSE(dmb_normal_factor_slope(&exact, below), 0.0, 0.0);
+    CHECK_CLOSE(law_of(DMB_NORMAL_EXACT, 1, 1, below).mu, law_of(DMB_NORMAL_EXACT, 1, 1, 0.5 * below).mu, 0.0);
+    const dmb_normal_law full = law_of(DMB_NORMAL_EXACT, 1, 1, 1.0);
+    CHECK_CLOSE(full.mu, 0.0, 0.0);
+    CHECK_CLOSE(dmb_normal_factor_slope(&full, 1.0), 0.0, 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(restitution_curves),
         cmocka_unit_test(restitution_table),
+        cmocka_unit_test(slopes_of_the_factor),
         cmocka_unit_test(exact_factor_accuracy),
         cmocka_unit_test(hertz_sphere),
         cmocka_unit_test(impact_function),

@@ -360,6 +360,17 @@ static void nonsense_times(void **state)
     assert_int_equal(dmb_programme_integral(&p, 0, (double)NAN, &out), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_programme_value(&overflow, 0, &out, &rate), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_programme_integral(&overflow, 0, 1, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_integral(&p, (double)NAN, 0, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_rate_before(&p, (double)NAN, &rate), DMB_ERR_NOT_FINITE);
+    const dmb_term steep[2] = {make(DMB_TERM_HARMONIC, 0, 1, 0, 1e308), make(DMB_TERM_HARMONIC, 0, 1, 0, 1e308)};
+    dmb_term fast[2] = {steep[0], steep[1]};
+    fast[0].omega = fast[1].omega = 1.5; /* each finite, their sum is not */
+    const dmb_programme rates = {fast, 2};
+    assert_int_equal(dmb_programme_value(&rates, 0, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_rate_before(&rates, 0, &rate), DMB_ERR_NOT_FINITE);
+    const dmb_term failing = callback(refuses, 0, NULL);
+    const dmb_programme broken = {&failing, 1};
+    assert_int_equal(dmb_programme_rate_before(&broken, 1.0, &rate), DMB_ERR_CALLBACK);
     assert_true(out == 11 && rate == 12);
     assert_true(isinf(dmb_programme_next_corner(&p, (double)NAN)) ||
                 dmb_programme_next_corner(&p, (double)NAN) == -1.0);
