@@ -5,6 +5,7 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "sim/access.h"
+#include "sim/layout.h"
 #include "sim/node.h"
 #include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
@@ -209,7 +210,7 @@ static void put_back(dmb_sim *sim)
     const size_t count = sim->scene->input_count;
     memcpy(sim->input_value, sim->input_before, count * sizeof(double));
     memcpy(sim->input_begin, sim->input_before + count, 3 * count * sizeof(double));
-    dmb_stuck_put_back(sim);
+    if (sim->scene->stuck_count) dmb_state_restore(sim); /* with the poses that places got stuck in */
     dmb_own_scene_update(sim);
 }
 
@@ -306,6 +307,7 @@ static int32_t set(dmb_sim *sim, settings *given)
     int32_t status = check(sim, given);
     if (status < 0 || given->count == 0) return status;
     keep(sim);
+    if (sim->scene->stuck_count) dmb_state_back_up(sim);
     status = apply(sim, given);
     if (status < 0) put_back(sim);
     if (status != DMB_OK || !given->clamped) return status;

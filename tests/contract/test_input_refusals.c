@@ -1,5 +1,6 @@
 /* Calls that set inputs and drives: what they refuse changes nothing, what is there already is no change, and logs that
  * cannot be one are told. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "rig.h"
@@ -156,6 +157,66 @@ static void logs(void **state)
     rig_close(&c.s);
 }
 
+/* A place that gets stuck in a call that is refused for another of its values is not stuck. */
+static void stuck_and_refused(void **state)
+{
+    (void)state;
+    rig s;
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_input_def input = dmb_input_def_default();
+    dmb_stuck_def stuck = dmb_stuck_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_id inputs[2], place[2];
+    rig_open(&s, 0.0, 0.0, -9.81);
+    const dmb_pipe_def pipe = beam_pipe(1.0, 2, 1e7, 1e7, 1e4, 1e4);
+    const dmb_id string = add_beam(&s, &pipe, DMB_FREE_RX);
+    body.free_mask = DMB_FREE_RX;
+    drive.kind = DMB_DRIVE_CONTROL;
+    drive.part = add_body(&s, &body);
+    drive.component = DMB_RX;
+    drive.gain = 2.0;
+    drive.limit_low = -10.0, drive.limit_high = 10.0;
+    drive.programme = add_constant(&s, 1.0);
+    strcpy(input.name, "least");
+    input.target = DMB_TARGET_LIMIT_LOW;
+    input.part = add_drive(&s, &drive);
+    must_model(&s, dmb_model_add_input(s.model, &input, &inputs[0]));
+    for (int i = 0; i < 2; i++) {
+        stuck.place = dmb_station(string, 0, 0.5 + 0.5 * i);
+        stuck.stuck = 0;
+        must_model(&s, dmb_model_add_stuck(s.model, &stuck, &place[i]));
+    }
+    strcpy(input.name, "stuck");
+    input.target = DMB_TARGET_STUCK;
+    input.part = place[0];
+    input.initial = 0.0;
+    must_model(&s, dmb_model_add_input(s.model, &input, &inputs[1]));
+    (void)rig_start(&s, NULL);
+    take_steps(&s, 1e-3, 3);
+    const uint64_t before = rig_hash(&s);
+    const double beyond[2] = {10.0, 1.0}, within[2] = {-5.0, 1.0};
+    assert_int_equal(dmb_sim_set_inputs(s.sim, inputs, beyond, 2), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "limit_low = 10 of its drive, must be < limit_high = 10"));
+    dmb_stuck_state told = dmb_stuck_state_default();
+    must(&s, dmb_query_stuck(s.sim, place[0], &told));
+    assert_int_equal(told.stuck, 0);
+    assert_true(rig_hash(&s) == before);
+    must(&s, dmb_sim_set_inputs(s.sim, inputs, within, 2));
+    must(&s, dmb_query_stuck(s.sim, place[0], &told));
+    assert_int_equal(told.stuck, 1);
+    size_t size = 0; /* of two limits one has an input: the other is as described */
+    must(&s, dmb_sim_snapshot_size(s.sim, &size));
+    void *bytes = malloc(size);
+    assert_non_null(bytes);
+    must(&s, dmb_sim_snapshot(s.sim, bytes, size));
+    const uint64_t saved = rig_hash(&s);
+    take_divided_steps(&s, 1e-3, 3);
+    must(&s, dmb_sim_restore(s.sim, bytes, size));
+    assert_true(rig_hash(&s) == saved);
+    free(bytes);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +225,7 @@ int main(void)
         cmocka_unit_test(by_its_slope_alone),
         cmocka_unit_test(density_without_a_ledger),
         cmocka_unit_test(logs),
+        cmocka_unit_test(stuck_and_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -155,6 +155,26 @@ static void balls_only_with_something_on_their_angles(void **state)
     }
 }
 
+static int32_t no_torque(void *context, double time, double out[3])
+{
+    (void)context, (void)time;
+    out[0] = out[1] = out[2] = 0.0;
+    return 0;
+}
+
+/* A drive about an axis of a ball needs its angles; one along an axis of a cylinder's joint, none of them. */
+static void a_ball_with_a_drive_on_its_angles(void **state)
+{
+    (void)state;
+    arm a = describe_arm(0.0, 2.0, 0.0);
+    const dmb_joint_def def = arm_joint(&a, DMB_JOINT_SPHERICAL);
+    a.joint = add_joint(&a.s, &def);
+    (void)add_simple_drive(&a.s, DMB_DRIVE_LOAD, a.joint, DMB_RX, add_callback(&a.s, no_torque, NULL));
+    (void)mechanism_start(&a.s, NULL);
+    (void)run_until_refused(&a, 1e-2);
+    rig_close(&a.s);
+}
+
 static void a_locked_joint_may_stand_there(void **state)
 {
     (void)state;
@@ -235,6 +255,7 @@ int main(void)
         cmocka_unit_test(statics_refuse_it),
         cmocka_unit_test(statics_do_not_fold_it),
         cmocka_unit_test(balls_only_with_something_on_their_angles),
+        cmocka_unit_test(a_ball_with_a_drive_on_its_angles),
         cmocka_unit_test(a_locked_joint_may_stand_there),
         cmocka_unit_test(a_rim_that_lies_flat),
     };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "drillmbd/bha.h"
+#include "drillmbd/names.h"
 #include "mechanism.h"
 #include "ode.h"
 
@@ -38,6 +39,7 @@ static dmb_id add_assembly(rig *s, int32_t start_free, double length, const doub
     bit.cutting_ratio = ratio;
     bit.side_cutting = steer;
     bit.walk_angle = walk_angle;
+    strcpy(bit.name, "bit");
     must_model(s, dmb_model_add_bit(s->model, &bit, NULL));
     return id;
 }
@@ -48,6 +50,26 @@ typedef struct drift {
     double y, z;
     double rock, balance; /* [J] */
 } drift;
+
+/* Told of the bit: m a = F + the rock's force, which is eta times the speed it is cut at, turned by the walk angle. */
+static void check_told(const rig *s, dmb_place place, double force, double spin)
+{
+    const double eta = resistance() / sqrt(spin * spin + 0.05 * 0.05);
+    const dmb_motion motion = motion_at(s, place, DMB_FRAME_WORLD);
+    const double *v = motion.velocity, *a = motion.acceleration;
+    dmb_bit_state bit = dmb_bit_state_default();
+    dmb_id id;
+    must_model(s, dmb_model_find(s->model, DMB_PART_BIT, "bit", &id));
+    must(s, dmb_query_bit(s->sim, id, &bit));
+    check_relative("    speed it cuts sideways [m/s]", bit.side_speed, hypot(v[1], v[2]), 1e-12);
+    check_relative("    force of the rock [N]", hypot(bit.side_force[1], bit.side_force[2]), eta * bit.side_speed,
+                   1e-9);
+    check_close("    against the speed and the walk [N m/s]", bit.side_force[1] * v[1] + bit.side_force[2] * v[2],
+                -eta * bit.side_speed * bit.side_speed * cos(walk), 1e-9 * eta * bit.side_speed * bit.side_speed);
+    check_close("    balance along y [N]", mass * a[1], force + bit.side_force[1], 1e-4 * force);
+    check_close("    and along z [N]", mass * a[2], bit.side_force[2], 1e-4 * force);
+    check_close("    nothing along the axis [N]", bit.side_force[0], 0.0, 1e-12 * force);
+}
 
 /* Free across its axis and about it, turning at `spin`, pushed along y. */
 static drift pushed(double spin, double force, double time, double step)
@@ -70,6 +92,7 @@ static drift pushed(double spin, double force, double time, double step)
     d.z = pose.displacement[2];
     d.rock = e.rock;
     d.balance = e.balance;
+    check_told(&s, load.place, force, spin);
     rig_close(&s);
     return d;
 }

@@ -208,8 +208,6 @@ double dmb_stuck_largest_share(const dmb_sim *sim, const dmb_configuration *conf
 void dmb_stuck_start(dmb_sim *sim, uint32_t i);
 /* In the accepted pose it gets stuck, or free. */
 void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held);
-/* As the inputs were before, which are those that are set again: an anchor was taken by what had been free only. */
-void dmb_stuck_put_back(dmb_sim *sim);
 
 /* From a sim of another model, whose nodes begin elsewhere: stuck where it was in the world. */
 void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i);

@@ -259,13 +259,6 @@ void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held)
     sim->stuck_held[i] = held;
 }
 
-void dmb_stuck_put_back(dmb_sim *sim)
-{
-    for (uint32_t i = 0; i < sim->scene->stuck_count; i++)
-        if (sim->scene->stuck[i].input != DMB_NONE)
-            sim->stuck_held[i] = sim->input_value[sim->scene->stuck[i].input] > 0.5;
-}
-
 void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i)
 {
     double *to = sim->stuck_anchor + 12 * (size_t)i;

@@ -110,6 +110,28 @@ static void jumps_have_two_sides(void **state)
     assert_true(dmb_delay_next_jump(&line, 1.0) == 1.5 && isinf(dmb_delay_next_jump(&line, 1.5)));
 }
 
+/* A second jump within a part of the delay takes the place of the first one's later side: what comes out is what went
+ * in but for a part of the delay. */
+static void jumps_close_together(void **state)
+{
+    const dmb_delay_line line = {time_of, value_of};
+    const double delay = 0.5, part = delay / DMB_DELAY_PARTS;
+    (void)state;
+    dmb_delay_fill(&line, 0.0, 1.0);
+    for (int i = 1; i <= 10; i++) dmb_delay_push(&line, delay, 0.1 * (i - 1), 1.0, 0.1 * i, 1.0);
+    dmb_delay_push(&line, delay, 1.0, 4.0, 1.0 + 0.1 * part, 4.0);
+    dmb_delay_push(&line, delay, 1.0 + 0.1 * part, 6.0, 1.0 + 0.2 * part, 6.0);
+    dmb_delay_push(&line, delay, 1.0 + 0.2 * part, -2.0, 1.0 + 0.3 * part, -2.0);
+    for (int i = 4; i <= 10; i++)
+        dmb_delay_push(&line, delay, 1.0 + 0.1 * (i - 1) * part, -2.0, 1.0 + 0.1 * i * part, -2.0);
+    assert_true(dmb_delay_before(&line, 1.0) == 1.0 && dmb_delay_after(&line, 0.95) == 1.0);
+    assert_true(dmb_delay_after(&line, 1.0 + part) == -2.0 && dmb_delay_before(&line, 1.0 + part) == -2.0);
+    for (int i = 0; i <= 20; i++) {
+        const double between = dmb_delay_after(&line, 1.0 + 0.05 * i * part);
+        assert_true(between >= -2.0 && between <= 6.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -118,6 +140,7 @@ int main(void)
         cmocka_unit_test(slope_of_a_gain_table_is_the_difference),
         cmocka_unit_test(line_remembers),
         cmocka_unit_test(jumps_have_two_sides),
+        cmocka_unit_test(jumps_close_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
