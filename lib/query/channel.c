@@ -48,7 +48,7 @@ static int32_t section_value(const dmb_sim *sim, const dmb_channel *channel, dou
     return DMB_OK;
 }
 
-/* Of the first numbers, those of query.h. */
+/* Of the first numbers, those of query.h, but for sections, drives, bits and the ledger. */
 static int32_t first_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
 {
     const int32_t q = channel->quantity;
@@ -59,8 +59,7 @@ static int32_t first_value(const dmb_sim *sim, const dmb_channel *channel, doubl
     if (q == DMB_CHANNEL_ROTATION) return dmb_query_rotation(sim, channel->place, value);
     if (q == DMB_CHANNEL_KINETIC_ENERGY)
         return dmb_query_kinetic_energy(sim, channel->place.part, channel->place.pipe, value);
-    if (q == DMB_CHANNEL_NORMAL_FORCE) return dmb_normal_force_at(sim, channel->place.part, channel->place.pipe, value);
-    return section_value(sim, channel, value);
+    return dmb_normal_force_at(sim, channel->place.part, channel->place.pipe, value);
 }
 
 static int32_t drive_value(const dmb_sim *sim, const dmb_channel *channel, double *value)

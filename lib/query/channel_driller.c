@@ -41,7 +41,7 @@ static int32_t section_of_rig_end(const asked_string *s, int32_t component, doub
 {
     const dmb_pipe_map *pipe = s->sim->scene->pipes + s->map->first_pipe;
     dmb_section section = dmb_section_default();
-    if (pipe->kind == DMB_PIPE_AXIAL_TORSIONAL && pipe->elements > 0) {
+    if (pipe->kind == DMB_PIPE_AXIAL_TORSIONAL) {
         double load[2];
         dmb_bar_start_loads(s->sim->scene, &s->sim->now, pipe->element, load);
         *value = signed_value(sign, load[component == DMB_RX]);
@@ -166,7 +166,6 @@ int32_t dmb_driller_value(const dmb_sim *sim, const dmb_channel *channel, double
     case DMB_CHANNEL_STRETCH: *value = sum_of_strain(&s, 0); return DMB_OK;
     case DMB_CHANNEL_WIND_UP: *value = signed_value(-1.0, sum_of_strain(&s, 3)); return DMB_OK;
     case DMB_CHANNEL_RIG_FORCE: return force_of_rig(&s, DMB_X, -1.0, value);
-    case DMB_CHANNEL_RIG_TORQUE: return force_of_rig(&s, DMB_RX, 1.0, value);
-    default: return DMB_ERR_VALUE;
+    default: return force_of_rig(&s, DMB_RX, 1.0, value); /* DMB_CHANNEL_RIG_TORQUE */
     }
 }

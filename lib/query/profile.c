@@ -420,7 +420,6 @@ int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity,
 {
     station_walk walk = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
     station at = {.sim = sim, .place = place};
-    if (dmb_profile_groups(quantity) < 0) return DMB_ERR_VALUE;
     walk.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     if (walk.string >= sim->scene->string_count) return DMB_ERR_ID;
     at.run = dmb_pipe_run_of(sim->model, walk.string, place.pipe);

@@ -287,14 +287,12 @@ void dmb_gather_flow(dmb_evaluation *evaluation)
 static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double R[9])
 {
     const dmb_scene *scene = sim->scene;
-    if (load->frame == DMB_FRAME_HOLE && scene->has_hole) {
+    if (load->frame == DMB_FRAME_HOLE) { /* compile refuses it without a hole */
         double x[3], point[3], tangent[3], s = scene->reference_depth[load->node];
         uint32_t segment = 0;
         dmb_vec3_add(scene->reference_position + 3 * load->node, sim->trial.displacement + 3 * load->node, x);
         dmb_hole_project(&scene->hole, x, &s, &segment, point, tangent);
         dmb_hole_frame_rotation(&scene->hole, s, R);
-    } else if (load->frame == DMB_FRAME_HOLE) {
-        dmb_quat_to_matrix(scene->reference_quaternion + 4 * load->node, R);
     } else {
         dmb_mat3_identity(R);
     }
