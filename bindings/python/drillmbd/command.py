@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from . import __version__
-from .errors import Error
+from .errors import Error, Usage
 
 EXAMPLES = """examples:
   drillmbd check rig.toml                     is the scene complete? what does it consist of?
@@ -197,10 +197,6 @@ def _tell(status: int, text: str) -> int:
     return status
 
 
-class Usage(ValueError):
-    """A command line or a scene that does not fit the question."""
-
-
 def _sweep(options: Any) -> int:
     from . import scene
     from .sweep import MOST_CASES, sweep, varied
@@ -231,7 +227,8 @@ def _fmu(options: Any) -> int:
 
 def _ask(options: Any) -> int:
     from . import scene
-    from .questions import QUESTIONS, Output
+    from .answers import Output
+    from .questions import QUESTIONS
     if options.command == "schema":
         from .scene.schema import text
         print(text(), end="")

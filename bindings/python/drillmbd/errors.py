@@ -56,6 +56,10 @@ class Error(Exception):
         return type(self), (int(self.status), self.message)
 
 
+class Usage(ValueError):
+    """A command line or a scene that does not fit the question."""
+
+
 def check(status: int, message: bytes = b"") -> int:
     """The status, if it is none of an error; else raises Error."""
     if status < 0:

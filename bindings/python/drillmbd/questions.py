@@ -1,111 +1,24 @@
-"""The questions that the command asks of a scene, and where it puts the answers."""
+"""The questions that the command asks of a scene, one function each."""
 from __future__ import annotations
 
-import csv
-import json
 import math
-import os
-import pathlib
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
-from . import __version__, enums, station
-from ._structs import FatigueResult
+from . import enums, station
 from ._optional import need
 from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
+from .answers import RPM, Output, count_fatigue, file_name, friction_option, quantity, record, tell_fatigue
 from .enums import Status
-from .fatigue import StringFatigue
-from .scene import Scene, saves
+from .errors import Usage
+from .scene import Scene
 from .scene.units import UnitError, parse
 from .sim import Progress, Sim
 
-RPM = 2.0 * math.pi / 60.0
 MOST_ROWS = 50_000_000
 
 
-class Output:
-    """The folder of the answer and the lines on the terminal."""
-
-    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool) -> None:
-        self.folder = pathlib.Path(folder) if folder is not None else None
-        self.quiet, self.scene = quiet, scene
-        self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
-                                        "drillmbd": __version__, "notes": [], "files": []}
-        if self.folder is not None:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            self.path("scene.toml").write_text(saves(scene), encoding="utf-8")
-
-    def path(self, name: str) -> pathlib.Path:
-        """A file in the folder; it is named in the summary."""
-        assert self.folder is not None
-        if name not in self.summary["files"]:
-            self.summary["files"].append(name)
-        return self.folder / name
-
-    def say(self, text: str) -> None:
-        """A line on the terminal."""
-        if not self.quiet:
-            print(text)
-
-    def note(self, status: int, of: str) -> None:
-        """Tells the text of a status above 0."""
-        if status > 0:
-            from .errors import status_text
-            self.note_text(f"{of}: {status_text(status)}")
-
-    def note_text(self, text: str) -> None:
-        """Something to know."""
-        self.summary["notes"].append(text)
-        self.say(f"note: {text}")
-
-    def table(self, name: str, heads: list[str], rows: Iterable[Iterable[Any]]) -> None:
-        """A CSV file."""
-        if self.folder is not None:
-            with open(self.path(name), "w", encoding="utf-8", newline="") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(heads)
-                writer.writerows([[repr(float(one)) if isinstance(one, float) else one for one in row] for row in rows])
-
-    def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
-        """A picture by a function of drillmbd.plots, where matplotlib is there."""
-        if self.folder is None:
-            return
-        try:
-            need("matplotlib").use("Agg")
-            from . import plots
-            figure = draw(plots)
-        except ImportError as error:
-            self.summary["notes"].append(f"no {name}: {error}")
-            return
-        figure.savefig(self.path(name), dpi=110)
-        need("matplotlib.pyplot").close(figure)
-
-    def finish(self, status: int = 0) -> int:
-        """Writes the summary; returns the status."""
-        self.summary["status"] = status
-        if self.folder is not None:
-            self.path("summary.json").write_text(json.dumps(_finite(self.summary), indent=1) + "\n", encoding="utf-8")
-            self.say(f"{len(self.summary['files'])} files in {self.folder}")
-        return status
-
-
-def _finite(value: Any) -> Any:
-    """The value as JSON has it: no NaN, no infinity."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: _finite(one) for key, one in value.items()}
-    return [_finite(one) for one in value] if isinstance(value, (list, tuple)) else value
-
-
-def record(struct: Any) -> dict[str, Any]:
-    """A struct as plain Python for the summary."""
-    return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))
-            and not (isinstance(value, list) and value and not isinstance(value[0], (int, float)))}
-
-
-# ---- The questions ---------------------------------------------------------------------------------------------------
 def check(scene: Scene, output: Output, options: Any) -> int:
     """The parts of the scene."""
     with scene.new_sim() as sim:
@@ -147,14 +60,9 @@ def profiles(scene: Scene, sim: Sim, output: Output, word: str) -> None:
             heads = ["along [m]", "depth [m]", "x [m]", "y [m]", "z [m]", "axial force [N]", "torque [N m]",
                      "bending moment [N m]"]
             rows = zip(found.along, found.depth, *found.position.T, found.axial_force, found.torque, found.bending_moment)
-            output.table(f"{word}_{_file(name)}.csv", heads, ([float(one) for one in row] for row in rows))
-            output.picture(f"{word}_{_file(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}"))
-            output.picture(f"{word}_{_file(name)}_shape.png", lambda plots: plots.string(found, None, name))
-
-
-def _file(name: str) -> str:
-    from .scene.save import clean_name
-    return clean_name(name)
+            output.table(f"{word}_{file_name(name)}.csv", heads, ([float(one) for one in row] for row in rows))
+            output.picture(f"{word}_{file_name(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}"))
+            output.picture(f"{word}_{file_name(name)}_shape.png", lambda plots: plots.string(found, None, name))
 
 
 def holes(scene: Scene, sim: Sim, output: Output) -> None:
@@ -182,7 +90,6 @@ def static(scene: Scene, output: Output, options: Any) -> int:
 
 
 def _time(text: str | None, known: float | None, what: str) -> float | None:
-    from .command import Usage
     if text is None:
         return known
     try:
@@ -222,7 +129,6 @@ class Bar:
 
 def run(scene: Scene, output: Output, options: Any) -> int:
     """The scene in time."""
-    from .command import Usage
     end = _time(options.until, scene.run.get("end"), "until")
     step = _time(options.step, scene.run.get("step"), "step")
     if end is None:
@@ -243,38 +149,6 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         tell_fatigue(counters, output)
         _run_answers(scene, sim, output, recorder, stopped)
     return output.finish(130 if stopped else 0)
-
-
-def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
-    """Counters of each string where the scene has [fatigue]; levels of stress up to twice the largest known limit."""
-    if "fatigue" not in scene.analyses:
-        return {}
-    values = scene.fields_of("fatigue")
-    if "stress_range" not in values and "yield_stress" in scene.limits:
-        values["stress_range"] = 2.0 * values.get("concentration", 1.0) * scene.limits["yield_stress"]
-    return {name: sim.string_fatigue(scene.names[name], pipes, **values) for name, pipes in scene.pipes.items()}
-
-
-def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str, FatigueResult]:
-    """The worst pipe of each string."""
-    worst = {}
-    for name, one in counters.items():
-        found, index = one.results, one.worst
-        worst[name] = found[index]
-        output.summary.setdefault("fatigue", {})[name] = {
-            "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
-            "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
-        output.say(f"{name}: damage {found[index].damage:.3g} in {found[index].time:.4g} s at pipe {one.pipes[index]}, largest "
-                   f"range {found[index].largest_range / 1e6:.4g} MPa")
-        clipped = sum(result.clipped for result in found)
-        if clipped:
-            output.note_text(f"fatigue of {name}: {clipped} stresses were beyond stress_range and count too little")
-        heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
-        output.table(f"fatigue_{_file(name)}.csv", heads, (
-            [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
-            for pipe, one in zip(one.pipes, found)))
-        output.picture(f"fatigue_{_file(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run"))
-    return worst
 
 
 def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any, counters: list[Any]) -> bool:
@@ -345,7 +219,7 @@ def modes(scene: Scene, output: Output, options: Any) -> int:
         output.table("modes.csv", heads, rows)
         output.summary["modes"] = {"frequency_Hz": [row[0] for row in rows], "damping": [row[1] for row in rows]}
         for name, places, along in _stations(scene):
-            output.picture(f"modes_{_file(name)}.png",
+            output.picture(f"modes_{file_name(name)}.png",
                            lambda plots: _along_pipes(plots.shapes(found, places, along, 6, "modes")))
         if output.folder is not None:
             for index in range(min(len(found), 12)):
@@ -403,28 +277,8 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     return output.finish()
 
 
-def quantity(text: str, unit: str, option: str) -> float:
-    """An option of the command line as a number in its unit."""
-    from .command import Usage
-    try:
-        return float(parse(text, unit))
-    except UnitError as error:
-        raise Usage(f"{option} {text!r}: {error}") from None
-
-
-def friction_option(options: Any) -> dict[str, Any]:
-    """--friction of the command line as an option of torque and drag; none: that of the wall."""
-    from .command import Usage
-    if options.friction is None:
-        return {}
-    if not options.friction >= 0.0:
-        raise Usage(f"--friction {options.friction:g}, must be >= 0")
-    return {"friction": options.friction}
-
-
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """Hook load and torque of the rig by depth and operation."""
-    from .command import Usage
     weight = quantity(options.weight_on_bit, "N", "--weight-on-bit")
     torque = quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
     if options.depths < 1:
@@ -462,11 +316,11 @@ def _tell_torque_drag(output: Output, name: str, found: TorqueDrag) -> None:
                "torque_N_m": _or_none(row.torque), "transfer": row.transfer} for word, row in zip(words, found.rows[-1])}
     heads = ["depth [m]", *(f"{word}, {what}" for word in words for what in ("hook load [N]", "torque [N m]", "transfer [-]",
                                                                             "helical share [-]", "locked"))]
-    output.table(f"torque_drag_{_file(name)}.csv", heads,
+    output.table(f"torque_drag_{file_name(name)}.csv", heads,
                  [[rows[0].depth, *(value for row in rows for value in (row.hook_load, row.torque, row.transfer,
                                                                         row.helical_share, row.locked))]
                   for rows in found.rows])
-    output.picture(f"torque_drag_{_file(name)}.png", lambda plots: plots.torque_drag(found, words, name))
+    output.picture(f"torque_drag_{file_name(name)}.png", lambda plots: plots.torque_drag(found, words, name))
 
 
 def _or_none(value: float) -> float | None:
@@ -490,7 +344,7 @@ def buckle(scene: Scene, output: Output, options: Any) -> int:
                          [(factor, int(index < confirmed)) for index, factor in enumerate(found.factors)])
             for name, places, along in _stations(scene) if found.factors else []:
                 shape = found.shapes(0, places)
-                output.picture(f"buckling_{_file(name)}.png", lambda plots: _along_pipes(
+                output.picture(f"buckling_{file_name(name)}.png", lambda plots: _along_pipes(
                     plots.buckling(shape, along, found.factors[0], scene.title)))
     return output.finish()
 

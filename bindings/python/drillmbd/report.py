@@ -13,11 +13,11 @@ from typing import Any
 from . import __version__, _structs, enums
 from ._optional import need
 from .analysis import OPERATIONS, operation_name
-from .errors import Error
+from .answers import RPM, Output, count_fatigue, finite, tell_fatigue
+from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .plots import COLOURS
 from .profile import Profile, values_of
-from .questions import RPM, Output, _finite, count_fatigue, tell_fatigue
 from .scene import Scene
 from .sim import Sim
 
@@ -111,7 +111,7 @@ class Study:
             self.figures.append((title, "Soft string, steady motion, no load on the bit; dashed: the rig's limits.", {
                 "data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
                     "title": {"text": "measured depth of the bit [m]"}, "autorange": "reversed"}}}))
-        self.output.summary["torque_drag"] = {name: {"hook_load_N": _finite(row.hook_load), "torque_N_m": _finite(row.torque)}
+        self.output.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
                                               for name, row in zip(names, found.rows[-1])}
 
     def _limit_lines(self, limits: dict[str, float], data: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -371,7 +371,7 @@ def page(study: Study) -> str:
     """The HTML of the page."""
     plotly = need("plotly.offline").get_plotlyjs()
     packed = base64.b64encode(gzip.compress(plotly.encode(), 9, mtime=0)).decode()
-    figures = json.dumps(_finite([figure for _, _, figure in study.figures]), separators=(",", ":")).replace("</", "<\\/")
+    figures = json.dumps(finite([figure for _, _, figure in study.figures]), separators=(",", ":")).replace("</", "<\\/")
     escape = html.escape
     cards = "".join(f'<div class="card{" bad" if "EXCEEDED" in text else ""}">{escape(title)}<b>{escape(number)}</b>'
                     f"{escape(text)}</div>" for title, number, text in study.cards)
@@ -413,7 +413,6 @@ def assumptions(study: Study) -> list[tuple[str, str]]:
 
 def report(scene: Scene, output: Output, options: Any) -> int:
     """The page, in the folder of the answer."""
-    from .command import Usage
     if output.folder is None:
         raise Usage("report needs --output FOLDER")
     if not scene.pipes:

@@ -8,8 +8,9 @@ from typing import Any
 from . import enums
 from ._structs import TorqueDragRow
 from .analysis import usual_operation
+from .answers import Output, friction_option, quantity
+from .errors import Usage
 from .model import _DEFINITIONS
-from .questions import Output, friction_option, quantity
 from .scene import Scene
 from .sim import Sim
 
@@ -66,7 +67,6 @@ def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float
 
 def stuck(scene: Scene, output: Output, options: Any) -> int:
     """Force and torque that arrive at a stuck far end, and how far the string is free by its stretch."""
-    from .command import Usage
     limits = {name: quantity(text, unit, f"--{name}") if text is not None else scene.limits.get(name)
               for name, text, unit in (("pull", options.pull, "N"), ("push", options.push, "N"),
                                        ("torque", options.torque, "N*m"))}

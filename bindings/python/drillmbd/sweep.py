@@ -8,8 +8,9 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from .answers import Output
 from .errors import Error
-from .questions import QUESTIONS, Output
+from .questions import QUESTIONS
 from .scene import CannotSave, Scene, SceneError
 from .scene.changes import path_of_key
 

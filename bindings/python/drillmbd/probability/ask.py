@@ -9,7 +9,8 @@ import time as clock
 from typing import Any
 
 from .._optional import need
-from ..questions import Output
+from ..answers import Output
+from ..errors import Usage
 from ..scene import loads
 from . import engines
 from .draw import CannotDraw
@@ -21,7 +22,6 @@ from .study import Progress, Study, StudyError, StudyFile
 
 def _own(texts: list[str]) -> dict[str, Own]:
     """NAME=FILE.py:FUNCTION"""
-    from ..command import Usage
     found = {}
     for text in texts:
         name, _, place = text.partition("=")
@@ -40,7 +40,6 @@ def _own(texts: list[str]) -> dict[str, Own]:
 
 def probability(options: argparse.Namespace) -> int:
     """Answers it; returns the exit status: 1 where no sample has margins."""
-    from ..command import Usage
     for name in ("samples", "workers", "indices"):
         if getattr(options, name) is not None and getattr(options, name) < 1:
             raise Usage(f"--{name} {getattr(options, name)}: must be >= 1")
@@ -71,7 +70,6 @@ class _Asked:
     """One answer."""
 
     def __init__(self, sample: SceneSample, options: argparse.Namespace) -> None:
-        from ..command import Usage
         self.sample, self.options = sample, options
         scene = sample.draw.scene
         varies = sample.draw.varies

@@ -1,0 +1,157 @@
+"""Where answers of the command go, and the options that its questions read alike."""
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+import pathlib
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from . import __version__
+from ._optional import need
+from ._structs import FatigueResult
+from .errors import Usage, status_text
+from .fatigue import StringFatigue
+from .scene import Scene, saves
+from .scene.units import UnitError, parse
+from .sim import Sim
+
+RPM = 2.0 * math.pi / 60.0
+
+
+class Output:
+    """The folder of the answer and the lines on the terminal."""
+
+    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool) -> None:
+        self.folder = pathlib.Path(folder) if folder is not None else None
+        self.quiet, self.scene = quiet, scene
+        self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
+                                        "drillmbd": __version__, "notes": [], "files": []}
+        if self.folder is not None:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            self.path("scene.toml").write_text(saves(scene), encoding="utf-8")
+
+    def path(self, name: str) -> pathlib.Path:
+        """A file in the folder; it is named in the summary."""
+        assert self.folder is not None
+        if name not in self.summary["files"]:
+            self.summary["files"].append(name)
+        return self.folder / name
+
+    def say(self, text: str) -> None:
+        """A line on the terminal."""
+        if not self.quiet:
+            print(text)
+
+    def note(self, status: int, of: str) -> None:
+        """Tells the text of a status above 0."""
+        if status > 0:
+            self.note_text(f"{of}: {status_text(status)}")
+
+    def note_text(self, text: str) -> None:
+        """Something to know."""
+        self.summary["notes"].append(text)
+        self.say(f"note: {text}")
+
+    def table(self, name: str, heads: list[str], rows: Iterable[Iterable[Any]]) -> None:
+        """A CSV file."""
+        if self.folder is not None:
+            with open(self.path(name), "w", encoding="utf-8", newline="") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(heads)
+                writer.writerows([[repr(float(one)) if isinstance(one, float) else one for one in row] for row in rows])
+
+    def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
+        """A picture by a function of drillmbd.plots, where matplotlib is there."""
+        if self.folder is None:
+            return
+        try:
+            need("matplotlib").use("Agg")
+            from . import plots
+            figure = draw(plots)
+        except ImportError as error:
+            self.summary["notes"].append(f"no {name}: {error}")
+            return
+        figure.savefig(self.path(name), dpi=110)
+        need("matplotlib.pyplot").close(figure)
+
+    def finish(self, status: int = 0) -> int:
+        """Writes the summary; returns the status."""
+        self.summary["status"] = status
+        if self.folder is not None:
+            self.path("summary.json").write_text(json.dumps(finite(self.summary), indent=1) + "\n", encoding="utf-8")
+            self.say(f"{len(self.summary['files'])} files in {self.folder}")
+        return status
+
+
+def finite(value: Any) -> Any:
+    """The value as JSON has it: no NaN, no infinity."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: finite(one) for key, one in value.items()}
+    return [finite(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
+def record(struct: Any) -> dict[str, Any]:
+    """A struct as plain Python for the summary."""
+    return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))
+            and not (isinstance(value, list) and value and not isinstance(value[0], (int, float)))}
+
+
+def file_name(name: str) -> str:
+    from .scene.save import clean_name
+    return clean_name(name)
+
+
+# ---- Options ----------------------------------------------------------------------------------------------------------
+def quantity(text: str, unit: str, option: str) -> float:
+    """An option of the command line as a number in its unit."""
+    try:
+        return float(parse(text, unit))
+    except UnitError as error:
+        raise Usage(f"{option} {text!r}: {error}") from None
+
+
+def friction_option(options: Any) -> dict[str, Any]:
+    """--friction of the command line as an option of torque and drag; none: that of the wall."""
+    if options.friction is None:
+        return {}
+    if not options.friction >= 0.0:
+        raise Usage(f"--friction {options.friction:g}, must be >= 0")
+    return {"friction": options.friction}
+
+
+# ---- Fatigue of a run -------------------------------------------------------------------------------------------------
+def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
+    """Counters of each string where the scene has [fatigue]; levels of stress up to twice the largest known limit."""
+    if "fatigue" not in scene.analyses:
+        return {}
+    values = scene.fields_of("fatigue")
+    if "stress_range" not in values and "yield_stress" in scene.limits:
+        values["stress_range"] = 2.0 * values.get("concentration", 1.0) * scene.limits["yield_stress"]
+    return {name: sim.string_fatigue(scene.names[name], pipes, **values) for name, pipes in scene.pipes.items()}
+
+
+def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str, FatigueResult]:
+    """The worst pipe of each string."""
+    worst = {}
+    for name, one in counters.items():
+        found, index = one.results, one.worst
+        worst[name] = found[index]
+        output.summary.setdefault("fatigue", {})[name] = {
+            "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
+            "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
+        output.say(f"{name}: damage {found[index].damage:.3g} in {found[index].time:.4g} s at pipe {one.pipes[index]}, largest "
+                   f"range {found[index].largest_range / 1e6:.4g} MPa")
+        clipped = sum(result.clipped for result in found)
+        if clipped:
+            output.note_text(f"fatigue of {name}: {clipped} stresses were beyond stress_range and count too little")
+        heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
+        output.table(f"fatigue_{file_name(name)}.csv", heads, (
+            [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
+            for pipe, one in zip(one.pipes, found)))
+        output.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run"))
+    return worst
