@@ -1,5 +1,5 @@
-/* Speed and error of steps. usage: bench CSV C|B|R Over elements, over pipes, growth, without the ledger, the
- * axial-torsional string, the whole rig cycle. */
+/* Speed and error of steps. usage: bench CSV C|B|R Over elements, over pipes, over longer steps, growth, without the
+ * ledger, the axial-torsional string, a long string on its wall, the whole rig cycle. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -113,6 +113,37 @@ static void over_elements(int kind)
     }
 }
 
+/* 100 m again with longer steps, each beside its error: what a second costs at the error that shorter ones had. */
+static void over_steps(int kind)
+{
+    static const double steps[] = {0.1 / 71, 2e-3};
+    const double horizon = kind == SCENE_R ? 0.5 : 0.1;
+    scene s;
+    if (!open_or_say(&s, kind, 100, 1)) return;
+    const reference ref = answer_of(&s, horizon, 0.125e-3, "dt/8_of_1_ms");
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        method how = method_fixed(steps[i], horizon);
+        how.end = kind == SCENE_R ? 0.5 : 2.0;
+        report("steps", &s, &how, &ref);
+    }
+    dmb_model_destroy(&s.model);
+}
+
+/* 1000 pipes of 1 m on the wall of their hole, with steps of 1 and 2 ms. */
+static void long_string(void)
+{
+    static const double steps[] = {1e-3, 2e-3};
+    scene s;
+    if (!open_or_say(&s, SCENE_B, 1000, 1)) return;
+    const reference ref = answer_of(&s, 0.1, 0.125e-3, "dt/8_of_1_ms");
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        method how = method_fixed(steps[i], 0.1);
+        how.end = 1.0;
+        report("long", &s, &how, &ref);
+    }
+    dmb_model_destroy(&s.model);
+}
+
 /* More and more pipes of 1 m, at 1 ms. */
 static void over_pipes(int kind)
 {
@@ -219,10 +250,13 @@ int main(int count, char **words)
     over_elements(kind);
     over_sizes(kind);
     if (kind == SCENE_C) axial_torsional();
-    if (kind == SCENE_B)
+    if (kind != SCENE_C) over_steps(kind);
+    if (kind == SCENE_B) {
         against_given_figures();
-    else
+        long_string();
+    } else {
         over_pipes(kind);
+    }
     if (kind == SCENE_R) whole_cycle();
     if (table_close(&results, words[1]) != 0) return 2;
     return failures > 0;
