@@ -168,10 +168,10 @@ DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dm
     dmb_real stress[6], rate[6];
     dmb_beam_elastic_stress(c, shape, stress);
     dmb_vec6_copy(shape->d, out->strain);
-    if (task->rates) {
+    if (task->damped && task->rates) {
         dmb_beam_strain_rate(shape, va, vb, rate);
         out->potential = dmb_vec6_dot(stress, rate);
-        for (int i = 0; task->damped && i < 6; i++) {
+        for (int i = 0; i < 6; i++) {
             const dmb_real viscous = c->damping_time * c->stiffness[i] * rate[i];
             out->damping += viscous * rate[i];
             stress[i] += viscous;
@@ -179,6 +179,7 @@ DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dm
     }
     if (!task->extrapolated) dmb_vec6_copy(stress, out->stress); /* the viscous part too */
     dmb_beam_add_force(shape, stress, out->fa, out->fb);
+    if (task->rates && !task->damped) out->potential = dmb_vec6_dot(out->fa, va) + dmb_vec6_dot(out->fb, vb); /* S.e' */
     dmb_beam_add_magnitudes(out->fa, out->scale_a);
     dmb_beam_add_magnitudes(out->fb, out->scale_b);
 }

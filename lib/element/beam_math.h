@@ -121,16 +121,16 @@ static inline void dmb_beam_map_rate(const dmb_beam_constants *c, const dmb_real
 }
 
 /* The operators of a shape whose d and k are there. */
-static inline void dmb_beam_operators_at(const dmb_beam_constants *c, dmb_beam_shape *shape)
+DMB_REAL_INLINE void dmb_beam_operators_at(const dmb_beam_constants *c, dmb_beam_shape *shape)
 {
     dmb_se3_inverse_tangent_at(shape->d, &shape->k, &shape->T);
     dmb_beam_map_at(c, shape->d, &shape->E);
 }
 
 /* Shape from the nodes' orientations, node A's rotation matrix, the vector from node A to node B [m], world frame. */
-static inline void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, const dmb_real quaternion_a[4],
-                                     const dmb_real rotation_a[9], const dmb_real quaternion_b[4],
-                                     const dmb_real span[3], dmb_beam_shape *shape)
+DMB_REAL_INLINE void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, const dmb_real quaternion_a[4],
+                                       const dmb_real rotation_a[9], const dmb_real quaternion_b[4],
+                                       const dmb_real span[3], dmb_beam_shape *shape)
 {
     dmb_real q[4], x[3];
     dmb_quat_between(quaternion_a, quaternion_b, q);
@@ -169,10 +169,7 @@ static inline void dmb_arm_wrench(dmb_real arm, dmb_real f[6])
 DMB_REAL_INLINE void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
                                          const dmb_real velocity_b[6], dmb_real rate[6])
 {
-    dmb_real a[6];
-    dmb_se3_tangent_apply_reverse(&shape->T, velocity_a, a);
-    dmb_se3_tangent_apply(&shape->T, velocity_b, rate);
-    for (int i = 0; i < 6; i++) rate[i] -= a[i];
+    dmb_se3_inverse_tangents_apply(shape->d, &shape->k, velocity_a, velocity_b, rate);
 }
 
 /* e' = E P V [m/s, rad/s] */
@@ -221,8 +218,7 @@ static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_rea
 {
     dmb_real s[6], a[6], b[6];
     dmb_beam_wrench(shape, stress, s);
-    dmb_se3_tangent_apply_reverse_transpose(&shape->T, s, a);
-    dmb_se3_tangent_apply_transpose(&shape->T, s, b);
+    dmb_se3_inverse_tangents_transpose(shape->d, &shape->k, s, a, b);
     for (int i = 0; i < 6; i++) {
         force_a[i] -= a[i];
         force_b[i] += b[i];

@@ -319,12 +319,15 @@ DMB_LANES_INLINE void store_together(const dmb_real *x, uint32_t count, double *
     store_few(x, count, to);
 }
 
+/* The most numbers of a place, but for blocks of six rows and columns. */
+enum { LANES_FEW = 6, LANES_BLOCK = 36 };
+
 /* x[i] = number i of `size` at each place, i < count, `next` places on */
 DMB_LANES_INLINE void load(const double *from, size_t size, uint32_t count, const lane_group *g, uint32_t next,
                            dmb_real *x)
 {
     const double *at = from + size * ((size_t)g->first + next);
-    double rows[DMB_REAL_LANES * 36];
+    double rows[DMB_REAL_LANES * LANES_FEW];
     if (!is_whole(g)) {
         gather_rest(from + size * next, size, count, size, g, rows);
         at = rows;
@@ -332,12 +335,31 @@ DMB_LANES_INLINE void load(const double *from, size_t size, uint32_t count, cons
     load_together(at, size, count, x);
 }
 
+DMB_LANES_INLINE void load_block(const double *from, const lane_group *g, dmb_real x[LANES_BLOCK])
+{
+    const double *at = from + LANES_BLOCK * (size_t)g->first;
+    double rows[DMB_REAL_LANES * LANES_BLOCK];
+    if (!is_whole(g)) {
+        gather_rest(from, LANES_BLOCK, LANES_BLOCK, LANES_BLOCK, g, rows);
+        at = rows;
+    }
+    load_together(at, LANES_BLOCK, LANES_BLOCK, x);
+}
+
 DMB_LANES_INLINE void store(const dmb_real *x, uint32_t size, const lane_group *g, double *to)
 {
-    double rows[DMB_REAL_LANES * 36];
+    double rows[DMB_REAL_LANES * LANES_FEW];
     const int whole = is_whole(g);
     store_together(x, size, whole ? to + (size_t)size * g->first : rows);
     if (!whole) scatter_rest(rows, size, g, to);
+}
+
+DMB_LANES_INLINE void store_block(const dmb_real x[LANES_BLOCK], const lane_group *g, double *to)
+{
+    double rows[DMB_REAL_LANES * LANES_BLOCK];
+    const int whole = is_whole(g);
+    store_together(x, LANES_BLOCK, whole ? to + LANES_BLOCK * (size_t)g->first : rows);
+    if (!whole) scatter_rest(rows, LANES_BLOCK, g, to);
 }
 
 /* x[i] = number i < count behind each place, a place being `size` numbers */
@@ -454,7 +476,10 @@ DMB_LANES_INLINE void chain_store(const dmb_real *a, const dmb_real *b, uint32_t
         sum[i] = lanes_behind(before[i], far) + a[i];
         before[i] = far;
     }
-    store(sum, count, g, to);
+    if (count == LANES_BLOCK)
+        store_block(sum, g, to);
+    else
+        store(sum, count, g, to);
 }
 
 /* The far node of the last element, `used` being those of the last group. */

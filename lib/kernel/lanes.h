@@ -109,13 +109,13 @@ DMB_LANES_INLINE void store_tangent(const dmb_beam_job *job, const dmb_beam_task
     const dmb_beam_blocks *K = &out->K, *C = &out->C;
     if (!task->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, job->stiffness_diagonal);
     if (task->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, job->inertia_diagonal);
-    store(K->ab, 36, g, job->upper);
-    store(K->ba, 36, g, job->lower);
+    store_block(K->ab, g, job->upper);
+    store_block(K->ba, g, job->lower);
 }
 
 /* The first lane that turned too far, found one by one. */
-static uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dmb_beam_constants *c,
-                          const dmb_beam_input *in)
+DMB_LANES_CALL uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dmb_beam_constants *c,
+                                  const dmb_beam_input *in)
 {
     dmb_beam_shape shape;
     dmb_beam_shape_at(c, job->arms, in->qa, in->Ra, in->qb, in->span, &shape);
@@ -148,15 +148,32 @@ DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
     return 0;
 }
 
-/* Most evaluations want nothing but forces in motion: compiled for these alone, less is kept in memory. */
-static int32_t beams(dmb_beam_job *job)
+/* Most evaluations want nothing but forces in motion: compiled for these alone, less is kept in memory. Functions of
+ * their own, whose frames on the stack are not added up. */
+DMB_LANES_CALL int32_t beams_in_motion(dmb_beam_job *job, int32_t rates)
+{
+    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, rates, 0, 0, 0};
+    return beams_of(job, &task);
+}
+
+DMB_LANES_CALL int32_t beams_damped(dmb_beam_job *job)
+{
+    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, 1, 1, 0, job->arms};
+    return beams_of(job, &task);
+}
+
+DMB_LANES_CALL int32_t beams_as_asked(dmb_beam_job *job)
 {
     const dmb_beam_task task = {job->mass_factor, job->velocity_factor, job->dynamic,
                                 job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
                                 job->damped,      job->inertia_only,    job->arms};
-    const dmb_beam_task forces = {0.0, 0.0, 1, 0, 1, task.rates, 0, 0, 0};
-    const int plain = task.dynamic && !task.tangent && !task.damped && !task.arms;
-    return plain ? beams_of(job, &forces) : beams_of(job, &task);
+    return beams_of(job, &task);
+}
+
+static int32_t beams(dmb_beam_job *job)
+{
+    if (!job->dynamic || job->tangent || (job->arms && !job->damped)) return beams_as_asked(job);
+    return job->damped ? beams_damped(job) : beams_in_motion(job, job->ledger);
 }
 
 /* s = (K/L) (e + de/dd P z): the stress after the correction z, linearised. */
@@ -243,12 +260,12 @@ static void matrices(const dmb_matrix_job *job)
         dmb_real z[6], K[36], C[36];
         dmb_se3_tangent T;
         load(job->increment, 6, 6, &g, 0, z);
-        load(job->stiffness, 36, 36, &g, 0, K);
+        load_block(job->stiffness, &g, K);
         dmb_se3_tangent_at(z, NULL, &T);
         dmb_se3_times_tangent(K, 6, &T);
-        load(job->inertia, 36, 36, &g, 0, C);
+        load_block(job->inertia, &g, C);
         dmb_mat6_add(K, C, K);
-        store(K, 36, &g, job->stiffness);
+        store_block(K, &g, job->stiffness);
     }
 }
 

@@ -138,13 +138,13 @@ DMB_LANES_INLINE void node_forces_of(dmb_node_force_job *job, int tangent)
         load(job->scale, 6, 6, &g.place, 0, g.scale);
         for (int i = 0; i < 6; i++) g.v[i] = dmb_real_of(0.0);
         if (job->dynamic) load(job->velocity, 6, 6, &g.place, 0, g.v);
-        if (inertia) load(job->inertia, 36, 36, &g.place, 0, g.C);
+        if (inertia) load_block(job->inertia, &g.place, g.C);
         if (rigid_masses) add_rigid_masses(job, next, inertia, &g);
         if (job->gravity) add_weight(job, tangent, &g);
         if (job->damping) add_damping(job, inertia, &g);
         store(g.residual, 6, &g.place, job->residual);
         store(g.scale, 6, &g.place, job->scale);
-        if (inertia) store(g.C, 36, &g.place, job->inertia);
+        if (inertia) store_block(g.C, &g.place, job->inertia);
     }
 }
 

@@ -52,17 +52,29 @@ static inline const dmb_friction_law *friction_law_of(const dmb_wall_job *job, c
 
 _Static_assert(offsetof(dmb_site, length) == 3 * sizeof(double), "offset, radius, clearance, length");
 
-/* Rings stand in the order of their nodes: those of neighbours are together as their nodes and rows are. */
+DMB_LANES_CALL void find_places(const dmb_wall_job *job, wall_group *g)
+{
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
+        g->node.place[l] = job->sites[place_at(&g->site, l)].node;
+        g->row.place[l] = job->row[g->node.place[l]];
+    }
+}
+
+/* Rings stand in the order of their nodes: those of neighbours that move freely are together as their nodes and rows
+ * are, six to a node. */
 static inline void load_places(const dmb_wall_job *job, wall_group *g)
 {
-    size_t apart = 0;
-    for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
-        const size_t node = job->sites[place_at(&g->site, l)].node;
-        g->node.place[l] = node;
-        g->row.place[l] = job->row[node];
-        apart |= (node - g->node.place[0] - l) | (g->row.place[l] - g->row.place[0] - 6 * (size_t)l);
+    const size_t first = job->sites[g->site.first].node;
+    size_t node = first, apart = 0;
+    for (uint32_t l = 1; l < DMB_REAL_LANES; l++) {
+        node = job->sites[place_at(&g->site, l)].node;
+        apart |= node - first - l;
     }
+    g->node.place[0] = first;
+    g->row.place[0] = job->row[first];
+    apart |= job->row[node] - g->row.place[0] - 6 * (size_t)(DMB_REAL_LANES - 1);
     g->node.together = g->row.together = apart == 0;
+    if (apart != 0) find_places(job, g);
 }
 
 static inline void load_sites(const dmb_wall_job *job, wall_group *g)
@@ -257,7 +269,8 @@ static inline void subtract_blocks(const dmb_wall_job *job, const wall_group *g,
     double *to[DMB_REAL_LANES];
     if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
     for (int i = 0; i < 36; i++) K[i] = -K[i];
-    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = blocks + job->diagonal[g->node.place[l]];
+    for (int l = 0; l < DMB_REAL_LANES; l++)
+        to[l] = blocks + job->diagonal[g->node.together ? g->node.place[0] + (size_t)l : g->node.place[l]];
     add_lanes(K, 36, touching, to);
 }
 

@@ -44,12 +44,13 @@ static inline void dmb_se3_exp(const dmb_real h[6], const dmb_so3_coefficients *
     dmb_so3_polynomial_apply(h + 3, f.b, f.a2, h, x);
 }
 
-/* (q, x) = exp h */
+/* (q, x) = exp h. With a, b, a2 of the half angle those of the whole are b = a^2/2, a2 = (a2 + a b)/4: sums of parts of
+ * one sign. */
 static inline void dmb_se3_exp_to_quat(const dmb_real h[6], dmb_real q[4], dmb_real x[3])
 {
-    const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, NULL);
-    dmb_quat_exp(h + 3, q);
-    dmb_so3_polynomial_apply(h + 3, f.b, f.a2, h, x);
+    dmb_so3_coefficients half;
+    dmb_quat_exp_half(h + 3, &half, q);
+    dmb_so3_polynomial_apply(h + 3, 0.5 * half.a * half.a, 0.25 * (half.a2 + half.a * half.b), h, x);
 }
 
 /* (q, x) <- (q, x) exp h: one step of a body-frame increment */
@@ -189,6 +190,76 @@ static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent
     dmb_mat3_vec(T->S, s, out);
     dmb_mat3_vec(T->S, s + 3, out + 3);
     dmb_vec3_add(out + 3, b, out + 3);
+}
+
+/* Both of T6(h)^-1 and T6(-h)^-1 = [S^T, B^T; 0, S^T] without the matrices: S = P + O~/2 and B = Q + U~/2 with
+ * P = I + c O~^2 and Q = c (U~O~ + O~U~) + e (O.U) O~^2, both symmetric. */
+
+/* out = P a + Q b */
+static inline void dmb_se3_symmetric_apply(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
+                                           const dmb_real a[3], const dmb_real b[3], dmb_real out[3])
+{
+    const dmb_real *U = h, *O = h + 3;
+    dmb_real x[3], y[3], sum[3];
+    dmb_vec3_cross(U, b, sum);
+    dmb_vec3_cross(O, a, x);
+    dmb_vec3_add(sum, x, x);
+    dmb_vec3_cross(O, x, sum); /* O x (O x a + U x b) */
+    dmb_vec3_cross(O, b, x);
+    dmb_vec3_cross(U, x, y);
+    dmb_vec3_add(sum, y, sum);
+    dmb_vec3_cross(O, x, y);
+    dmb_vec3_copy(a, out);
+    dmb_vec3_axpy(k->c, sum, out);
+    dmb_vec3_axpy(k->e * dmb_vec3_dot(O, U), y, out);
+}
+
+/* out = b + c O x (O x b) */
+static inline void dmb_so3_symmetric_apply(const dmb_real O[3], dmb_real c, const dmb_real b[3], dmb_real out[3])
+{
+    dmb_real x[3];
+    dmb_vec3_cross(O, b, x);
+    dmb_vec3_cross(O, x, x);
+    dmb_vec3_copy(b, out);
+    dmb_vec3_axpy(c, x, out);
+}
+
+/* out = T6(h)^-1 vb - T6(-h)^-1 va: [P, Q; 0, P] times the difference, [O~, U~; 0, O~] times the mean of both. */
+DMB_REAL_INLINE void dmb_se3_inverse_tangents_apply(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
+                                                    const dmb_real va[6], const dmb_real vb[6], dmb_real out[6])
+{
+    const dmb_real *U = h, *O = h + 3;
+    dmb_real difference[6], mean[6], x[3];
+    for (int i = 0; i < 6; i++) {
+        difference[i] = vb[i] - va[i];
+        mean[i] = 0.5 * (va[i] + vb[i]);
+    }
+    dmb_se3_symmetric_apply(h, k, difference, difference + 3, out);
+    dmb_so3_symmetric_apply(O, k->c, difference + 3, out + 3);
+    dmb_vec3_cross(O, mean, x);
+    dmb_vec3_add(out, x, out);
+    dmb_vec3_cross(U, mean + 3, x);
+    dmb_vec3_add(out, x, out);
+    dmb_vec3_cross(O, mean + 3, x);
+    dmb_vec3_add(out + 3, x, out + 3);
+}
+
+/* back = T6(-h)^-T s and ahead = T6(h)^-T s */
+DMB_REAL_INLINE void dmb_se3_inverse_tangents_transpose(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
+                                                        const dmb_real s[6], dmb_real back[6], dmb_real ahead[6])
+{
+    const dmb_real *U = h, *O = h + 3;
+    dmb_real sum[6], turn[6], x[3];
+    dmb_so3_symmetric_apply(O, k->c, s, sum);
+    dmb_se3_symmetric_apply(h, k, s + 3, s, sum + 3);
+    dmb_vec3_cross(O, s, turn);
+    dmb_vec3_cross(O, s + 3, turn + 3);
+    dmb_vec3_cross(U, s, x);
+    dmb_vec3_add(turn + 3, x, turn + 3);
+    for (int i = 0; i < 6; i++) {
+        back[i] = sum[i] + 0.5 * turn[i];
+        ahead[i] = sum[i] - 0.5 * turn[i];
+    }
 }
 
 /* A 6x6 matrix [U, V; X, W]. */

@@ -218,14 +218,20 @@ static inline void dmb_quat_normalize(dmb_real q[4])
     for (int i = 0; i < 4; i++) q[i] *= s;
 }
 
-/* q = (cos(t/2), sin(t/2) O/t): with the coefficients at the half angle, cos = 1 - (x/4) b and sin(t/2)/t = a/2 */
-static inline void dmb_quat_exp(const dmb_real O[3], dmb_real q[4])
+/* q = (cos(t/2), sin(t/2) O/t): with the coefficients at the half angle, cos = 1 - (x/4) b and sin(t/2)/t = a/2;
+ * these are given back. */
+static inline void dmb_quat_exp_half(const dmb_real O[3], dmb_so3_coefficients *half, dmb_real q[4])
 {
     const dmb_real y = 0.25 * dmb_vec3_norm_squared(O);
+    dmb_so3_coefficients_at(y, half);
+    q[0] = 1.0 - y * half->b;
+    dmb_vec3_scale(0.5 * half->a, O, q + 1);
+}
+
+static inline void dmb_quat_exp(const dmb_real O[3], dmb_real q[4])
+{
     dmb_so3_coefficients half;
-    dmb_so3_coefficients_at(y, &half);
-    q[0] = 1.0 - y * half.b;
-    dmb_vec3_scale(0.5 * half.a, O, q + 1);
+    dmb_quat_exp_half(O, &half, q);
 }
 
 /* f with O = f v, for q0 >= 0: f = 2 atan(|v|/q0)/|v|. Below about a quarter of a radian

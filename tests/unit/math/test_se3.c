@@ -208,6 +208,35 @@ static void block_forms_match_full_matrices(void **state)
     }
 }
 
+/* Both ends at once, without the matrices, against full matrices. */
+static void ends_match_full_matrices(void **state)
+{
+    (void)state;
+    random_stream r = {31};
+    for (int i = 0; i < 200; i++) {
+        double h[6], m[6], va[6], vb[6], s[6], A[36], M[36], x[6], y[6], z[6], back[6], ahead[6];
+        dmb_so3_inverse_coefficients k;
+        draw_pose_vector(&r, 2.5 * fabs(draw(&r)) + 1e-6, h);
+        draw_vector(&r, 6, va);
+        draw_vector(&r, 6, vb);
+        draw_vector(&r, 6, s);
+        negate(6, h, m);
+        inverse_tangent_matrix(h, A);
+        inverse_tangent_matrix(m, M);
+        dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(h + 3), &k);
+        dmb_mat6_vec(A, vb, x);
+        dmb_mat6_vec(M, va, y);
+        for (int j = 0; j < 6; j++) x[j] -= y[j];
+        dmb_se3_inverse_tangents_apply(h, &k, va, vb, z);
+        CHECK_BELOW(max_difference(6, x, z), 4e-15);
+        dmb_se3_inverse_tangents_transpose(h, &k, s, back, ahead);
+        dmb_mat6_tvec(M, s, y);
+        CHECK_BELOW(max_difference(6, y, back), 4e-15);
+        dmb_mat6_tvec(A, s, y);
+        CHECK_BELOW(max_difference(6, y, ahead), 4e-15);
+    }
+}
+
 /* log(exp(-h) exp(h + e)) = T6(h) e + O(e^2) */
 static void tangent_is_the_derivative_of_exp(void **state)
 {
@@ -349,6 +378,7 @@ int main(void)
         cmocka_unit_test(tangent_identities),
         cmocka_unit_test(reversed_operator_is_transposed_blocks),
         cmocka_unit_test(block_forms_match_full_matrices),
+        cmocka_unit_test(ends_match_full_matrices),
         cmocka_unit_test(tangent_is_the_derivative_of_exp),
         cmocka_unit_test(derivatives_match_differences),
         cmocka_unit_test(stress_blocks_serve_both_signs),
