@@ -139,7 +139,7 @@ static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, 
     }
 }
 
-static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t node)
+static void refit_node(const dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t node)
 {
     const uint32_t first = sim->scene->layout.row[node], end = sim->scene->layout.row[node + 1];
     const double ratio = dmb_step_motion_ratio(sim, h), kept = 1.0 - sim->released_part[node];
@@ -153,9 +153,22 @@ static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, u
     }
 }
 
+typedef struct refit_work {
+    const dmb_sim *sim;
+    const dmb_generalized_alpha *c;
+    double step;
+} refit_work;
+
+static void refit_nodes(void *work, uint32_t first, uint32_t end)
+{
+    const refit_work *in = work;
+    for (uint32_t i = first; i < end; i++) refit_node(in->sim, in->c, in->step, i);
+}
+
 void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
-    for (uint32_t i = 0; i < sim->scene->node_count; i++) refit_node(sim, c, h, i);
+    refit_work work = {sim, c, h};
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, refit_nodes, &work);
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
 }
 

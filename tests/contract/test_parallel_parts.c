@@ -1,9 +1,10 @@
 /* A step made in parts that are run one after the other in the thread of the call: the same bits as without parts, in
- * any order and number of them, with kernels of every width; pieces of the wall; and functions that do not run the
- * parts as they are told. By threads: test_parallel_threads.c. */
+ * any order and number of them, with kernels of every width; pieces of elements and of the wall; and functions that do
+ * not run the parts as they are told. By threads: test_parallel_threads.c. */
 #include "kernel/kernels.h"
 #include "parallel_scene.h"
 #include "sim/layout.h"
+#include "sim/parts.h"
 
 /* ---- Functions that do something else ---------------------------------------------------------------------------- */
 
@@ -172,22 +173,47 @@ static void test_every_width(void **state)
         rig s = {NULL, NULL};
         describe(&s, kind);
         const uint64_t alone = bits_of_width(&s, NULL, 1);
-        for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) {
-            worker w = {.how = BACKWARDS};
-            const dmb_sim_options options = in_parts(work_alone, &w, 3);
-            if (!dmb_kernels_of(lanes)) continue;
-            if (bits_of_width(&s, &options, lanes) != alone)
-                fail_msg("%s in parts, %u lanes: other bits", names[kind], (unsigned)lanes);
-        }
+        for (uint32_t lanes = 1; lanes <= 8; lanes *= 2)
+            for (uint32_t parts = 1; parts <= 4; parts++) { /* 1: without parts */
+                worker w = {.how = BACKWARDS};
+                const dmb_sim_options options = in_parts(work_alone, &w, parts);
+                if (!dmb_kernels_of(lanes)) continue;
+                if (bits_of_width(&s, &options, lanes) != alone)
+                    fail_msg("%s in %u parts, %u lanes: other bits", names[kind], (unsigned)parts, (unsigned)lanes);
+                assert_true((w.calls > 0) == (parts > 1));
+            }
         rig_close(&s);
     }
 }
 
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
 
-/* The accepted state after steps with the rings in pieces, and with all of them at once: what is kept for each ring
- * stays at its place. Their powers are summed otherwise, and the ledger is not compared. */
-static void check_pieces(int32_t normal_law, int32_t friction_law)
+static void press_rings_at_once(dmb_scene *scene)
+{
+    assert_true(scene->sites_in_order >= 2000);
+    scene->sites_in_order = 0;
+}
+
+/* Runs so short that each is made at once. */
+static void shorten_runs(dmb_scene *scene)
+{
+    enum { RUNS = 8 };
+    static dmb_batch runs[RUNS];
+    const dmb_batch whole = scene->batches[0];
+    assert_true(scene->batch_count == 1 && whole.count >= 2000 && whole.count / RUNS < DMB_PIECES_FROM / 2);
+    for (uint32_t i = 0; i < RUNS; i++) {
+        runs[i] = whole;
+        runs[i].first = whole.first + whole.count * i / RUNS;
+        runs[i].count = whole.first + whole.count * (i + 1) / RUNS - runs[i].first;
+    }
+    scene->batches = runs;
+    scene->batch_count = RUNS;
+}
+
+/* The accepted state after steps in pieces, and with what `alter` makes otherwise: what is kept for each ring stays at
+ * its place, elements of two pieces add up at the node between them. Powers are summed otherwise, and the ledger is not
+ * compared. */
+static void check_pieces(int32_t normal_law, int32_t friction_law, void (*alter)(dmb_scene *scene))
 {
     rig s = {NULL, NULL}, whole = {NULL, NULL};
     dmb_field in_pieces[DMB_FIELD_MAX], at_once[DMB_FIELD_MAX];
@@ -197,8 +223,9 @@ static void check_pieces(int32_t normal_law, int32_t friction_law)
     describe(&whole, HOLE);
     begin(&s, NULL);
     begin(&whole, NULL);
-    assert_true(s.sim->scene->sites_in_order >= 2000);
-    ((dmb_scene *)(uintptr_t)whole.sim->scene)->sites_in_order = 0;
+    dmb_scene *scene = (dmb_scene *)(uintptr_t)whole.sim->scene;
+    const dmb_scene before = *scene;
+    alter(scene);
     take_divided_steps(&s, 1e-3, 7);
     take_divided_steps(&whole, 1e-3, 7);
     assert_true(contacts_of(&s).closed > 100);
@@ -206,22 +233,34 @@ static void check_pieces(int32_t normal_law, int32_t friction_law)
     assert_true(dmb_sim_fields(whole.sim, DMB_GROUP_NOW, DMB_GROUP_NOW, at_once) == count);
     for (size_t i = 0; i < count; i++)
         if (memcmp(in_pieces[i].data, at_once[i].data, in_pieces[i].bytes) != 0) fail_msg("%s", in_pieces[i].name);
+    *scene = before;
     rig_close(&s);
     rig_close(&whole);
+}
+
+static void test_pieces_of_elements(void **state)
+{
+    (void)state;
+    check_pieces(DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_COULOMB, shorten_runs);
+    check_pieces(DMB_NORMAL_HUNT_CROSSLEY, DMB_FRICTION_BRISTLE, shorten_runs);
 }
 
 static void test_pieces_of_the_wall(void **state)
 {
     (void)state;
-    check_pieces(DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_COULOMB);
-    check_pieces(DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_BRISTLE);
-    check_pieces(DMB_NORMAL_HUNT_CROSSLEY, DMB_FRICTION_BRISTLE);
+    check_pieces(DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_COULOMB, press_rings_at_once);
+    check_pieces(DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_BRISTLE, press_rings_at_once);
+    check_pieces(DMB_NORMAL_HUNT_CROSSLEY, DMB_FRICTION_BRISTLE, press_rings_at_once);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),          cmocka_unit_test(test_every_width),
-                                       cmocka_unit_test(test_pieces_of_the_wall), cmocka_unit_test(test_harmless),
-                                       cmocka_unit_test(test_failures),           cmocka_unit_test(test_bounds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
+                                       cmocka_unit_test(test_every_width),
+                                       cmocka_unit_test(test_pieces_of_elements),
+                                       cmocka_unit_test(test_pieces_of_the_wall),
+                                       cmocka_unit_test(test_harmless),
+                                       cmocka_unit_test(test_failures),
+                                       cmocka_unit_test(test_bounds)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,8 +12,9 @@
 #include "system/constrain/constrain.h"
 
 /* Rows and, for a tangent, blocks of the nodes from `first` to before `end`. */
-static void clear_nodes(const dmb_evaluation *evaluation, uint32_t first, uint32_t end)
+static void clear_nodes(void *work, uint32_t first, uint32_t end)
 {
+    const dmb_evaluation *evaluation = work;
     dmb_sim *sim = evaluation->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
     const uint32_t row = layout->row[first], diag = layout->diag[first];
@@ -27,7 +28,7 @@ static void clear_nodes(const dmb_evaluation *evaluation, uint32_t first, uint32
 }
 
 /* Beams write what is between the ends of their runs. */
-static void clear(const dmb_evaluation *evaluation)
+static void clear(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -43,7 +44,10 @@ static void clear(const dmb_evaluation *evaluation)
         clear_nodes(evaluation, next, a + 1);
         next = a + batch->count;
     }
-    clear_nodes(evaluation, next, n);
+    if (next == 0)
+        dmb_parts_run(sim, n, DMB_GRAIN, clear_nodes, evaluation);
+    else
+        clear_nodes(evaluation, next, n);
     if (!evaluation->tangent || scene->beams_only) return; /* beams write their links */
     memset(sim->stiffness_lower, 0, link);
     memset(sim->stiffness_upper, 0, link);

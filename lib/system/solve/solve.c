@@ -281,21 +281,33 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
     return bad;
 }
 
+static void clear_stiffness(void *work, uint32_t first, uint32_t end)
+{
+    const dmb_sim *sim = work;
+    const uint32_t *diag = sim->scene->layout.diag;
+    memset(sim->stiffness_diagonal + diag[first], 0, (diag[end] - diag[first]) * sizeof(double));
+}
+
 /* The iteration matrix with the stiffness taken away. */
-int32_t dmb_factor_mass(dmb_evaluation *evaluation)
+static int32_t make_mass_matrix(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
-    const dmb_block_layout *layout = &sim->scene->layout;
-    const uint32_t n = sim->scene->node_count;
     evaluation->inertia_only = 1;
     const int32_t status = dmb_system_evaluate(evaluation);
     evaluation->inertia_only = 0;
     if (status < 0) return status;
-    memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
+    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, clear_stiffness, sim);
     memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
+    return status;
+}
+
+int32_t dmb_factor_mass(dmb_evaluation *evaluation)
+{
     dmb_block_weakest unused;
-    const int64_t bad = dmb_factor_stiffness(sim, &unused); /* LU: this is solved once, nobody looks at it again */
+    const int32_t status = make_mass_matrix(evaluation);
+    if (status < 0) return status;
+    const int64_t bad = dmb_factor_stiffness(evaluation->sim, &unused); /* LU: solved once, nobody looks at it again */
     evaluation->element = (uint32_t)bad;
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
