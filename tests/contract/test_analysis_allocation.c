@@ -116,6 +116,22 @@ static void open_sparse(subject *c)
     assert_true(c->s.model->scene->sparse_count > 0);
 }
 
+/* A cantilever of many pipes with material damping. */
+static void open_long_string(subject *c)
+{
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_environment_def none = dmb_environment_def_default();
+    open_model(c);
+    none.gravity[2] = 0.0;
+    must_model(&c->s, dmb_model_set_environment(c->s.model, &none));
+    string.start_free = DMB_FREE_NONE;
+    pipe.string = c->part = add_string(&c->s, &string);
+    pipe.damping_time = 1e-4;
+    (void)add_pipes(&c->s, &pipe, 40);
+    start(c);
+}
+
 static void close_subject(subject *c)
 {
     dmb_sim_destroy(&c->low);
@@ -219,6 +235,36 @@ static int32_t damped_modes(subject *c)
 static int32_t all_damped_modes(subject *c)
 {
     return modes_of(c, DMB_MODES_DAMPED, DMB_MODES_ALL);
+}
+
+/* Bands of so many modes that they are searched for piece by piece. */
+static int32_t modes_of_a_wide_band(subject *c, int32_t kind)
+{
+    dmb_modes_options options = dmb_modes_options_default();
+    dmb_modes *found = NULL;
+    dmb_modes_info info = dmb_modes_info_default();
+    options.kind = kind;
+    options.select = DMB_MODES_BAND;
+    options.band[0] = 0.1;
+    options.band[1] = 60.0;
+    const int32_t status = dmb_analysis_modes(c->s.sim, &options, &found);
+    GIVES_NOTHING_OUT(found);
+    if (status >= 0) {
+        assert_int_equal(dmb_modes_get_info(found, &info), DMB_OK);
+        assert_true(info.count > 64 && !info.dense);
+    }
+    dmb_modes_destroy(&found);
+    return status;
+}
+
+static int32_t wide_band(subject *c)
+{
+    return modes_of_a_wide_band(c, DMB_MODES_UNDAMPED);
+}
+
+static int32_t wide_damped_band(subject *c)
+{
+    return modes_of_a_wide_band(c, DMB_MODES_DAMPED);
 }
 
 static dmb_input force_on(const subject *c)
@@ -453,7 +499,7 @@ static void fail_one(subject *c, const row *r, size_t k)
     if (rig_hash(&c->s) != hash) fail_msg("%s: allocation %zu failed: the sim has changed", r->name, k);
 }
 
-static void fail_each(subject *c, const row *r)
+static void fail_each(subject *c, const row *r, size_t tried)
 {
     size_t size;
     assert_int_equal(dmb_sim_snapshot_size(c->s.sim, &size), DMB_OK);
@@ -464,7 +510,7 @@ static void fail_each(subject *c, const row *r)
     c->memory.calls = 0;
     int32_t status = r->call(c);
     if (status < 0) fail_msg("%s: %s: %s", r->name, dmb_status_name(status), dmb_sim_message(c->s.sim));
-    const size_t calls = c->memory.calls, stride = calls / TRIED + 1;
+    const size_t calls = c->memory.calls, stride = calls / tried + 1;
     assert_int_equal(c->memory.live, live);
     must(&c->s, dmb_sim_restore(c->s.sim, before, size));
     for (size_t k = 1; k <= calls; k += stride) fail_one(c, r, k);
@@ -475,18 +521,18 @@ static void fail_each(subject *c, const row *r)
     free(before);
 }
 
-static void one_call(void (*open)(subject *c), const row *r)
+static void one_call(void (*open)(subject *c), const row *r, size_t tried)
 {
     subject c;
     open(&c);
-    fail_each(&c, r);
+    fail_each(&c, r, tried);
     close_subject(&c);
 }
 
 static void all_calls(void (*open)(subject *c), int scene)
 {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (!(rows[i].refused >> scene & 1)) one_call(open, &rows[i]);
+        if (!(rows[i].refused >> scene & 1)) one_call(open, &rows[i], TRIED);
 }
 
 static void on_a_string(void **state)
@@ -500,7 +546,7 @@ static void on_an_unloaded_string(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (rows[i].refused & 1) one_call(open_unloaded_string, &rows[i]);
+        if (rows[i].refused & 1) one_call(open_unloaded_string, &rows[i], TRIED);
 }
 
 static void on_a_mechanism(void **state)
@@ -513,6 +559,14 @@ static void by_sparse_matrices(void **state)
 {
     (void)state;
     all_calls(open_sparse, 2);
+}
+
+static void on_a_long_string(void **state)
+{
+    static const row wide[2] = {{"modes of a wide band", wide_band, 0, 0},
+                                {"damped modes of a wide band", wide_damped_band, 0, 0}};
+    (void)state;
+    for (int i = 0; i < 2; i++) one_call(open_long_string, &wide[i], 12);
 }
 
 /* ---- Descriptions that the whole scene does not have ------------------------------------------------------------- */
@@ -595,7 +649,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(on_a_string),        cmocka_unit_test(on_an_unloaded_string), cmocka_unit_test(on_a_mechanism),
-        cmocka_unit_test(by_sparse_matrices), cmocka_unit_test(descriptions),
+        cmocka_unit_test(by_sparse_matrices), cmocka_unit_test(on_a_long_string),      cmocka_unit_test(descriptions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
