@@ -139,6 +139,52 @@ static void margins_and_room(void **state)
     rig_close(&s);
 }
 
+/* Orders 2, 1.3 and 1: three peaks, at half the natural speed, at it over 1.3, and at it. With a margin the last two
+ * are one band, of the higher peak, whichever that is, and count as one where there is room for the first alone. Of two
+ * outputs the one that is worse over its limit is told. */
+static void bands_that_run_into_each_other(void **state)
+{
+    (void)state;
+    const double natural = sqrt(1e6 / 50.0), limits[2] = {1e-3, 2.5e-5 * natural};
+    rig s;
+    const dmb_place place = open_measured_rotor(&s);
+    for (int k = 0; k < 8; k++) {
+        const int higher = k % 2, wide = k / 2 % 2, room = k / 4 ? 1 : BANDS;
+        dmb_speeds_options options = dmb_speeds_options_default();
+        dmb_speeds_report report = dmb_speeds_report_default();
+        dmb_order orders[3] = {dmb_order_default(), dmb_order_default(), dmb_order_default()};
+        dmb_speed_band bands[BANDS];
+        const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, place, DMB_Y),
+                                       output_at(DMB_OUTPUT_VELOCITY, place, DMB_Y)};
+        uint32_t count = (uint32_t)room;
+        for (int i = 0; i < BANDS; i++) bands[i] = dmb_speed_band_default();
+        for (int i = 0; i < 3; i++) {
+            orders[i].order = i == 0 ? 2.0 : i == 1 ? 1.3 : 1.0;
+            orders[i].input = force_at(place, DMB_Y);
+            orders[i].input.amplitude = i == 0 ? 60.0 : i == 1 + higher ? 100.0 : 80.0;
+        }
+        options.points = 400;
+        options.speed_low = 30.0;
+        options.speed_high = 300.0;
+        options.threshold = 45.0; /* of the velocity, the worse one: 40 times its share of the displacement */
+        options.margin = wide ? 0.12 : 0.0;
+        options.report = &report;
+        const int32_t status = dmb_analysis_speeds(s.sim, &options, orders, 3, outputs, limits, 2, bands, &count, NULL);
+        must(&s, status);
+        const uint32_t found = wide ? 2 : 3;
+        assert_int_equal(report.bands, found);
+        assert_int_equal(status, room == 1 ? DMB_NOTE_FULL : DMB_OK);
+        assert_int_equal(count, room == 1 ? 1 : found);
+        check_relative("first of the bands", bands[0].speed, 0.5 * natural, 2e-3);
+        for (uint32_t i = 0; i < count; i++) assert_int_equal(bands[i].output, 1);
+        if (room == 1) continue;
+        check_relative("last of them", bands[found - 1].speed, wide && !higher ? natural / 1.3 : natural, 2e-3);
+        assert_int_equal(bands[found - 1].order, wide && !higher ? 1 : 2);
+        if (wide) assert_true(bands[1].low < natural / 1.3 && bands[1].high > natural);
+    }
+    rig_close(&s);
+}
+
 /* ---- What an answer lacks ---------------------------------------------------------------------------------------- */
 
 enum { UNDAMPED = 1, SILENT = 2, HELD_OUTPUT = 4 };
@@ -251,6 +297,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_of_a_rotor),
         cmocka_unit_test(margins_and_room),
+        cmocka_unit_test(bands_that_run_into_each_other),
         cmocka_unit_test(answers_that_lack_something),
         cmocka_unit_test(gyroscopic_terms_do_not_damp),
     };

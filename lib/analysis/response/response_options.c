@@ -153,7 +153,7 @@ int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *mess
     dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_CHANNEL);
     if (out->kind != DMB_OUTPUT_CHANNEL)
         dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
-    else if (check.status == DMB_OK && dmb_channel_name(out->component, NULL) == NULL)
+    else if (dmb_channel_name(out->component, NULL) == NULL)
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "a channel that dmb_channel_name knows");
     if (out->kind == DMB_OUTPUT_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,

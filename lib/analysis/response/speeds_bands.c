@@ -52,7 +52,7 @@ typedef struct search {
     const dmb_speeds_curve *curves;
     const dmb_speeds_options *options;
     dmb_speed_band *bands;
-    dmb_speed_band open; /* the one that is being followed */
+    dmb_speed_band open, before; /* the one that is being followed, the last one that was */
     uint32_t count, room;
     int32_t is_open;
 } search;
@@ -79,20 +79,19 @@ static void end_band(search *s, double speed)
 {
     s->open.high = fmin(speed * (1.0 + s->options->margin), s->options->speed_high);
     s->is_open = 0;
-    dmb_speed_band *before = s->count > 0 && s->count <= s->room ? s->bands + s->count - 1 : NULL;
-    if (before != NULL && before->high >= s->open.low) {
-        const double low = before->low;
+    dmb_speed_band *before = &s->before;
+    if (s->count > 0 && before->high >= s->open.low) {
+        const double low = before->low, high = fmax(before->high, s->open.high);
         const int32_t truncated = before->truncated | s->open.truncated;
-        if (s->open.severity > before->severity) {
-            *before = s->open;
-            before->low = low;
-        }
+        if (s->open.severity > before->severity) *before = s->open;
+        before->low = low;
+        before->high = high;
         before->truncated = truncated;
-        before->high = fmax(before->high, s->open.high);
-        return;
+    } else {
+        *before = s->open;
+        s->count++;
     }
-    if (s->count < s->room) s->bands[s->count] = s->open;
-    s->count++;
+    if (s->count <= s->room) s->bands[s->count - 1] = *before;
 }
 
 /* The speed at which the straight line between two speeds meets the threshold. */
