@@ -422,6 +422,102 @@ static void friction_of_bristles(void **state)
     end(&s);
 }
 
+/* Items of an array are as far apart as the first one says, and all of that size. */
+static void items_of_another_size(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    dmb_input inputs[2] = {s.input, s.input};
+    dmb_output outputs[2] = {s.output, s.output};
+    dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
+    dmb_speed_band band = dmb_speed_band_default();
+    dmb_response *response = NULL;
+    double limits[2] = {1.0, 1.0}, amplitudes[2][4][2] = {{{7.0}}};
+    const double falling[4] = {1.0, 3.0, 2.0, 4.0};
+    uint32_t room = 1;
+    uint64_t before, after;
+    assert_int_equal(dmb_sim_hash(s.sim, &before), DMB_OK);
+    inputs[1].struct_size -= 8;
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "input 1: struct_size is not one this library knows, or not that"));
+    inputs[1] = inputs[0];
+    outputs[1].struct_size -= 8;
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "output 1: struct_size"));
+    assert_int_equal(dmb_analysis_stepped_sine(s.sim, 5.0, NULL, outputs, 2, &amplitudes[0][0][0], NULL),
+                     DMB_ERR_STRUCT_SIZE);
+    outputs[1] = outputs[0];
+    s.options.frequencies = falling;
+    s.options.points = 4;
+    assert_int_equal(dmb_analysis_response(s.sim, &s.options, inputs, 2, outputs, 2, &response), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "frequencies = 2"));
+    outputs[1].kind = DMB_OUTPUT_BIT;
+    outputs[1].component = -1;
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "output 1: component = -1, must be 0 .. 5"));
+    outputs[1] = outputs[0];
+    assert_null(response);
+    orders[1].struct_size -= 8;
+    assert_int_equal(dmb_analysis_speeds(s.sim, NULL, orders, 2, outputs, limits, 2, &band, &room, NULL),
+                     DMB_ERR_STRUCT_SIZE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "order 1"));
+    orders[1] = orders[0];
+    limits[0] = limits[1] = -1.0;
+    assert_int_equal(dmb_analysis_speeds(s.sim, NULL, orders, 2, outputs, limits, 2, &band, &room, NULL),
+                     DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "limits = -1"));
+    assert_int_equal(dmb_sim_hash(s.sim, &after), DMB_OK);
+    assert_true(before == after && room == 1 && amplitudes[0][0][0] == 7.0);
+    end(&s);
+}
+
+/* A stepped sine that is refused has not begun. */
+static void stepped_sine_out_of_bounds(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    const dmb_stepped_sine_options good = dmb_stepped_sine_options_default();
+    dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
+    double amplitudes[2 * 17] = {7.0};
+    uint64_t before, after;
+    assert_int_equal(dmb_sim_hash(s.sim, &before), DMB_OK);
+#define REFUSED(status, frequency, change, field)                                                                \
+    do {                                                                                                         \
+        dmb_stepped_sine_options options = good;                                                                 \
+        dmb_output output = s.output;                                                                            \
+        change;                                                                                                  \
+        assert_int_equal(dmb_analysis_stepped_sine(s.sim, frequency, &options, &output, 1, amplitudes, &report), \
+                         status);                                                                                \
+        if (strstr(dmb_sim_message(s.sim), field) == NULL) fail_msg("%s", dmb_sim_message(s.sim));               \
+        assert_int_equal(dmb_sim_hash(s.sim, &after), DMB_OK);                                                   \
+        assert_true(before == after && amplitudes[0] == 7.0);                                                    \
+    } while (0)
+    REFUSED(DMB_ERR_VALUE, 0.0, (void)options, "frequency = 0");
+    REFUSED(DMB_ERR_NOT_FINITE, (double)NAN, (void)options, "frequency");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.steps_per_period = 15, "steps_per_period = 15");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.periods = 0, "periods = 0");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.windows = 2, "windows = 2");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.harmonics = 17, "harmonics = 17, must be 1 .. 16");
+    REFUSED(DMB_ERR_VALUE, 5.0, (options.steps_per_period = 16, options.harmonics = 3), "<= steps_per_period/8");
+    REFUSED(DMB_ERR_VALUE, 5.0, (options.steps_per_period = 0, options.harmonics = 3), "steps_per_period = 0");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.tolerance = 0.0, "tolerance = 0");
+    REFUSED(DMB_ERR_VALUE, 5.0, options.floor = 0.0, "floor = 0");
+    REFUSED(DMB_ERR_STRUCT_SIZE, 5.0, options.struct_size = 5, "struct_size");
+    REFUSED(DMB_ERR_VALUE, 5.0, output.place.pipe = 10, "output 0: place, pipe 10");
+    REFUSED(DMB_ERR_ID, 5.0, output.place.part = s.load, "output 0: place");
+#undef REFUSED
+    report.struct_size = 3;
+    assert_int_equal(dmb_analysis_stepped_sine(s.sim, 5.0, NULL, &s.output, 1, amplitudes, &report),
+                     DMB_ERR_STRUCT_SIZE);
+    assert_int_equal(dmb_analysis_stepped_sine(s.sim, 5.0, NULL, &s.output, 0, amplitudes, NULL), DMB_ERR_VALUE);
+    dmb_sim *none = (dmb_sim *)(void *)s.model;
+    assert_int_equal(dmb_analysis_stepped_sine(none, 5.0, NULL, &s.output, 1, amplitudes, NULL), DMB_ERR_HANDLE);
+    assert_true(amplitudes[0] == 7.0);
+    end(&s);
+}
+
 static void counts_and_pointers(void **state)
 {
     (void)state;
@@ -579,6 +675,8 @@ int main(void)
         cmocka_unit_test(channels_of_what_moves),
         cmocka_unit_test(controller_at_its_limit),
         cmocka_unit_test(friction_of_bristles),
+        cmocka_unit_test(items_of_another_size),
+        cmocka_unit_test(stepped_sine_out_of_bounds),
         cmocka_unit_test(counts_and_pointers),
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(speeds_that_are_refused),

@@ -379,6 +379,38 @@ static void load_of_a_joint_that_opens(void **state)
     rig_close(&s);
 }
 
+/* A shaft on two bearings that hold it more than once, each by five equations: of the forces and moments on it the two
+ * take equal shares, which are the least ones, and together they balance it: F + m w^2 d = 0 with what does not move.
+ */
+static void bearings_that_share(void **state)
+{
+    (void)state;
+    const double frequency = 5.0;
+    rig s;
+    dmb_id bearing[2];
+    dmb_body_def shaft = dmb_body_def_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    shaft.mass = 4.0;
+    const dmb_place place = dmb_station(add_body(&s, &shaft), 0, 0.0);
+    for (int i = 0; i < 2; i++) {
+        dmb_joint_def joint = joint_between(DMB_JOINT_REVOLUTE, dmb_station((dmb_id){0, 0}, 0, 0.0), place);
+        joint.origin_a[0] = joint.origin_b[0] = i == 0 ? -0.5 : 0.5;
+        bearing[i] = add_joint(&s, &joint);
+    }
+    (void)rig_start(&s, NULL);
+    for (int32_t c = DMB_Y; c <= DMB_Z; c++) {
+        const dmb_input force = force_at(place, c);
+        double complex got[2];
+        for (int i = 0; i < 2; i++) {
+            const dmb_output reaction = output_at(DMB_OUTPUT_JOINT_REACTION, part(bearing[i]), c);
+            transfer(&s, NULL, &force, &reaction, &frequency, 1, got + i);
+        }
+        check_below("bearings that share: the sum against the force", cabs(got[0] + got[1] + 1.0), 1e-12);
+        check_below("    their difference", cabs(got[0] - got[1]), 1e-12);
+    }
+    rig_close(&s);
+}
+
 /* ---- The bit ----------------------------------------------------------------------------------------------------- */
 
 /* Drills coal at 20 mm/s and 200 rpm by the rate law, two pipes between drives and bit; the feed shakes. */
@@ -425,15 +457,11 @@ static void shaken_bit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fed_on_the_wall),
-        cmocka_unit_test(pulled_on_the_wall),
-        cmocka_unit_test(rubbed_on_the_wall),
-        cmocka_unit_test(rings_that_count_as_closed),
-        cmocka_unit_test(turned_in_a_bearing),
-        cmocka_unit_test(pulled_in_a_bearing),
-        cmocka_unit_test(driven_gears),
-        cmocka_unit_test(shaken_bit),
-        cmocka_unit_test(load_of_a_joint_that_opens),
+        cmocka_unit_test(fed_on_the_wall),     cmocka_unit_test(pulled_on_the_wall),
+        cmocka_unit_test(rubbed_on_the_wall),  cmocka_unit_test(rings_that_count_as_closed),
+        cmocka_unit_test(turned_in_a_bearing), cmocka_unit_test(pulled_in_a_bearing),
+        cmocka_unit_test(driven_gears),        cmocka_unit_test(bearings_that_share),
+        cmocka_unit_test(shaken_bit),          cmocka_unit_test(load_of_a_joint_that_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,7 +73,8 @@ void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evalu
     }
 }
 
-/* Column of the tangent that belongs to the moved row. */
+/* Column of the tangent that belongs to the moved row, which is one of the first node of its chain: the rig end of a
+ * string, a body. */
 static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
 {
     const dmb_scene *scene = sim->scene;
@@ -83,9 +84,6 @@ static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
     const uint32_t c = row - layout->row[node], size = layout->size[node];
     memset(out, 0, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < size; i++) out[layout->row[node] + i] = dmb_stiffness_of(sim, node)[size * i + c];
-    if (node > 0 && scene->node_element[node - 1] != DMB_NONE)
-        for (uint32_t i = 0; i < layout->size[node - 1]; i++)
-            out[layout->row[node - 1] + i] = sim->stiffness_upper[layout->link[node - 1] + size * i + c];
     if (scene->node_element[node] != DMB_NONE)
         for (uint32_t i = 0; i < layout->size[node + 1]; i++)
             out[layout->row[node + 1] + i] = sim->stiffness_lower[layout->link[node] + size * i + c];
