@@ -168,6 +168,48 @@ static void frequency_zero_with_a_free_joint(void **state)
     end(&s);
 }
 
+/* Three wheels on bearings, with springs between them that leave all three free to turn together: what the elimination
+ * leaves is of rounding size. */
+static void frequency_zero_with_free_wheels(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_place last = dmb_station((dmb_id){0, 0}, 0, 0.0);
+    memset(&s, 0, sizeof s);
+    none.gravity[2] = 0.0;
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    assert_int_equal(dmb_model_set_environment(s.model, &none), DMB_OK);
+    for (int i = 0; i < 3; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_id id = {0, 0};
+        body.position[0] = 0.1 * i;
+        assert_int_equal(dmb_model_add_body(s.model, &body, &id), DMB_OK);
+        const dmb_place wheel = dmb_station(id, 0, 0.0);
+        joint.kind = DMB_JOINT_REVOLUTE;
+        joint.place_b = wheel;
+        joint.match = 1;
+        assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK);
+        joint.kind = DMB_JOINT_FREE;
+        joint.place_a = last;
+        joint.stiffness[DMB_RX] = i == 1 ? 0.1 : 0.37;
+        if (i > 0) assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK);
+        last = wheel;
+    }
+    start(&s);
+    s.input = dmb_input_default();
+    s.output = dmb_output_default();
+    s.input.place = s.output.place = last;
+    s.input.component = s.output.component = DMB_RX;
+    dmb_response *response = NULL;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    dmb_response_destroy(&response);
+    s.options.frequency_low = 0.0;
+    expect(&s, DMB_ERR_SINGULAR, "frequency 0 Hz", "body");
+    end(&s);
+}
+
 /* A drive at rest may turn what a joint to the ground does not let turn; its speed has no response. */
 static void drive_that_joints_hold(void **state)
 {
@@ -668,6 +710,7 @@ int main(void)
         cmocka_unit_test(motion_drive_at_frequency_zero),
         cmocka_unit_test(state_out_of_balance),
         cmocka_unit_test(frequency_zero_with_a_free_joint),
+        cmocka_unit_test(frequency_zero_with_free_wheels),
         cmocka_unit_test(drive_that_joints_hold),
         cmocka_unit_test(eccentric_masses_that_nothing_feels),
         cmocka_unit_test(fields_out_of_bounds),

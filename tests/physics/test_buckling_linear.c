@@ -143,6 +143,48 @@ static void euler_column(void **state)
     check_order("Euler's load, 4 and 8 elements", error[0], error[1], 4.0, 0.2);
 }
 
+/* A column of 3 m, clamped at the rig end, whose far end a guide lets move in a plane, and not turn: pi^2 E I/L^2 in
+ * that plane, 4 pi^2 E I/L^2 across it, where the end may move along alone. Bars beside it, which do not turn, change
+ * nothing. */
+static void guide_that_leaves_a_plane(void **state)
+{
+    (void)state;
+    const double EI = s1_values().EI, length = 3.0, euler = PI * PI * EI / (length * length);
+    for (int k = 0; k < 2; k++) {
+        rig s;
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = beam_pipe(length, 12, 1e6 * EI, 1e6 * EI, EI, EI);
+        dmb_load_def push = dmb_load_def_default();
+        dmb_buckling_options options = dmb_buckling_options_default();
+        dmb_buckling *found = NULL;
+        double shape[6];
+        rig_open(&s, 0.0, 0.0, 0.0);
+        def.follows_hole = 0;
+        def.start_free = DMB_FREE_NONE;
+        def.end_free = k == 0 ? DMB_FREE_XY : DMB_FREE_XZ;
+        pipe.string = add_string(&s, &def);
+        (void)add_pipes(&s, &pipe, 1);
+        push.place = dmb_station(pipe.string, 0, 1.0);
+        push.force[0] = -1.0;
+        (void)add_load(&s, &push);
+        def.end_free = DMB_FREE_ALL;
+        dmb_pipe_def bars = s1_pipe();
+        bars.kind = DMB_PIPE_AXIAL_TORSIONAL;
+        bars.string = add_string(&s, &def);
+        (void)add_pipes(&s, &bars, 3);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        options.count = 2;
+        must(&s, dmb_analysis_buckling(s.sim, &options, &found));
+        check_relative("a guide that leaves a plane: in it", 1.0 + factor_of(found, 0), euler, 1e-4);
+        check_relative("    across it", 1.0 + factor_of(found, 1), 4.0 * euler, 1e-3);
+        assert_int_equal(dmb_buckling_shape(found, 0, dmb_station(pipe.string, 0, 0.5), shape), DMB_OK);
+        check_below("    the shape stays in the plane", shape[k == 0 ? DMB_Z : DMB_Y], 1e-9);
+        dmb_buckling_destroy(&found);
+        rig_close(&s);
+    }
+}
+
 /* ---- On the low side of the hole --------------------------------------------------------------------------------- */
 
 /* F = EI k^2 + w/(r k^2), k = n pi/L: the least over the whole number n of half waves, those with a crest in the middle
@@ -249,6 +291,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(euler_column),
+        cmocka_unit_test(guide_that_leaves_a_plane),
         cmocka_unit_test(sinusoidal_buckling_in_the_hole),
         cmocka_unit_test(preload_counts),
         cmocka_unit_test(explicit_joints_change_nothing),

@@ -269,6 +269,30 @@ static void too_many_nodes(void **state)
     expect_refusal(model, DMB_ERR_TOO_LARGE, "model", "nodes");
 }
 
+/* Spherical joints between bodies, told to be solved by dense matrices, however many: 201 bodies have 1206 coordinates.
+ */
+static void too_large_a_cluster(void **state)
+{
+    dmb_model *model = new_model();
+    dmb_id last = {0, 0};
+    (void)state;
+    model->sparse_nodes = UINT32_MAX;
+    for (uint32_t i = 0; i < 201; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_id id = {0, 0};
+        body.position[0] = i;
+        assert_ok(dmb_model_add_body(model, &body, &id));
+        joint.kind = DMB_JOINT_SPHERICAL;
+        joint.place_a = dmb_station(last, 0, 0.0);
+        joint.place_b = dmb_station(id, 0, 0.0);
+        joint.match = 1;
+        assert_ok(dmb_model_add_joint(model, &joint, NULL));
+        last = id;
+    }
+    expect_refusal(model, DMB_ERR_TOO_LARGE, "coordinates = 1206", "must be <= 1200");
+}
+
 static void wrong_options(void **state)
 {
     dmb_model *model = with_pipes(1);
@@ -325,6 +349,7 @@ int main(void)
         TEST(drive_sideways_on_a_path_node),
         TEST(loads_that_do_not_fit),
         TEST(rigid_string_held_at_both_ends),
+        TEST(too_large_a_cluster),
         TEST(too_many_nodes),
         TEST(wrong_options),
         TEST(masks),
