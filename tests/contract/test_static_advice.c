@@ -67,23 +67,41 @@ static void wall_that_is_stiff(void **state)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     (void)state;
-    for (int soft = 0; soft < 2; soft++) {
+    for (int soft = 0; soft < 3; soft++) { /* then with a controller that gives all it may, which is told first */
+        dmb_drive_def turn = dmb_drive_def_default();
+        dmb_joint_def spring = dmb_joint_def_default();
+        dmb_term term = dmb_term_default();
         must(dmb_model_create(NULL, &model));
         wall.diameter = pipe.outer_diameter + 0.01;
-        wall.stiffness = soft ? 1e4 : 1e10;
+        wall.stiffness = soft == 1 ? 1e4 : 1e10;
         must(dmb_model_add_wall(model, &wall, NULL));
         dmb_string_def string = dmb_string_def_default();
-        string.start_free = DMB_FREE_NONE;
+        string.start_free = soft == 2 ? DMB_FREE_RX : DMB_FREE_NONE;
         must(dmb_model_add_string(model, &string, &pipe.string));
         pipe.length = 2.0;
         pipe.elements = 1;
         must(dmb_model_add_pipes(model, &pipe, 100, NULL));
+        term.h0 = 1.0;
+        must(dmb_model_add_programme(model, &term, 1, &turn.programme));
+        turn.kind = DMB_DRIVE_CONTROL;
+        turn.component = DMB_RX;
+        turn.gain = 100.0;
+        turn.limit_high = 2.0;
+        spring.kind = DMB_JOINT_FREE;
+        spring.place_b = dmb_station(pipe.string, 0, 0.0);
+        spring.stiffness[DMB_RX] = 1e3;
+        if (soft == 2) {
+            must(dmb_model_add_drive(model, &turn, NULL));
+            must(dmb_model_add_joint(model, &spring, NULL));
+        }
         must(dmb_model_compile(model, NULL));
         assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
         options.slip_rotation = 10.0;
         options.max_iterations = 1;
         assert_int_equal(dmb_analysis_static(sim, &options, NULL), DMB_ERR_NO_CONVERGENCE);
-        if (soft) {
+        if (soft == 2) {
+            expect(sim, "drive 0 is at its limit_high = 2: widen it");
+        } else if (soft) {
             expect(sim, "more load_steps");
         } else {
             expect(sim, "the wall is stiff: the weight presses it in by");
@@ -94,11 +112,11 @@ static void wall_that_is_stiff(void **state)
     }
 }
 
-/* 20 N of weight and a controller that asks for 100 N/(m/s) of 0.1 m/s, with limits of 50 N and 5 N. */
+/* 20 N of weight and a controller that asks for 100 N/(m/s) of 0.1 m/s, with limits of 50 N and 5 N; downwards too. */
 static void limit_of_a_drive(void **state)
 {
     (void)state;
-    for (int weak = 0; weak < 2; weak++) {
+    for (int weak = 0; weak < 3; weak++) {
         dmb_model *model;
         dmb_sim *sim;
         dmb_body_def body = dmb_body_def_default();
@@ -108,7 +126,7 @@ static void limit_of_a_drive(void **state)
         body.mass = 2.0;
         body.free_mask = 1 << DMB_Z;
         must(dmb_model_add_body(model, &body, &drive.part));
-        term.h0 = 0.1;
+        term.h0 = weak == 2 ? -0.1 : 0.1;
         must(dmb_model_add_programme(model, &term, 1, &drive.programme));
         strcpy(drive.name, "winch");
         drive.kind = DMB_DRIVE_CONTROL;
@@ -122,8 +140,9 @@ static void limit_of_a_drive(void **state)
         assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
         const int32_t status = dmb_analysis_static(sim, NULL, NULL);
         assert_true(status < 0);
-        expect(sim, weak ? "drive 0 (winch) is at its limit_high = 5: widen it"
-                         : "drive 0 (winch) is a controller: at rest it gives 10 and holds nothing");
+        expect(sim, weak == 0   ? "drive 0 (winch) is a controller: at rest it gives 10 and holds nothing"
+                    : weak == 1 ? "drive 0 (winch) is at its limit_high = 5: widen it"
+                                : "drive 0 (winch) is at its limit_low = -5: widen it");
         dmb_sim_destroy(&sim);
         dmb_model_destroy(&model);
     }
