@@ -381,9 +381,8 @@ static void channels_of_what_moves(void **state)
 
 /* A controller that turns a wheel against a spring until it gives all that it may: it answers to nothing then, and the
  * wheel to a torque as to the spring alone. */
-static void controller_at_its_limit(void **state)
+static void at_a_limit(double speed, double gain)
 {
-    (void)state;
     scene s;
     dmb_environment_def none = dmb_environment_def_default();
     dmb_body_def body = dmb_body_def_default();
@@ -398,9 +397,10 @@ static void controller_at_its_limit(void **state)
     joint.stiffness[DMB_RX] = 400.0;
     drive.kind = DMB_DRIVE_CONTROL;
     drive.component = DMB_RX;
-    drive.gain = 60.0;
+    drive.gain = gain;
     drive.limit_high = 8.0;
-    target.h0 = 1.0;
+    drive.limit_low = -8.0;
+    target.h0 = speed;
     assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
     assert_int_equal(dmb_model_set_environment(s.model, &none), DMB_OK);
     dmb_id id = {0, 0};
@@ -429,8 +429,16 @@ static void controller_at_its_limit(void **state)
     assert_true(value[0] == 0.0 && value[1] == 0.0);
     s.input.kind = DMB_INPUT_DRIVE;
     s.input.place.part = s.drive;
-    expect(&s, DMB_ERR_VALUE, "input 0", "the drive is at its limit");
+    expect(&s, DMB_ERR_VALUE, "input 0", gain > 0.0 ? "the drive is at its limit" : "the drive has no gain");
     end(&s);
+}
+
+static void controller_at_its_limit(void **state)
+{
+    (void)state;
+    at_a_limit(1.0, 60.0);
+    at_a_limit(-1.0, 60.0);
+    at_a_limit(1.0, 0.0); /* it has no gain, and answers to nothing either */
 }
 
 /* Normal forces of a wall with bristles are outputs, their friction is not. */

@@ -48,6 +48,45 @@ static void jeffcott_rotor(void **state)
     rig_close(&s);
 }
 
+/* A disc that turns in itself: a centre of mass off along y or z alone, products of inertia alone. With W = w e_x the
+ * centrifugal wrench is w^2 (m c_y, m c_z; I_xz, -I_xy) in the axes that turn: g_y + i g_z along y, g_z - i g_y along
+ * z, of each half, against k - m w^2 or k_r - I w^2. */
+static void eccentric_in_one_way(void **state)
+{
+    (void)state;
+    const double k = 1e6, k_r = 4e4, m = 50.0, inertia = 2.0, frequency = 11.0, w = 2.0 * PI * frequency;
+    for (int way = 0; way < 4; way++) {
+        rig s;
+        dmb_body_def disc = dmb_body_def_default();
+        rig_open(&s, 0.0, 0.0, 0.0);
+        disc.mass = m;
+        for (int i = 0; i < 3; i++) disc.inertia[i] = inertia;
+        disc.centre[1] = way == 0 ? 1e-4 : 0.0;
+        disc.centre[2] = way == 1 ? 1e-4 : 0.0;
+        disc.inertia[3] = way == 2 ? 0.01 : 0.0;
+        disc.inertia[4] = way == 3 ? 0.01 : 0.0;
+        disc.free_mask = way < 2 ? DMB_FREE_YZ : DMB_FREE_SPHERICAL;
+        const dmb_place place = dmb_station(add_body(&s, &disc), 0, 0.0);
+        dmb_joint_def shaft = joint_between(DMB_JOINT_FREE, dmb_station((dmb_id){0, 0}, 0, 0.0), place);
+        shaft.stiffness[DMB_Y] = shaft.stiffness[DMB_Z] = k;
+        shaft.stiffness[DMB_RY] = shaft.stiffness[DMB_RZ] = k_r;
+        shaft.stiffness[DMB_RX] = 1e12; /* products of inertia couple it */
+        (void)add_joint(&s, &shaft);
+        (void)rig_start(&s, NULL);
+        const double size = way < 2 ? m * 1e-4 : 0.01, left = way < 2 ? k - m * w * w : k_r - inertia * w * w;
+        const double g[2] = {way == 0 || way == 3 ? size : 0.0, way == 1 ? size : way == 2 ? -size : 0.0};
+        const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+        double complex got[2];
+        for (int c = 0; c < 2; c++) {
+            const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, place, (way < 2 ? DMB_Y : DMB_RY) + c);
+            transfer(&s, NULL, &own, &move, &frequency, 1, got + c);
+        }
+        check_below("eccentric in one way: y", violation(got[0], w * w * (g[0] + i_ * g[1]) / left), 1e-11);
+        check_below("    z", violation(got[1], w * w * (g[1] - i_ * g[0]) / left), 1e-11);
+        rig_close(&s);
+    }
+}
+
 /* The rotor without eccentricity while it spins at W: in axes that spin with it, zeta = (y + i z) e^(-i W t), a force
  * f = f_y + i f_z there gives m (zeta'' + 2 i W zeta' - W^2 zeta) + c (zeta' + i W zeta) + k zeta = f. Two equations
  * for the amplitudes of y and z, [a, -b; b, a] with a = k - m (w^2 + W^2) + i w c, b = 2 i w m W + c W. */
@@ -613,6 +652,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jeffcott_rotor),
+        cmocka_unit_test(eccentric_in_one_way),
         cmocka_unit_test(spinning_rotor),
         cmocka_unit_test(receptance_of_a_cantilever),
         cmocka_unit_test(moved_rods),
