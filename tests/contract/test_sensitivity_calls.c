@@ -323,6 +323,70 @@ static void test_forces_that_fail(void **state)
     }
 }
 
+/* A body on that force, moved across by a drive whose acceleration jumps within an advance. */
+static rig moved_body(double velocity)
+{
+    static const double times[3] = {0.0, 0.0071, 0.1}, speeds[3] = {0.0, 0.5, -1.0};
+    dmb_body_def body = dmb_body_def_default();
+    dmb_force_def force = dmb_force_def_default();
+    dmb_term table = dmb_term_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    body.velocity[0] = velocity;
+    force.place[0] = dmb_station(add_body(&s, &body), 0, 0.0);
+    force.callback = pull;
+    must_model(&s, dmb_model_add_force(s.model, &force, NULL));
+    table.kind = DMB_TERM_TABLE;
+    table.table_time = times;
+    table.table_value = speeds;
+    table.table_count = 3;
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, force.place[0].part, DMB_Y, add_programme(&s, &table, 1));
+    (void)rig_start(&s, NULL);
+    return s;
+}
+
+/* Advances to 20 ms with a force that fails at one of its calls, and then the rest. */
+static int32_t advance_past_failure(uint32_t at, derivative *rates)
+{
+    rig s = moved_body(0.1), low = moved_body(0.1 - 1e-4), high = moved_body(0.1 + 1e-4);
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    parameter.step = 1e-4;
+    parameter.low = low.sim;
+    parameter.high = high.sim;
+    must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+    calls = 0;
+    fails_at = at;
+    const int32_t status = dmb_sensitivity_advance(sensitivity, 0.02, NULL);
+    fails_at = 0;
+    if (status < 0) {
+        if (status != DMB_ERR_CALLBACK) fail_msg("%s", dmb_sim_message(s.sim));
+        assert_true(dmb_sim_time(s.sim) < 0.02);
+        must(&s, dmb_sensitivity_advance(sensitivity, 0.02, NULL));
+    }
+    *rates = rates_of(&s, sensitivity);
+    dmb_sensitivity_destroy(&sensitivity);
+    rig_close(&s);
+    rig_close(&low);
+    rig_close(&high);
+    return status;
+}
+
+static void test_failures_beside_a_jump(void **state)
+{
+    derivative whole, rates;
+    uint32_t failures = 0;
+    double worst = 0.0;
+    (void)state;
+    assert_true(advance_past_failure(0, &whole) >= 0);
+    for (uint32_t k = 1; advance_past_failure(k, &rates) < 0; k++, failures++)
+        worst = fmax(worst, largest_difference(12, (const double *)&rates, (const double *)&whole));
+    print_message("    %u failures\n", failures);
+    assert_true(failures > 50);
+    check_below("    derivatives after a failure, off those without", worst,
+                1e-3 * largest(12, (const double *)&whole));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +397,7 @@ int main(void)
         cmocka_unit_test(test_times_differ),
         cmocka_unit_test(test_allocates_nothing),
         cmocka_unit_test(test_forces_that_fail),
+        cmocka_unit_test(test_failures_beside_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
