@@ -493,6 +493,33 @@ static void springs_of_what_turns(void **state)
     }
 }
 
+/* Springs between parts of a whole that turns keep their length and turn with it. One to a point of the ground on the
+ * axis keeps its length too, and its force turns. */
+static void springs_in_what_turns(void **state)
+{
+    (void)state;
+    for (int grounded = 0; grounded < 2; grounded++) {
+        rig s;
+        const dmb_id none = {0, 0};
+        dmb_spring_def line = dmb_spring_def_default();
+        rig_open(&s, 0.0, 0.0, 0.0);
+        const dmb_id hub = body_at(&s, 0.0, DMB_FREE_ALL), arm = body_at(&s, 1.0, DMB_FREE_ALL);
+        (void)constant_drive(&s, DMB_DRIVE_MOTION, hinge(&s, none, hub, 0.0), DMB_RX, 2.0);
+        dmb_joint_def fixed = joint_between(DMB_JOINT_FIXED, dmb_station(hub, 0, 0.0), dmb_station(arm, 0, 0.0));
+        fixed.match = 1;
+        (void)add_joint(&s, &fixed);
+        line.place_a = dmb_station(grounded ? none : hub, 0, 0.0);
+        line.place_b = dmb_station(arm, 0, 0.0);
+        line.offset_b[1] = grounded ? 0.0 : 0.3;
+        line.stiffness = 10.0;
+        must_model(&s, dmb_model_add_spring(s.model, &line, NULL));
+        if (grounded)
+            not_accepted(&s, DMB_STEADY_RIGID, "spring 0: its points move at 0 and 2 m/s");
+        else
+            accepted(&s, DMB_STEADY_RIGID);
+    }
+}
+
 /* ---- What judges a stiffness at rest ----------------------------------------------------------------------------- */
 
 enum { SLIDES, TURNS, SWINGS, MOTIONS };
@@ -591,6 +618,7 @@ int main(void)
         cmocka_unit_test(laws_of_open_joints),
         cmocka_unit_test(forces_on_what_moves),
         cmocka_unit_test(springs_of_what_turns),
+        cmocka_unit_test(springs_in_what_turns),
         cmocka_unit_test(stiffness_of_what_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -289,9 +289,7 @@ static int32_t of_joint(const request *r)
 {
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
-    if (status == DMB_ERR_ID) return refuse(r, status, "place.part names no joint of this model");
-    if (status == DMB_ERR_VALUE) return refuse(r, status, "frame must be DMB_FRAME_WORLD or DMB_FRAME_BODY");
-    if (status < 0) return refuse(r, status, dmb_status_text(status));
+    if (status < 0) return refuse(r, status, "place.part names no joint of this model");
     r->out->elastic = r->output->kind > DMB_OUTPUT_JOINT_ACCELERATION;
     if (r->output->kind == DMB_OUTPUT_JOINT_REACTION)
         reaction_of_joint(r, joint_of(r));
@@ -401,8 +399,8 @@ static int32_t of_channel(const request *r)
     request part = *r;
     const int32_t status = dmb_output_of_channel(r->copy, r->output, &meant, &r->out->bit, &why);
     if (status < 0) {
-        const char *name = dmb_channel_name(r->output->component, NULL);
-        dmb_message_set(r->message, "output %u: channel %s: %s", r->index, name != NULL ? name : "unknown", why);
+        dmb_message_set(r->message, "output %u: channel %s: %s", r->index, dmb_channel_name(r->output->component, NULL),
+                        why); /* it was looked up with the output */
         return status;
     }
     part.output = &meant;
