@@ -56,8 +56,7 @@ DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double tim
 /* Channels and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the
  * channel over that of the parameter], shape (count, parameters). Errors: those of the channels' queries, with a
  * message of the sim; DMB_ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was
- * moved by other calls, or a callback failed behind a step that dmb_sensitivity_advance took back; nothing is written
- * then. */
+ * moved by other calls; nothing is written then. */
 DMB_API int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel *channels, uint32_t count,
                                          double *values, double *derivatives);
 /* Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free

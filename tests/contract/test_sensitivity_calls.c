@@ -341,7 +341,9 @@ static rig moved_body(double velocity)
     table.table_value = speeds;
     table.table_count = 3;
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, force.place[0].part, DMB_Y, add_programme(&s, &table, 1));
-    (void)rig_start(&s, NULL);
+    dmb_sim_options options = dmb_sim_options_default();
+    options.tolerance_translation = 1e-10; /* steps of different lengths after a failure come to the same */
+    (void)rig_start(&s, &options);
     return s;
 }
 
@@ -383,8 +385,8 @@ static void test_failures_beside_a_jump(void **state)
         worst = fmax(worst, largest_difference(12, (const double *)&rates, (const double *)&whole));
     print_message("    %u failures\n", failures);
     assert_true(failures > 50);
-    check_below("    derivatives after a failure, off those without", worst,
-                1e-3 * largest(12, (const double *)&whole));
+    check_below("    derivatives after a failure, off those without", worst, 1e-5);
+    check_close("    of the place by the speed at the start", whole.pose[0], sin(sqrt(50.0) * 0.02) / sqrt(50.0), 1e-6);
 }
 
 int main(void)

@@ -20,7 +20,8 @@ typedef struct dmb_rated_parameter {
     int32_t one_sided;
     int32_t reserved;
     dmb_model *model[2];      /* DMB_SIDE_LOW, DMB_SIDE_HIGH; held */
-    double *rates, *accepted; /* of every number of the state: now, and at the start of the call under way */
+    double *rates, *accepted; /* of every number of the state: now, and at the start of the call under way; of an
+                                 advance before the step under way */
     uint64_t kinks, accepted_kinks;
     char name[24];
 } dmb_rated_parameter;
@@ -40,7 +41,10 @@ struct dmb_sensitivity {
     double *settings; /* of the inputs when this was made, which stay, shape (input) */
     dmb_follow_room room;
     dmb_follower follower;
+    double followed_from; /* [s] time before the step that was followed last */
     int32_t busy;
+    int32_t advances; /* 1: the call under way keeps the steps that it has taken */
+    int32_t followed; /* 1: a step was followed to its end */
     int32_t reserved;
 };
 

@@ -196,10 +196,15 @@ int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
 {
     dmb_sensitivity *s = context;
     const dmb_lead lead = {s->sim, attempt, &s->room};
+    if (s->advances) dmb_sensitivity_settle(s, 0); /* the steps before stay, whatever becomes of this one */
+    s->followed = 0;
+    s->followed_from = s->sim->clock->time;
     const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
     if (status < 0) return status;
     const int32_t followed = follow_all(s, &lead);
-    if (followed >= 0) dmb_sensitivity_take_sight(s, &s->sim->trial);
+    if (followed < 0) return followed;
+    dmb_sensitivity_take_sight(s, &s->sim->trial);
+    s->followed = 1;
     return followed;
 }
 
@@ -227,9 +232,10 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back)
 int32_t dmb_sensitivity_stands(const dmb_sensitivity *s)
 {
     if (stands_as_seen(s)) return DMB_OK;
-    dmb_message_set(&s->sim->message,
-                    "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance, or a "
-                    "callback failed behind a step that was taken back; make one anew from here");
+    dmb_message_set(
+        &s->sim->message,
+        "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make one anew "
+        "from here");
     return DMB_ERR_ORDER;
 }
 
@@ -247,7 +253,14 @@ int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
     return status;
 }
 
-/* A step or an advance of the sim with the rates; step: a failing call takes all of it back. */
+/* 1: the sim has taken the step that was followed last; 0: that was not followed to its end, or was taken back. */
+static int has_taken_the_last(const dmb_sensitivity *s)
+{
+    return s->followed && s->sim->clock->time > s->followed_from;
+}
+
+/* A step or an advance of the sim with the rates; step: a failing call takes all of it back; of an advance the steps
+ * that were taken stay. */
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);
@@ -263,10 +276,12 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     if (status < 0) return status;
     const uint64_t kinks = kinks_of(s);
     s->busy = 1;
+    s->advances = !step;
+    s->followed = 0;
     s->sim->follower = &s->follower;
     status = step ? dmb_sim_step(s->sim, to, report) : dmb_sim_advance(s->sim, to, report);
     s->sim->follower = NULL;
-    dmb_sensitivity_settle(s, step && status < 0);
+    dmb_sensitivity_settle(s, status < 0 && (step || !has_taken_the_last(s)));
     s->busy = 0;
     (void)dmb_sensitivity_catch_up(s); /* a corner just reached; where it fails, the next call tells */
     if (status != DMB_OK || kinks_of(s) == kinks) return status;
