@@ -120,7 +120,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
     mass.given = 0;
-    const int32_t status = dmb_factor_mass(&mass);
+    const int32_t status = dmb_factor_mass_in_step(&mass);
     if (status < 0) return status;
     gather_released(sim, acceleration, part);
     dmb_solve_for(sim, acceleration, acceleration);

@@ -32,7 +32,7 @@ void dmb_release_end(dmb_sim *sim);
 /* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in
  * now, times the part of the step after the opening, shape (row); and that part of each node [-], 0 of those where no
  * ring opens, shape (node). Fills site_return. Residual, iteration matrix and factors are overwritten. Errors as
- * dmb_factor_mass. */
+ * dmb_factor_mass_in_step. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part);
 /* The same for a state close to one that has `near`, with the factors of the mass matrix there: off by the square of
  * the distance of both. product: room, shape (row). */

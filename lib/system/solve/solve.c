@@ -307,7 +307,16 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     dmb_block_weakest unused;
     const int32_t status = make_mass_matrix(evaluation);
     if (status < 0) return status;
-    const int64_t bad = dmb_factor_stiffness(evaluation->sim, &unused); /* LU: solved once, nobody looks at it again */
+    const int64_t bad = dmb_factor_stiffness(evaluation->sim, &unused);
+    evaluation->element = (uint32_t)bad;
+    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+}
+
+int32_t dmb_factor_mass_in_step(dmb_evaluation *evaluation)
+{
+    const int32_t status = make_mass_matrix(evaluation);
+    if (status < 0) return status;
+    const int64_t bad = dmb_factor_matrix(evaluation->sim, DMB_METHOD_INDEPENDENT);
     evaluation->element = (uint32_t)bad;
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }

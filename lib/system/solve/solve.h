@@ -38,6 +38,8 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Evaluates with the factors the evaluation has, 1 for mass and 0 for velocity, and factors the mass matrix alone; the
  * residual is in `residual`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */
 int32_t dmb_factor_mass(dmb_evaluation *evaluation);
+/* The same within a step, by dmb_factor_matrix: from both ends, in parts where there are threads. */
+int32_t dmb_factor_mass_in_step(dmb_evaluation *evaluation);
 /* z with S z = -residual in the rows that are solved, 0 in others, by the factors that sim->factors tells; `z` may be
  * `residual` itself. Multipliers of the trial move too where they are solved for. */
 void dmb_solve_for(dmb_sim *sim, const double *residual, double *z);

@@ -6,6 +6,7 @@
 #include "element/beam.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
+#include "system/solve/solve.h"
 
 static double worst_entry(dmb_sim *sim, const double *base)
 {
@@ -82,11 +83,45 @@ static void extrapolated_stress_is_right_to_first_order(void **state)
     check_order("error of the extrapolated stress", coarse, fine, 2.0, 0.05);
 }
 
+/* Accelerations by the mass matrix as a step factors it, by inverses from both ends, and by LU factors. */
+static void mass_of_a_step_is_that_of_the_start(void **state)
+{
+    (void)state;
+    static double force[ROWS_MAX], by_lu[ROWS_MAX], in_step[ROWS_MAX];
+    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 0, 0};
+    double base[ROWS_MAX], worst = 0.0;
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        rig s;
+        dmb_evaluation e;
+        full_rig_open(&s, &choice);
+        stir(&s, seed);
+        dmb_sim *sim = s.sim;
+        const uint32_t rows = sim->scene->row_count;
+        draw_increments(sim, seed + 100, base);
+        move_to(sim, 1, base, 0, 0.0);
+        evaluate(sim, 1, 1, &e);
+        e.mass_factor = 1.0;
+        e.velocity_factor = 0.0;
+        draw_increments(sim, seed + 200, force);
+        assert_int_equal(dmb_factor_mass(&e), DMB_OK);
+        assert_int_equal(*sim->factors, DMB_FACTORS_LU);
+        dmb_solve_for(sim, force, by_lu);
+        assert_int_equal(dmb_factor_mass_in_step(&e), DMB_OK);
+        assert_int_equal(*sim->factors, DMB_FACTORS_FRESH);
+        dmb_solve_for(sim, force, in_step);
+        assert_true(largest(rows, by_lu) > 1e-3);
+        worst = fmax(worst, largest_difference(rows, by_lu, in_step) / largest(rows, by_lu));
+        rig_close(&s);
+    }
+    check_below("accelerations by two factorisations of the mass", worst, 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matrix_is_the_derivative_by_the_increments),
         cmocka_unit_test(extrapolated_stress_is_right_to_first_order),
+        cmocka_unit_test(mass_of_a_step_is_that_of_the_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
