@@ -117,6 +117,36 @@ static void fed_on_the_wall(void **state)
     }
 }
 
+/* A beam held at both ends and pushed in its middle next to statically: half the force and an eighth of its moment at
+ * the rig end, of the opposite sign, though the far end is held too. */
+static void held_at_both_ends(void **state)
+{
+    (void)state;
+    const double frequency = 1e-3, L = 2.0;
+    const dmb_pipe_def pipe = beam_pipe(L, 4, 1e9, 1e9, 1e4, 1e4);
+    dmb_string_def string = dmb_string_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    double complex value;
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    string.follows_hole = 0;
+    string.start_free = string.end_free = DMB_FREE_NONE;
+    const dmb_id id = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 1);
+    load.place = dmb_station(id, 0, 0.5);
+    load.force[2] = 1.0;
+    load.programme = add_constant(&s, 0.0);
+    const dmb_input input = input_of(DMB_INPUT_LOAD, add_load(&s, &load), DMB_X);
+    start(&s);
+    const dmb_output force = output_at(DMB_OUTPUT_REACTION, part(id), DMB_Z);
+    const dmb_output moment = output_at(DMB_OUTPUT_REACTION, part(id), DMB_RY);
+    transfer(&s, NULL, &input, &force, &frequency, 1, &value);
+    check_close("held at both ends: force of the clamp", creal(value), -0.5, 1e-6);
+    transfer(&s, NULL, &input, &moment, &frequency, 1, &value);
+    check_close("    its moment", fabs(creal(value)), L / 8.0, 1e-6);
+    rig_close(&s);
+}
+
 static void pulled_on_the_wall(void **state)
 {
     (void)state;
@@ -457,11 +487,17 @@ static void shaken_bit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fed_on_the_wall),     cmocka_unit_test(pulled_on_the_wall),
-        cmocka_unit_test(rubbed_on_the_wall),  cmocka_unit_test(rings_that_count_as_closed),
-        cmocka_unit_test(turned_in_a_bearing), cmocka_unit_test(pulled_in_a_bearing),
-        cmocka_unit_test(driven_gears),        cmocka_unit_test(bearings_that_share),
-        cmocka_unit_test(shaken_bit),          cmocka_unit_test(load_of_a_joint_that_opens),
+        cmocka_unit_test(fed_on_the_wall),
+        cmocka_unit_test(pulled_on_the_wall),
+        cmocka_unit_test(held_at_both_ends),
+        cmocka_unit_test(rubbed_on_the_wall),
+        cmocka_unit_test(rings_that_count_as_closed),
+        cmocka_unit_test(turned_in_a_bearing),
+        cmocka_unit_test(pulled_in_a_bearing),
+        cmocka_unit_test(driven_gears),
+        cmocka_unit_test(bearings_that_share),
+        cmocka_unit_test(shaken_bit),
+        cmocka_unit_test(load_of_a_joint_that_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
