@@ -364,6 +364,31 @@ static void describe_settable(rig *s)
     }
 }
 
+/* ---- Held at both ends ------------------------------------------------------------------------------------------- */
+
+static void describe_held(rig *s)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    rig_open(s, 0.0, 0.0, -9.81);
+    string.follows_hole = 0;
+    string.start_free = string.end_free = DMB_FREE_NONE;
+    last_string = add_string(s, &string);
+    pipe.young_modulus = young;
+    pipe.damping_time = 1e-4;
+    (void)add_pipes(s, &pipe, 3);
+}
+
+static uint32_t held_channels(const rig *s, dmb_channel *out)
+{
+    const dmb_place end = dmb_station(last_string, 0, 0.0);
+    (void)s;
+    out[0] = channel_of(end, DMB_CHANNEL_REACTION + DMB_Z);
+    out[1] = channel_of(end, DMB_CHANNEL_REACTION + DMB_RY);
+    out[2] = channel_of(dmb_station(last_string, 1, 0.5), DMB_CHANNEL_DISPLACEMENT_Z);
+    return 3;
+}
+
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void test_strings(void **state)
@@ -374,6 +399,7 @@ static void test_strings(void **state)
         {"outer diameter", describe_string, &diameter, bending_channels, 1e-6, 1e-5, 1e-3, 1e-6, 80, 0},
         {"damping by mud", describe_string, &damping, bending_channels, 0.1, 0.3, 1e-3, 1e-6, 80, 0},
         {"modulus", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
+        {"modulus of a beam held at both ends", describe_held, &young, held_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
         {"friction of bars", describe_bars, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 80, 0},
     };
     (void)state;
