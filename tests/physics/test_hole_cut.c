@@ -20,6 +20,7 @@ typedef struct reaming {
     double spacing, wings;
     double speed;
     double event;  /* [m] displacement at which the run is to stop; 0: none */
+    double again;  /* [m] measured depth at which the described hole becomes wide again; 0: nowhere */
     int32_t ahead; /* 1: with a ring ahead of the reamer, on the floor of the pilot hole */
 } reaming;
 
@@ -71,6 +72,10 @@ static void add_hole(const reaming *d)
     pilot.diameter = narrow;
     (void)add_wall((rig *)&d->s, &wall);
     must_model(&d->s, dmb_model_add_hole_sections(d->s.model, &pilot, 1));
+    pilot.depth = d->again;
+    pilot.transition = 2.0 * d->spacing;
+    pilot.diameter = wide;
+    if (d->again > 0.0) must_model(&d->s, dmb_model_add_hole_sections(d->s.model, &pilot, 1));
 }
 
 static void add_event(const reaming *d)
@@ -394,6 +399,35 @@ static void another_model_goes_on_in_the_hole(void **state)
     rig_close(&from.s);
 }
 
+/* Where the cut ends the other model's hole is described wide again: what is left to widen would end twice as steeply
+ * as the cut did, between two of its closer stations. */
+static void a_hole_that_would_be_too_steep(void **state)
+{
+    (void)state;
+    reaming from = usual();
+    const double close = 0.02; /* [m] the least for these wings */
+    from.speed = 0.5;
+    from.spacing = close;
+    begin(&from);
+    take_divided_steps(&from.s, 1e-3, 1500);
+    double last = 5.0;
+    while (diameter_at(&from.s, last + close) > wide - 1e-9) last += close;
+    assert_true(last < 6.0);
+    reaming to = usual();
+    to.speed = 0.5;
+    to.wings = 0.11;
+    to.spacing = 0.5 * close;
+    to.again = last + 0.5 * close;
+    begin(&to);
+    const uint64_t before = rig_hash(&to.s);
+    assert_int_equal(dmb_sim_transfer_state(to.s.sim, from.s.sim), DMB_ERR_GEOMETRY);
+    print_message("    %s\n", dmb_sim_message(to.s.sim));
+    assert_non_null(strstr(dmb_sim_message(to.s.sim), "state transfer: wall: the radius would change by "));
+    assert_true(rig_hash(&to.s) == before);
+    rig_close(&to.s);
+    rig_close(&from.s);
+}
+
 /* ---- Refusals -----------------------------------------------------------------------------------------------------
  */
 
@@ -494,6 +528,7 @@ int main(void)
         cmocka_unit_test(it_goes_on_from_a_snapshot),
         cmocka_unit_test(narrow_cutters_change_nothing),
         cmocka_unit_test(another_model_goes_on_in_the_hole),
+        cmocka_unit_test(a_hole_that_would_be_too_steep),
         cmocka_unit_test(what_it_cannot_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
