@@ -270,7 +270,10 @@ DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dm
 
 enum {
     DMB_ROCK_NONE = 0,
-    DMB_ROCK_RATE = 1,        /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega */
+    DMB_ROCK_RATE = 1, /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its
+                          torque grows as Omega falls, so that a bit that is slowed down stops at once, and sticks
+                          by nothing but its string: there steps may find no solution, however short. Where a bit
+                          may stick or bounce (undamped pipes, say) take the next one */
     DMB_ROCK_REGENERATIVE = 2 /* Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left */
 };
 typedef struct dmb_bit_def {

@@ -356,6 +356,19 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
 
 /* Message of a failed attempt: which part, at what time. */
 
+/* Tells what to do about a step that does not converge, where that is known. */
+static void advise(const dmb_sim *sim, dmb_message *text)
+{
+    double spin = 0.0;
+    const uint32_t bit = dmb_bit_near_rest(sim, &spin);
+    dmb_message_clear(text);
+    if (bit == DMB_NONE) return;
+    dmb_message_set(text,
+                    "; bit %u comes to %g rad/s, where DMB_ROCK_RATE has no sticking: damp its string, or take "
+                    "DMB_ROCK_REGENERATIVE",
+                    bit, spin);
+}
+
 void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
 {
     dmb_owner owner;
@@ -398,8 +411,10 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
             dmb_clusters_explain(sim, "its equations cannot be satisfied");
             break;
         }
-        dmb_message_set(
-            &sim->message, "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
-            attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual, attempt->bound);
+        advise(sim, &owner.text);
+        dmb_message_set(&sim->message,
+                        "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g%s",
+                        attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual,
+                        attempt->bound, owner.text.text);
     }
 }

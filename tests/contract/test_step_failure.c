@@ -323,6 +323,63 @@ static void failing_static_start_changes_nothing(void **state)
     dmb_model_destroy(&model);
 }
 
+/* ---- A bit that hardly turns ------------------------------------------------------------------------------------- */
+
+/* Undamped pipes that are fed and turned from rest on. */
+static void open_drilling(scene *s, int32_t law, double speed)
+{
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_term term = dmb_term_default();
+    open_scene(s);
+    pipe.length = 3.0;
+    whole_must(s->model, dmb_model_add_pipes(s->model, &pipe, 4, &s->string));
+    bit.rock_law = law;
+    bit.diameter = 0.0;
+    whole_must(s->model, dmb_model_add_bit(s->model, &bit, NULL));
+    for (int i = 0; i < 2; i++) {
+        term.kind = DMB_TERM_STEP;
+        term.h1 = i == 0 ? 0.1 : speed; /* [m/s, rad/s] */
+        drive.component = i == 0 ? DMB_X : DMB_RX;
+        whole_must(s->model, dmb_model_add_programme(s->model, &term, 1, &drive.programme));
+        whole_must(s->model, dmb_model_add_drive(s->model, &drive, NULL));
+    }
+    start(s, NULL);
+}
+
+/* Steps to 6 s; the status of the one that failed. */
+static int32_t drill(scene *s, int32_t law, double speed)
+{
+    int32_t status = DMB_OK;
+    open_drilling(s, law, speed);
+    for (int i = 0; i < 3000 && status >= 0; i++) status = dmb_sim_step(s->sim, 2e-3, NULL);
+    return status;
+}
+
+/* Where one of the runs fails hangs on roundings, for they shake ever more; all of them go through with the other law.
+ */
+static void rate_law_near_rest(void **state)
+{
+    int told = 0;
+    (void)state;
+    for (double speed = 2.0; speed < 4.5; speed += 1.0) {
+        scene s;
+        if (drill(&s, DMB_ROCK_RATE, speed) < 0) {
+            const char *message = dmb_sim_message(s.sim);
+            print_message("    %s\n", message);
+            assert_non_null(strstr(message, "iterations, relative residual = "));
+            told += strstr(message, "; bit 0 comes to ") != NULL && strstr(message, "DMB_ROCK_REGENERATIVE") != NULL;
+            must_fail(&s, 2e-3, DMB_ERR_NO_CONVERGENCE);
+        }
+        close_scene(&s);
+        const int32_t status = drill(&s, DMB_ROCK_REGENERATIVE, speed);
+        if (status < 0) fail_msg("regenerative law: %s", dmb_sim_message(s.sim));
+        close_scene(&s);
+    }
+    assert_true(told > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -337,6 +394,7 @@ int main(void)
         cmocka_unit_test(failing_advance_stops_at_an_accepted_state),
         cmocka_unit_test(report_is_of_this_call),
         cmocka_unit_test(failing_static_start_changes_nothing),
+        cmocka_unit_test(rate_law_near_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

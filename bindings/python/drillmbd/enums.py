@@ -263,7 +263,7 @@ ATTACH_END = Attach.END
 class RockLaw(IntEnum):
     """Values DMB_ROCK_... of the headers."""
     NONE = 0
-    RATE = 1  #: Detournay, Defourny 1992: depth of cut 2 pi V/Omega
+    RATE = 1  #: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls, so that a bit that is slowed down stops at once, and sticks by nothing but its string: there steps may find no solution, however short. Where a bit may stick or bounce (undamped pipes, say) take the next one
     REGENERATIVE = 2  #: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
 
 

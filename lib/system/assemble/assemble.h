@@ -139,6 +139,8 @@ void dmb_bit_slope_of(const dmb_sim *sim, uint32_t bit, dmb_bit_slope *out);
 dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t bit);
 /* Flat rock at the described distance, at the start. */
 void dmb_bit_start(dmb_sim *sim, uint32_t bit);
+/* A bit with the rate law, at the rock, that hardly turned before a step or in it, and how fast [rad/s]; DMB_NONE. */
+uint32_t dmb_bit_near_rest(const dmb_sim *sim, double *spin);
 /* 1: the bit stands on the rock; at time 0 as described. */
 int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t bit);
 /* Rock as after drilling on for long at the speed and spin of the accepted state. */

@@ -94,6 +94,24 @@ static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion
                        m->spin, out);
 }
 
+/* [rad/s] Spin below which a step that fails tells what the rate law is good for; [m] off bottom, where it may meet. */
+#define DMB_BIT_SLOW 1.0
+#define DMB_BIT_NEAR 1e-3
+
+uint32_t dmb_bit_near_rest(const dmb_sim *sim, double *spin)
+{
+    for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
+        const dmb_scene_bit *bit = sim->scene->bits + k;
+        double before[6], tried[6];
+        if (bit->law.kind != DMB_ROCK_RATE || sim->now.bit_bottom[k] - sim->now.bit_advance[k] > DMB_BIT_NEAR) continue;
+        dmb_node_vector(sim->scene, &sim->now, bit->node, sim->now.velocity, before);
+        dmb_node_vector(sim->scene, &sim->trial, bit->node, sim->trial.velocity, tried);
+        *spin = fabs(tried[3]) < fabs(before[3]) ? tried[3] : before[3];
+        if (fabs(*spin) < DMB_BIT_SLOW) return k;
+    }
+    return DMB_NONE;
+}
+
 int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t k)
 {
     if (sim->clock->time == 0.0) return sim->scene->bits[k].bottom <= 0.0;
