@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asked_analyses.h"
 #include "model/model.h"
 #include "rig.h"
 #include "scarce.h"
@@ -143,223 +144,6 @@ static void close_subject(subject *c)
 
 /* ---- The calls --------------------------------------------------------------------------------------------------- */
 
-#define GIVES_NOTHING_OUT(result) assert_true(status >= 0 || (result) == NULL)
-
-static int32_t own_statics(subject *c)
-{
-    return dmb_analysis_static(c->s.sim, NULL, NULL);
-}
-
-static int32_t steady(subject *c)
-{
-    dmb_static_options options = dmb_static_options_default();
-    options.steady = 1;
-    return dmb_analysis_static(c->s.sim, &options, NULL);
-}
-
-static int32_t check_model(subject *c)
-{
-    dmb_check_report report = dmb_check_report_default();
-    return dmb_analysis_check(c->s.sim, &report);
-}
-
-static int32_t check_as_text(subject *c)
-{
-    char text[8192];
-    size_t needed;
-    return dmb_analysis_check_text(c->s.sim, text, sizeof text, &needed);
-}
-
-static int32_t buckle(subject *c, int32_t follow)
-{
-    dmb_buckling_options options = dmb_buckling_options_default();
-    dmb_buckling *found = NULL;
-    options.follow = follow;
-    const int32_t status = dmb_analysis_buckling(c->s.sim, &options, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_buckling_destroy(&found);
-    return status;
-}
-
-static int32_t buckling(subject *c)
-{
-    return buckle(c, 0);
-}
-
-static int32_t followed_buckling(subject *c)
-{
-    return buckle(c, 1);
-}
-
-static int32_t path(subject *c)
-{
-    dmb_path_options options = dmb_path_options_default();
-    options.max_points = 4;
-    return dmb_analysis_path(c->s.sim, &options, NULL);
-}
-
-static int32_t modes_of(subject *c, int32_t kind, int32_t select)
-{
-    dmb_modes_options options = dmb_modes_options_default();
-    dmb_modes *found = NULL;
-    options.kind = kind;
-    options.select = select;
-    options.count = 3;
-    options.band[1] = 20.0;
-    const int32_t status = dmb_analysis_modes(c->s.sim, &options, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_modes_destroy(&found);
-    return status;
-}
-
-static int32_t lowest_modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_UNDAMPED, DMB_MODES_LOWEST);
-}
-
-static int32_t all_modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_UNDAMPED, DMB_MODES_ALL);
-}
-
-static int32_t modes_of_a_band(subject *c)
-{
-    return modes_of(c, DMB_MODES_UNDAMPED, DMB_MODES_BAND);
-}
-
-static int32_t damped_modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_DAMPED, DMB_MODES_LOWEST);
-}
-
-static int32_t all_damped_modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_DAMPED, DMB_MODES_ALL);
-}
-
-/* Bands of so many modes that they are searched for piece by piece. */
-static int32_t modes_of_a_wide_band(subject *c, int32_t kind)
-{
-    dmb_modes_options options = dmb_modes_options_default();
-    dmb_modes *found = NULL;
-    dmb_modes_info info = dmb_modes_info_default();
-    options.kind = kind;
-    options.select = DMB_MODES_BAND;
-    options.band[0] = 0.1;
-    options.band[1] = 60.0;
-    const int32_t status = dmb_analysis_modes(c->s.sim, &options, &found);
-    GIVES_NOTHING_OUT(found);
-    if (status >= 0) {
-        assert_int_equal(dmb_modes_get_info(found, &info), DMB_OK);
-        assert_true(info.count > 64 && !info.dense);
-    }
-    dmb_modes_destroy(&found);
-    return status;
-}
-
-static int32_t wide_band(subject *c)
-{
-    return modes_of_a_wide_band(c, DMB_MODES_UNDAMPED);
-}
-
-static int32_t wide_damped_band(subject *c)
-{
-    return modes_of_a_wide_band(c, DMB_MODES_DAMPED);
-}
-
-static dmb_input force_on(const subject *c)
-{
-    dmb_input input = dmb_input_default();
-    input.place = c->place;
-    input.component = DMB_Y;
-    return input;
-}
-
-static dmb_output motion_of(const subject *c)
-{
-    dmb_output output = dmb_output_default();
-    output.place = c->place;
-    output.component = DMB_Y;
-    return output;
-}
-
-static int32_t response(subject *c)
-{
-    const dmb_input input = force_on(c);
-    const dmb_output output = motion_of(c);
-    dmb_response_options options = dmb_response_options_default();
-    dmb_response *found = NULL;
-    options.points = 20;
-    options.refinement = 5;
-    const int32_t status = dmb_analysis_response(c->s.sim, &options, &input, 1, &output, 1, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_response_destroy(&found);
-    return status;
-}
-
-static int32_t speeds(subject *c)
-{
-    const dmb_output output = motion_of(c);
-    const double limit = 1e-6;
-    dmb_order order = dmb_order_default();
-    dmb_speeds_options options = dmb_speeds_options_default();
-    dmb_speed_band bands[4] = {dmb_speed_band_default()};
-    uint32_t count = 4;
-    order.input = force_on(c);
-    options.points = 20;
-    return dmb_analysis_speeds(c->s.sim, &options, &order, 1, &output, &limit, 1, bands, &count, NULL);
-}
-
-/* It moves the sim on. */
-static int32_t stepped_sine(subject *c)
-{
-    const dmb_output output = motion_of(c);
-    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    double amplitudes[8];
-    options.steps_per_period = 24;
-    options.windows = 3;
-    options.periods = 1;
-    return dmb_analysis_stepped_sine(c->s.sim, 20.0, &options, &output, 1, amplitudes, NULL);
-}
-
-static int32_t state_space(subject *c)
-{
-    const dmb_input input = force_on(c);
-    const dmb_output output = motion_of(c);
-    dmb_state_space *found = NULL;
-    const int32_t status = dmb_analysis_state_space(c->s.sim, NULL, &input, 1, &output, 1, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_state_space_destroy(&found);
-    return status;
-}
-
-static int32_t reduced_state_space(subject *c)
-{
-    const dmb_input input = force_on(c);
-    const dmb_output output = motion_of(c);
-    dmb_modes_options lowest = dmb_modes_options_default();
-    dmb_state_space_options options = dmb_state_space_options_default();
-    dmb_state_space *found = NULL;
-    dmb_modes *modes = NULL;
-    lowest.count = 3;
-    int32_t status = dmb_analysis_modes(c->s.sim, &lowest, &modes);
-    if (status < 0) return status;
-    options.form = DMB_STATE_REDUCED;
-    options.modes = modes;
-    status = dmb_analysis_state_space(c->s.sim, &options, &input, 1, &output, 1, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_state_space_destroy(&found);
-    dmb_modes_destroy(&modes);
-    return status;
-}
-
-static int32_t residual_array(subject *c)
-{
-    double values[512];
-    uint64_t count = 512;
-    return dmb_analysis_array(c->s.sim, DMB_ARRAY_RESIDUAL, values, &count);
-}
-
 static int32_t place_rows(subject *c)
 {
     uint32_t rows[24], count;
@@ -448,39 +232,46 @@ static int32_t transfer(subject *c)
 
 typedef struct row {
     const char *name;
-    int32_t (*call)(subject *c);
-    int32_t moves;   /* 1: the sim is moved where it works */
+    int32_t (*call)(subject *c);       /* own, or */
+    int32_t (*ask)(const asked_of *a); /* of the common ones */
+    int32_t moves;                     /* 1: the sim is moved where it works */
     int32_t refused; /* scenes that it is not for: bit 0 the string, bit 1 the mechanism, bit 2 sparse */
 } row;
 
 static const row rows[] = {
-    {"statics", own_statics, 1, 0},
-    {"steady states", steady, 1, 0},
-    {"check", check_model, 0, 0},
-    {"check as text", check_as_text, 0, 0},
-    {"buckling", buckling, 0, 0},
-    {"buckling, followed", followed_buckling, 0, 6},
-    {"path", path, 0, 6},
-    {"lowest modes", lowest_modes, 0, 0},
-    {"all modes", all_modes, 0, 0},
-    {"modes of a band", modes_of_a_band, 0, 0},
-    {"damped modes", damped_modes, 0, 0},
-    {"all damped modes", all_damped_modes, 0, 0},
-    {"response", response, 0, 0},
-    {"speeds", speeds, 0, 0},
-    {"stepped sine", stepped_sine, 1, 0},
-    {"state space", state_space, 0, 0},
-    {"reduced state space", reduced_state_space, 0, 0},
-    {"array of the residual", residual_array, 0, 0},
-    {"rows of a place", place_rows, 0, 0},
-    {"torque and drag", torque_drag, 0, 7},
-    {"profile of torque and drag", torque_drag_profile, 0, 7},
-    {"friction factor", friction_factor, 0, 7},
-    {"fatigue", fatigue, 0, 0},
-    {"window", window, 0, 0},
-    {"sensitivity", sensitivity, 0, 4},
-    {"transfer", transfer, 1, 0},
+    {"statics", NULL, ask_statics, 1, 0},
+    {"steady states", NULL, ask_steady, 1, 0},
+    {"check", NULL, ask_check_model, 0, 0},
+    {"check as text", NULL, ask_check_as_text, 0, 0},
+    {"buckling", NULL, ask_buckling, 0, 0},
+    {"buckling, followed", NULL, ask_followed_buckling, 0, 6},
+    {"path", NULL, ask_path, 0, 6},
+    {"lowest modes", NULL, ask_lowest_modes, 0, 0},
+    {"all modes", NULL, ask_all_modes, 0, 0},
+    {"modes of a band", NULL, ask_modes_of_a_band, 0, 0},
+    {"damped modes", NULL, ask_damped_modes, 0, 0},
+    {"all damped modes", NULL, ask_all_damped_modes, 0, 0},
+    {"response", NULL, ask_response, 0, 0},
+    {"speeds", NULL, ask_speeds, 0, 0},
+    {"stepped sine", NULL, ask_stepped_sine, 1, 0},
+    {"state space", NULL, ask_state_space, 0, 0},
+    {"reduced state space", NULL, ask_reduced_state_space, 0, 0},
+    {"array of the residual", NULL, ask_residual_array, 0, 0},
+    {"rows of a place", place_rows, NULL, 0, 0},
+    {"torque and drag", torque_drag, NULL, 0, 7},
+    {"profile of torque and drag", torque_drag_profile, NULL, 0, 7},
+    {"friction factor", friction_factor, NULL, 0, 7},
+    {"fatigue", fatigue, NULL, 0, 0},
+    {"window", window, NULL, 0, 0},
+    {"sensitivity", sensitivity, NULL, 0, 4},
+    {"transfer", transfer, NULL, 1, 0},
 };
+
+static int32_t run(subject *c, const row *r)
+{
+    const asked_of all = {c->s.sim, c->place, DMB_Y, 20, 20.0, dmb_buckling_options_default().factor_max};
+    return r->ask != NULL ? r->ask(&all) : r->call(c);
+}
 
 /* ---- Each of them, each allocation ------------------------------------------------------------------------------- */
 
@@ -490,7 +281,7 @@ static void fail_one(subject *c, const row *r, size_t k)
     const uint64_t hash = rig_hash(&c->s);
     c->memory.calls = 0;
     c->memory.refused = k;
-    const int32_t status = r->call(c);
+    const int32_t status = run(c, r);
     const size_t calls = c->memory.calls;
     c->memory.refused = 0;
     if (calls < k) fail_msg("%s: %zu allocations, fewer than before", r->name, calls);
@@ -508,13 +299,13 @@ static void fail_each(subject *c, const row *r, size_t tried)
     assert_int_equal(dmb_sim_snapshot(c->s.sim, before, size), DMB_OK);
     const size_t live = c->memory.live;
     c->memory.calls = 0;
-    int32_t status = r->call(c);
+    int32_t status = run(c, r);
     if (status < 0) fail_msg("%s: %s: %s", r->name, dmb_status_name(status), dmb_sim_message(c->s.sim));
     const size_t calls = c->memory.calls, stride = calls / tried + 1;
     assert_int_equal(c->memory.live, live);
     must(&c->s, dmb_sim_restore(c->s.sim, before, size));
     for (size_t k = 1; k <= calls; k += stride) fail_one(c, r, k);
-    status = r->call(c);
+    status = run(c, r);
     if (status < 0) fail_msg("%s, again: %s", r->name, dmb_status_name(status));
     must(&c->s, dmb_sim_restore(c->s.sim, before, size));
     print_message("    %4zu allocations of %s\n", calls, r->name);
@@ -563,8 +354,8 @@ static void by_sparse_matrices(void **state)
 
 static void on_a_long_string(void **state)
 {
-    static const row wide[2] = {{"modes of a wide band", wide_band, 0, 0},
-                                {"damped modes of a wide band", wide_damped_band, 0, 0}};
+    static const row wide[2] = {{"modes of a wide band", NULL, ask_wide_band, 0, 0},
+                                {"damped modes of a wide band", NULL, ask_wide_damped_band, 0, 0}};
     (void)state;
     for (int i = 0; i < 2; i++) one_call(open_long_string, &wide[i], 12);
 }

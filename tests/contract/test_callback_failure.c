@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asked_analyses.h"
 #include "rig.h"
 
 enum { TRIED = 200 }; /* questions of a call that fail, spread over all of them */
@@ -176,8 +177,6 @@ static void close_subject(subject *c)
 
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
-#define GIVES_NOTHING_OUT(result) assert_true(status >= 0 || (result) == NULL)
-
 static int32_t step(subject *c)
 {
     return dmb_sim_step(c->r.sim, 1e-3, NULL);
@@ -206,160 +205,6 @@ static int32_t lock_joint(subject *c)
 static int32_t open_joint(subject *c)
 {
     return dmb_sim_set_joint(c->r.sim, c->joint, DMB_JOINT_OPEN);
-}
-
-static int32_t statics(subject *c)
-{
-    return dmb_analysis_static(c->r.sim, NULL, NULL);
-}
-
-static int32_t statics_laid(subject *c)
-{
-    dmb_static_options options = dmb_static_options_default();
-    options.lay_on_wall = 1;
-    return dmb_analysis_static(c->r.sim, &options, NULL);
-}
-
-static int32_t statics_in_steps(subject *c)
-{
-    dmb_static_options options = dmb_static_options_default();
-    options.load_steps = 3;
-    return dmb_analysis_static(c->r.sim, &options, NULL);
-}
-
-static int32_t steady(subject *c)
-{
-    dmb_static_options options = dmb_static_options_default();
-    options.steady = 1;
-    return dmb_analysis_static(c->r.sim, &options, NULL);
-}
-
-static int32_t check(subject *c)
-{
-    dmb_check_report report = dmb_check_report_default();
-    return dmb_analysis_check(c->r.sim, &report);
-}
-
-static int32_t buckle(subject *c, int32_t follow)
-{
-    dmb_buckling_options options = dmb_buckling_options_default();
-    dmb_buckling *found = NULL;
-    options.follow = follow;
-    options.factor_max = 1e4;
-    const int32_t status = dmb_analysis_buckling(c->r.sim, &options, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_buckling_destroy(&found);
-    return status;
-}
-
-static int32_t buckling(subject *c)
-{
-    return buckle(c, 0);
-}
-
-static int32_t followed_buckling(subject *c)
-{
-    return buckle(c, 1);
-}
-
-static int32_t path(subject *c)
-{
-    dmb_path_options options = dmb_path_options_default();
-    options.max_points = 4;
-    return dmb_analysis_path(c->r.sim, &options, NULL);
-}
-
-static int32_t modes_of(subject *c, int32_t kind)
-{
-    dmb_modes_options options = dmb_modes_options_default();
-    dmb_modes *found = NULL;
-    options.kind = kind;
-    options.count = 3;
-    const int32_t status = dmb_analysis_modes(c->r.sim, &options, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_modes_destroy(&found);
-    return status;
-}
-
-static int32_t modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_UNDAMPED);
-}
-
-static int32_t damped_modes(subject *c)
-{
-    return modes_of(c, DMB_MODES_DAMPED);
-}
-
-static dmb_input force_on(const subject *c)
-{
-    dmb_input input = dmb_input_default();
-    input.place = c->place;
-    input.component = DMB_Z;
-    return input;
-}
-
-static dmb_output motion_of(const subject *c)
-{
-    dmb_output output = dmb_output_default();
-    output.place = c->place;
-    output.component = DMB_Z;
-    return output;
-}
-
-static int32_t response(subject *c)
-{
-    const dmb_input input = force_on(c);
-    const dmb_output output = motion_of(c);
-    dmb_response_options options = dmb_response_options_default();
-    dmb_response *found = NULL;
-    options.points = 3;
-    const int32_t status = dmb_analysis_response(c->r.sim, &options, &input, 1, &output, 1, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_response_destroy(&found);
-    return status;
-}
-
-static int32_t speeds(subject *c)
-{
-    const dmb_output output = motion_of(c);
-    const double limit = 1e-6;
-    dmb_order order = dmb_order_default();
-    dmb_speeds_options options = dmb_speeds_options_default();
-    dmb_speed_band bands[4] = {dmb_speed_band_default()};
-    uint32_t count = 4;
-    order.input = force_on(c);
-    options.points = 5;
-    return dmb_analysis_speeds(c->r.sim, &options, &order, 1, &output, &limit, 1, bands, &count, NULL);
-}
-
-static int32_t stepped_sine(subject *c)
-{
-    const dmb_output output = motion_of(c);
-    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    double amplitudes[8];
-    options.steps_per_period = 24;
-    options.windows = 3;
-    options.periods = 1;
-    return dmb_analysis_stepped_sine(c->r.sim, 50.0, &options, &output, 1, amplitudes, NULL);
-}
-
-static int32_t state_space(subject *c)
-{
-    const dmb_input input = force_on(c);
-    const dmb_output output = motion_of(c);
-    dmb_state_space *found = NULL;
-    const int32_t status = dmb_analysis_state_space(c->r.sim, NULL, &input, 1, &output, 1, &found);
-    GIVES_NOTHING_OUT(found);
-    dmb_state_space_destroy(&found);
-    return status;
-}
-
-static int32_t residual(subject *c)
-{
-    double values[512];
-    uint64_t count = 512;
-    return dmb_analysis_array(c->r.sim, DMB_ARRAY_RESIDUAL, values, &count);
 }
 
 static int32_t create(subject *c)
@@ -401,37 +246,44 @@ static int32_t transfer(subject *c)
 
 typedef struct row {
     const char *name;
-    int32_t (*call)(subject *c);
-    int32_t scenes; /* that it is for: 1 the string, 2 the mechanism */
-    int32_t goes;   /* 1: the sim stays where the steps before led */
+    int32_t (*call)(subject *c);       /* own, or */
+    int32_t (*ask)(const asked_of *a); /* of the common ones */
+    int32_t scenes;                    /* that it is for: 1 the string, 2 the mechanism */
+    int32_t goes;                      /* 1: the sim stays where the steps before led */
 } row;
 
 static const row rows[] = {
-    {"step", step, 3, 0},
-    {"advance", advance, 3, 1},
-    {"set drive", set_drive, 1, 0},
-    {"set input", set_input, 1, 0},
-    {"lock a joint", lock_joint, 2, 0},
-    {"open a joint", open_joint, 2, 0},
-    {"statics", statics, 3, 0},
-    {"statics, laid on the wall", statics_laid, 1, 0},
-    {"statics in load steps", statics_in_steps, 3, 0},
-    {"steady states", steady, 3, 0},
-    {"check", check, 3, 0},
-    {"buckling", buckling, 3, 0},
-    {"buckling, followed", followed_buckling, 1, 0},
-    {"path", path, 1, 0},
-    {"modes", modes, 3, 0},
-    {"damped modes", damped_modes, 3, 0},
-    {"response", response, 3, 0},
-    {"speeds", speeds, 3, 0},
-    {"stepped sine", stepped_sine, 3, 1},
-    {"state space", state_space, 3, 0},
-    {"array of the residual", residual, 3, 0},
-    {"create", create, 3, 0},
-    {"sensitivity", sensitivity, 3, 1},
-    {"transfer", transfer, 3, 0},
+    {"step", step, NULL, 3, 0},
+    {"advance", advance, NULL, 3, 1},
+    {"set drive", set_drive, NULL, 1, 0},
+    {"set input", set_input, NULL, 1, 0},
+    {"lock a joint", lock_joint, NULL, 2, 0},
+    {"open a joint", open_joint, NULL, 2, 0},
+    {"statics", NULL, ask_statics, 3, 0},
+    {"statics, laid on the wall", NULL, ask_statics_laid, 1, 0},
+    {"statics in load steps", NULL, ask_statics_in_steps, 3, 0},
+    {"steady states", NULL, ask_steady, 3, 0},
+    {"check", NULL, ask_check_model, 3, 0},
+    {"buckling", NULL, ask_buckling, 3, 0},
+    {"buckling, followed", NULL, ask_followed_buckling, 1, 0},
+    {"path", NULL, ask_path, 1, 0},
+    {"modes", NULL, ask_lowest_modes, 3, 0},
+    {"damped modes", NULL, ask_damped_modes, 3, 0},
+    {"response", NULL, ask_response, 3, 0},
+    {"speeds", NULL, ask_speeds, 3, 0},
+    {"stepped sine", NULL, ask_stepped_sine, 3, 1},
+    {"state space", NULL, ask_state_space, 3, 0},
+    {"array of the residual", NULL, ask_residual_array, 3, 0},
+    {"create", create, NULL, 3, 0},
+    {"sensitivity", sensitivity, NULL, 3, 1},
+    {"transfer", transfer, NULL, 3, 0},
 };
+
+static int32_t run(subject *c, const row *r)
+{
+    const asked_of all = {c->r.sim, c->place, DMB_Z, 3, 50.0, 1e4};
+    return r->ask != NULL ? r->ask(&all) : r->call(c);
+}
 
 /* ---- Each of them, each question --------------------------------------------------------------------------------- */
 
@@ -440,7 +292,7 @@ static void fail_one(subject *c, const row *r, size_t k)
     const uint64_t before = rig_hash(&c->r);
     c->asked = 0;
     c->failing = k;
-    const int32_t status = r->call(c);
+    const int32_t status = run(c, r);
     c->failing = 0;
     if (c->asked < k) fail_msg("%s: %zu questions, fewer than before", r->name, c->asked);
     if (status != DMB_ERR_CALLBACK)
@@ -458,7 +310,7 @@ static void fail_each(subject *c, const row *r)
     assert_non_null(before);
     assert_int_equal(dmb_sim_snapshot(c->r.sim, before, size), DMB_OK);
     c->asked = 0;
-    int32_t status = r->call(c);
+    int32_t status = run(c, r);
     if (status < 0) fail_msg("%s: %s: %s", r->name, dmb_status_name(status), dmb_sim_message(c->r.sim));
     const size_t asked = c->asked, stride = asked / TRIED + 1;
     const uint64_t after = rig_hash(&c->r);
@@ -467,7 +319,7 @@ static void fail_each(subject *c, const row *r)
         fail_one(c, r, k);
         must(&c->r, dmb_sim_restore(c->r.sim, before, size));
     }
-    status = r->call(c);
+    status = run(c, r);
     if (status < 0) fail_msg("%s, again: %s", r->name, dmb_status_name(status));
     assert_true(rig_hash(&c->r) == after);
     print_message("    %4zu questions of %s\n", asked, r->name);
