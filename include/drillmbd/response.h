@@ -93,7 +93,8 @@ DMB_SIZED_STRUCT(dmb_response_options)
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
 /* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
- * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs,
+ * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies; joints
+ * whose parts turn against each other so that their equations change in these frames are _UNSUPPORTED. inputs,
  * outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options
  * may be NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option,
  * component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency

@@ -50,6 +50,8 @@ typedef struct dmb_linear {
     uint32_t *row_of;         /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
+    uint32_t turning; /* a constraint whose equations change as the state moves on; DMB_NONE: none */
+    uint32_t reserved;
     double load_factor;   /* [-] of gravity, loads and bit loads */
     double *spin, *rest;  /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
     double *held_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
@@ -67,6 +69,11 @@ typedef struct dmb_linear {
  * _SINGULAR. */
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
 void dmb_linear_release(dmb_linear **linear);
+/* Looks for a constraint whose equations change in the axes of d while the state of `sim` moves on, so that the
+ * coefficients of R^T M R z'' + .. = 0 are not constant; and refuses, with a message of `who`, where there is one:
+ * DMB_ERR_UNSUPPORTED. */
+int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim);
+int32_t dmb_linear_check_joints(const dmb_linear *linear, const char *who, dmb_message *message);
 
 /* Entry of component c of a node on the diagonal of A. */
 static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_linear_matrix *A, uint32_t node,

@@ -182,6 +182,7 @@ static int32_t linearise(response_work *w)
         .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
+    if (status >= 0) status = dmb_linear_check_joints(w->linear, "response", &w->sim->message);
     if (status < 0) return status;
     w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
     return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);

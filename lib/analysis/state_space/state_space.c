@@ -82,6 +82,8 @@ static int32_t linearise(dmb_space_work *w)
         .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status >= 0) status = check_balance(w);
+    if (status >= 0 && w->options.form != DMB_STATE_MATRICES)
+        status = dmb_linear_check_joints(w->linear, "state", &w->sim->message);
     if (status >= 0) status = dmb_whole_matrices(w->linear, &w->space->whole);
     if (status >= 0) status = dmb_whole_jacobian(w->linear, &w->space->jacobian);
     if (status < 0) return status;

@@ -1,0 +1,165 @@
+/* Whether the equations of joints stay the same in the axes of the linear system while the state moves on.
+ *
+ *     d = R z,     B R = 0:     d' = R z' + R' z,     d'' = R z'' + 2 R' z' + R'' z
+ *
+ * The linear system has M R z'' + C R z' + K R z, so R must not change: R' = 0. In the body frames of two parts that
+ * turn against each other about a joint it does change (a rotor on a carrier that may tilt: what the carrier's tilt is
+ * for the rotor turns with it), unless the axes leave out this turning. An equation of speeds J V = 0 between parts
+ * that move against each other has terms J' V in d besides J d'. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/linear.h"
+#include "base/memory.h"
+#include "math/vec3.h"
+#include "sim/node.h"
+#include "system/constrain/constrain.h"
+#include "system/system.h"
+
+/* [rad] that the fastest part of the state turns meanwhile, or over the length scale moves. */
+#define DMB_JOINTS_ANGLE 1e-3
+/* [-] of the terms in B R z that may be left after that: rounding, and speeds that hold to 1e-6. */
+#define DMB_JOINTS_CHANGE 1e-8
+
+enum { DMB_JOINTS_DRAWS = 3 };
+
+/* [1/s] of the fastest node. */
+static double largest_rate(const dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double v[6];
+        dmb_node_vector(scene, &linear->work->now, i, linear->work->now.velocity, v);
+        most = fmax(most, dmb_vec3_norm(v) / scene->length_scale + dmb_vec3_norm(v + 3));
+    }
+    return most;
+}
+
+/* Rows of constraints at the place that the state reaches in a time h, in a copy of its own. */
+static int32_t move_on(const dmb_linear *linear, dmb_sim *copy, double h)
+{
+    const dmb_configuration *state = &linear->work->now;
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
+    memcpy(copy->now.velocity, state->velocity, linear->rows * sizeof(double));
+    for (uint32_t r = 0; r < linear->rows; r++)
+        copy->increment[r] = h * (state->velocity[r] + 0.5 * h * state->acceleration[r]);
+    dmb_system_move(copy);
+    evaluation.sim = copy;
+    evaluation.time += h;
+    return dmb_constraint_rows(&evaluation);
+}
+
+/* d by body frames after the time h, of d in axes that do not take part in the spin: d <- exp(-w^ h) d. */
+static void turn_back(const dmb_linear *linear, double h, double *d)
+{
+    const dmb_scene *scene = &linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double *x = d + scene->layout.row[i];
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        const double angle = h * linear->spin[scene->layout.row[i] + 3], c = cos(angle), s = sin(angle);
+        for (int k = 0; k < 6; k += 3) {
+            const double y = x[k + 1], z = x[k + 2];
+            x[k + 1] = c * y + s * z;
+            x[k + 2] = c * z - s * y;
+        }
+    }
+}
+
+/* z: translations of the length scale, rotations of 1, each +-(1/2 .. 3/2). */
+static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *d)
+{
+    const dmb_scene *scene = &linear->scene;
+    for (uint32_t i = 0; i < linear->coordinates; i++) {
+        const uint32_t row = linear->row_of[i], node = dmb_node_of_row(scene, row);
+        const uint32_t c = row - scene->layout.row[node];
+        *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        const double number = 0.5 + (double)(*seed >> 41) * 0x1p-23;
+        z[i] = ((*seed >> 40 & 1) != 0 ? number : -number) *
+               (2 * c < scene->layout.size[node] ? scene->length_scale : 1.0);
+    }
+    dmb_linear_expand(linear, z, d);
+}
+
+/* 1 if a row of the constraint no longer holds d. */
+static int has_changed(const dmb_sim *copy, const dmb_constraint *constraint, const double *d)
+{
+    const dmb_block_layout *layout = &copy->scene->layout;
+    for (uint32_t r = 0; r < constraint->rows; r++) {
+        const double *J = copy->constraint_jacobian + constraint->jacobian + (size_t)r * constraint->columns;
+        double sum = 0.0, terms = 0.0;
+        for (uint32_t k = 0; k < constraint->node_count; k++)
+            for (uint32_t c = 0; c < layout->size[constraint->node[k]]; c++) {
+                const double term = J[constraint->column[k] + c] * d[layout->row[constraint->node[k]] + c];
+                sum += term;
+                terms += fabs(term);
+            }
+        if (fabs(sum) > DMB_JOINTS_CHANGE * terms) return 1;
+    }
+    return 0;
+}
+
+/* 1 if it has equations of speeds and its parts move against each other; of a callback, if they move. */
+static int rolls(const dmb_linear *linear, const dmb_sim *copy, const dmb_constraint *constraint, double rate)
+{
+    double motion = 0.0;
+    int speeds = 0;
+    for (uint32_t r = 0; r < constraint->rows; r++)
+        speeds |= copy->constraint_type[constraint->row + r] == DMB_ROW_SPEED;
+    if (!speeds) return 0;
+    if (constraint->kind == DMB_OF_JOINT) {
+        dmb_relative relative;
+        dmb_joint_motion_of(&linear->scene, &linear->work->now, constraint->index, &relative, NULL);
+        motion = dmb_vec3_norm(relative.V) / linear->scene.length_scale + dmb_vec3_norm(relative.V + 3);
+    } else {
+        for (uint32_t k = 0; k < constraint->node_count; k++) {
+            double v[6];
+            dmb_node_vector(&linear->scene, &linear->work->now, constraint->node[k], linear->work->now.velocity, v);
+            motion = fmax(motion, dmb_vec3_norm(v) / linear->scene.length_scale + dmb_vec3_norm(v + 3));
+        }
+    }
+    return motion > DMB_LINEAR_BALANCED * rate;
+}
+
+static uint32_t find_turning(const dmb_linear *linear, const dmb_sim *copy, double rate, double *z, double *d)
+{
+    uint64_t seed = 1;
+    for (uint32_t i = 0; i < linear->scene.constraint_count; i++)
+        if (rolls(linear, copy, linear->scene.constraints + i, rate)) return i;
+    for (int k = 0; k < DMB_JOINTS_DRAWS; k++) {
+        draw(linear, &seed, z, d);
+        turn_back(linear, DMB_JOINTS_ANGLE / rate, d);
+        for (uint32_t i = 0; i < linear->scene.constraint_count; i++)
+            if (has_changed(copy, linear->scene.constraints + i, d)) return i;
+    }
+    return DMB_NONE;
+}
+
+int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim)
+{
+    const double rate = linear->scene.cluster_count > 0 ? largest_rate(linear) : 0.0;
+    const size_t bytes = ((size_t)linear->coordinates + linear->rows) * sizeof(double);
+    int32_t status = DMB_ERR_NO_MEMORY;
+    linear->turning = DMB_NONE;
+    if (!(rate > 0.0) || linear->coordinates == 0) return DMB_OK;
+    dmb_sim *copy = dmb_state_copy(sim);
+    double *z = copy != NULL ? dmb_allocate(&linear->allocator, bytes) : NULL;
+    if (z != NULL) status = move_on(linear, copy, DMB_JOINTS_ANGLE / rate);
+    if (status >= 0) linear->turning = find_turning(linear, copy, rate, z, z + linear->coordinates);
+    dmb_release(&linear->allocator, z, bytes);
+    dmb_state_discard(copy);
+    return status;
+}
+
+int32_t dmb_linear_check_joints(const dmb_linear *linear, const char *who, dmb_message *message)
+{
+    dmb_message owner;
+    if (linear->turning == DMB_NONE) return DMB_OK;
+    dmb_constraint_text(&linear->scene, linear->turning, &owner);
+    dmb_message_set(message,
+                    "%s: %s: its parts move against each other, so that its equations change from one instant to the "
+                    "next in the axes "
+                    "of the linear system, whose coefficients must be constant",
+                    who, owner.text);
+    return DMB_ERR_UNSUPPORTED;
+}
