@@ -40,8 +40,8 @@ static int32_t is_unsharp(const dmb_sim *sim, const dmb_attempt *attempt, const 
     return attempt->residual <= fmin(1e-4, 4e-14 / (quality * quality));
 }
 
-/* [-] to which residuals are alike that come back every second time. */
-#define DMB_NEWTON_ALIKE 1e-3
+/* [-] to which residuals are alike that come back every second time, over how they differ from those between. */
+#define DMB_NEWTON_ALIKE 0.1
 
 /* A contact that opens when it is taken for closed, and closes when it is taken for open, has no solution at this end
  * of the step (the damping of a wall jumps at contact): the iteration goes to and fro between the two to its last. */
@@ -49,7 +49,7 @@ static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_attempt *attempt, d
 {
     const double now = attempt->residual;
     const int32_t found = course->corrections > 3 && now > 0.5 * course->last &&
-                          fabs(now - course->earlier) <= DMB_NEWTON_ALIKE * course->earlier;
+                          fabs(now - course->earlier) <= DMB_NEWTON_ALIKE * fabs(now - course->last);
     course->earlier = course->last;
     return found && sim->scene->site_count > 0 && follows_error(sim) && !sim->options.bounded_work;
 }
