@@ -1,5 +1,6 @@
 /* A reamer opens a pilot hole of 96 mm for a stabiliser of 115 mm that follows it. Each half metre: how far the wide
- * hole has come, and the force of its wall on the stabiliser; with new wings and with worn ones. */
+ * hole has come, and the force of its wall on the stabiliser, the mean of the last second; with new wings and with worn
+ * ones. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
@@ -44,15 +45,19 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 
-static void tell(dmb_sim *sim, dmb_id stabiliser, double diameter)
+static double force_on(dmb_sim *sim, dmb_id stabiliser)
 {
     dmb_contact wall = dmb_contact_default();
-    dmb_hole_point at = dmb_hole_point_default();
     for (uint32_t site = 0; dmb_query_contact(sim, site, &wall) >= 0 && wall.part.index != stabiliser.index;) site++;
+    return wall.normal_force;
+}
+
+static void tell(dmb_sim *sim, double force, double diameter)
+{
+    dmb_hole_point at = dmb_hole_point_default();
     double end = 7.5; /* [m] */
     while (dmb_query_hole_now(sim, end + 0.25, &at) >= 0 && at.diameter > diameter - 1e-9) end += 0.25;
-    printf("%4.0f s: %.0f mm up to %.2f m, on the stabiliser %.2f N\n", dmb_sim_time(sim), 1e3 * diameter, end,
-           wall.normal_force);
+    printf("%4.0f s: %.0f mm up to %.2f m, on the stabiliser %.2f N\n", dmb_sim_time(sim), 1e3 * diameter, end, force);
 }
 
 static int32_t ream(double diameter)
@@ -60,12 +65,14 @@ static int32_t ream(double diameter)
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id stabiliser;
+    double force = 0.0; /* [N] mean */
     int32_t status = dmb_model_create(NULL, &model);
     if (status >= 0) status = describe(model, diameter, &stabiliser);
     if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
     for (int i = 1; i <= 10000 && status >= 0; i++) {
         status = dmb_sim_step(sim, 2e-3, NULL);
-        if (i % 2500 == 0) tell(sim, stabiliser, diameter);
+        if ((i - 1) % 2500 >= 2000) force += force_on(sim, stabiliser) / 500.0;
+        if (i % 2500 == 0) tell(sim, force, diameter), force = 0.0;
     }
     if (status < 0) fprintf(stderr, "%s%s\n", dmb_model_message(model), dmb_sim_message(sim));
     dmb_sim_destroy(&sim);

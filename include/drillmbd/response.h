@@ -93,16 +93,17 @@ DMB_SIZED_STRUCT(dmb_response_options)
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
 /* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
- * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies; joints
- * whose parts turn against each other so that their equations change in these frames are _UNSUPPORTED. inputs,
- * outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options
- * may be NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option,
- * component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency
- * and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION. A
- * motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until
- * dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1
- * ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several
- * responses of one sim may not be computed at a time. */
+ * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies.
+ * DMB_NOTE_INCOMPLETE: joints whose equations change in these frames, since their parts turn against each other, or a
+ * string that turns on the wall, which goes round there; answers hold along and about the axes of the parts, not
+ * across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the
+ * first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error:
+ * DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE,
+ * _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED,
+ * _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's
+ * allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints +
+ * inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One
+ * thread; several responses of one sim may not be computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
                                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);
@@ -223,9 +224,9 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the
  * size of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found
  * than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
- * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is
- * truncated at an end of the range. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with
- * nothing written. Cost: that of order_count responses. */
+ * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, a band is
+ * truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors:
+ * as dmb_analysis_response, with nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,

@@ -71,9 +71,9 @@ typedef struct dmb_state_space dmb_state_space; /* matrices of the linear system
  * DMB_INPUT_SETTING; inputs that go with the square of the frequency (unbalance, eccentricity) are refused. Channels
  * are outputs of kind DMB_OUTPUT_CHANNEL. options may be NULL. The state is not changed; sim takes the message and need
  * not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of
- * dmb_analysis_response; DMB_ERR_TOO_LARGE above 4096 states (reduce), DMB_ERR_SINGULAR for a mass or a stiffness that
- * is singular (shift). O(coordinates^2) of DMB_STATE_FULL, O(shapes x elements) of DMB_STATE_REDUCED, O(elements) of
- * DMB_STATE_MATRICES. */
+ * dmb_analysis_response, and so is DMB_NOTE_INCOMPLETE; DMB_ERR_TOO_LARGE above 4096 states (reduce), DMB_ERR_SINGULAR
+ * for a mass or a stiffness that is singular (shift). O(coordinates^2) of DMB_STATE_FULL, O(shapes x elements) of
+ * DMB_STATE_REDUCED, O(elements) of DMB_STATE_MATRICES. */
 DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
                                          uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                          dmb_state_space **space);

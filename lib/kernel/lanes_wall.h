@@ -21,14 +21,14 @@ typedef struct wall_group {
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
     dmb_real penetration, impact_speed;
     dmb_mask touches;
-    uint32_t touching;             /* one bit for each lane that touches and is not one again */
     dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
     dmb_real bristle[2];           /* [m] the same */
-    uint32_t sticking;
     dmb_contact_frame frame;
 #if DMB_REAL_LANES == 1
     dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
 #endif
+    uint32_t touching; /* one bit for each lane that touches and is not one again */
+    uint32_t sticking; /* the same */
 } wall_group;
 
 /* In a hole of sections each ring has laws of its own. */

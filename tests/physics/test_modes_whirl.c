@@ -1,6 +1,7 @@
 /* Modes of turning strings as they are seen from outside (Campbell): forward and backward whirl of a shaft, the same in
  * axes that turn, and of a string that turns on the wall of its hole. */
 #include <stdio.h>
+#include <string.h>
 
 #include "modal.h"
 
@@ -163,6 +164,15 @@ static void swing_of_a_pipe_that_turns_on_the_wall(void **state)
     check_below("    swings with sqrt(g sqrt(1 + mu^2)/e)", closest_mode(modes, want), 1e-5);
     tell("    [Hz]", want / (2.0 * PI));
     dmb_modes_destroy(&modes);
+    dmb_modes_options options = dmb_modes_options_default();
+    options.spin = speed; /* in axes that turn the wall goes round */
+    const modes_refusal refusal = refused_modes(&s, &options);
+    assert_int_equal(refusal.status, DMB_ERR_UNSUPPORTED);
+    assert_non_null(strstr(refusal.text, "turns on the wall at 20 rad/s"));
+    options.contact = DMB_CONTACT_OPEN;
+    options.count = 2;
+    dmb_modes *without = find_modes(&s, &options);
+    dmb_modes_destroy(&without);
     rig_close(&s);
 }
 

@@ -50,16 +50,16 @@ typedef struct dmb_linear {
     uint32_t *row_of;         /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
-    uint32_t turning; /* a constraint whose equations change as the state moves on; DMB_NONE: none */
-    uint32_t reserved;
-    double load_factor;   /* [-] of gravity, loads and bit loads */
-    double *spin, *rest;  /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
-    double *held_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
-                             node and the node after, six each: what a drive that moves them exerts on the others;
-                             shape (scene.held_count, 3, 18) */
-    double *held_rows;    /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
-    double *whole_joints; /* the joints' parts of M, C and K, rows and columns that are held included, shape
-                             (3, scene.tangent_count) */
+    uint32_t turning;      /* a constraint whose equations change as the state moves on; DMB_NONE: none */
+    uint32_t turning_node; /* a node that turns on the wall in axes that turn with it; DMB_NONE: none */
+    double load_factor;    /* [-] of gravity, loads and bit loads */
+    double *spin, *rest;   /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
+    double *held_columns;  /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
+                              node and the node after, six each: what a drive that moves them exerts on the others;
+                              shape (scene.held_count, 3, 18) */
+    double *held_rows;     /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
+    double *whole_joints;  /* the joints' parts of M, C and K, rows and columns that are held included, shape
+                              (3, scene.tangent_count) */
     void *block;
     size_t block_size;
 } dmb_linear;
@@ -69,11 +69,14 @@ typedef struct dmb_linear {
  * _SINGULAR. */
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
 void dmb_linear_release(dmb_linear **linear);
-/* Looks for a constraint whose equations change in the axes of d while the state of `sim` moves on, so that the
- * coefficients of R^T M R z'' + .. = 0 are not constant; and refuses, with a message of `who`, where there is one:
- * DMB_ERR_UNSUPPORTED. */
+/* Looks for a constraint whose equations change in the axes of d while the state of `sim` moves on, and for a node that
+ * turns on the wall: coefficients of R^T M R z'' + .. = 0 are not constant then. dmb_linear_check_coefficients refuses
+ * both, with a message of `who`: DMB_ERR_UNSUPPORTED; dmb_linear_note_coefficients tells that such terms are left out:
+ * DMB_NOTE_INCOMPLETE. */
 int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim);
-int32_t dmb_linear_check_joints(const dmb_linear *linear, const char *who, dmb_message *message);
+void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_options *options);
+int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
+int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
 
 /* Entry of component c of a node on the diagonal of A. */
 static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_linear_matrix *A, uint32_t node,

@@ -113,6 +113,7 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status < 0) return status;
     dmb_linear_judge_rounding(linear);
     dmb_linear_turn_frames(linear, options->still);
+    dmb_linear_find_turning_on_wall(linear, options);
     dmb_linear_take_stiffness_size(linear);
     return dmb_linear_make_coordinates(linear);
 }

@@ -1,4 +1,7 @@
-/* Whether the equations of joints stay the same in the axes of the linear system while the state moves on.
+/* Whether coefficients stay the same in the axes of the linear system while the state moves on: those of the wall, and
+ * the equations of joints.
+ *
+ * The normal of the wall stands still, so that in axes that turn with a string it goes round.
  *
  *     d = R z,     B R = 0:     d' = R z' + R' z,     d'' = R z'' + 2 R' z' + R'' z
  *
@@ -20,6 +23,8 @@
 #define DMB_JOINTS_ANGLE 1e-3
 /* [-] of the terms in B R z that may be left after that: rounding, and speeds that hold to 1e-6. */
 #define DMB_JOINTS_CHANGE 1e-8
+/* [rad/s] below which a string on the wall stands still. */
+#define DMB_WALL_SPIN 1e-3
 
 enum { DMB_JOINTS_DRAWS = 3 };
 
@@ -151,15 +156,51 @@ int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim)
     return status;
 }
 
-int32_t dmb_linear_check_joints(const dmb_linear *linear, const char *who, dmb_message *message)
+/* [rad/s] about its own axis, where the axes of d take part in it. */
+static double spin_of(const dmb_linear *linear, uint32_t node)
 {
-    dmb_message owner;
-    if (linear->turning == DMB_NONE) return DMB_OK;
-    dmb_constraint_text(&linear->scene, linear->turning, &owner);
-    dmb_message_set(message,
-                    "%s: %s: its parts move against each other, so that its equations change from one instant to the "
-                    "next in the axes "
-                    "of the linear system, whose coefficients must be constant",
-                    who, owner.text);
-    return DMB_ERR_UNSUPPORTED;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    return layout->size[node] == DMB_NODE_FULL ? fabs(linear->rest[layout->row[node] + 3]) : 0.0;
+}
+
+void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_options *options)
+{
+    linear->turning_node = DMB_NONE;
+    for (uint32_t s = 0; s < linear->scene.site_count && linear->turning_node == DMB_NONE; s++) {
+        const uint32_t node = linear->scene.sites[s].node;
+        const int touches =
+            linear->work->trial.site_penetration[s] > 0.0 ||
+            (options->contact == DMB_CONTACT_CLOSED && dmb_linear_wall_stiffness(linear, s, options->gap) > 0.0);
+        if (touches && spin_of(linear, node) > DMB_WALL_SPIN) linear->turning_node = node;
+    }
+}
+
+/* 1 with a message of `who`, why and `then` what, if coefficients change. */
+static int tell_change(const dmb_linear *linear, const char *who, const char *then, dmb_message *message)
+{
+    if (linear->turning_node != DMB_NONE) {
+        const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->turning_node);
+        dmb_message_set(message, "%s: %s turns on the wall at %g rad/s, which goes round in axes that turn with it: %s",
+                        who, owner.text.text, spin_of(linear, linear->turning_node), then);
+    } else if (linear->turning != DMB_NONE) {
+        dmb_message owner;
+        dmb_constraint_text(&linear->scene, linear->turning, &owner);
+        dmb_message_set(message,
+                        "%s: %s: its parts move against each other, so that its equations change in axes that turn "
+                        "with them: %s",
+                        who, owner.text, then);
+    }
+    return linear->turning_node != DMB_NONE || linear->turning != DMB_NONE;
+}
+
+int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
+{
+    const char *const then = "take DMB_MODES_AXES_AT_REST, or a state that does not turn";
+    return tell_change(linear, who, then, message) ? DMB_ERR_UNSUPPORTED : DMB_OK;
+}
+
+int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
+{
+    const char *const then = "what that changes is left out; answers hold along and about the axes of the parts";
+    return tell_change(linear, who, then, message) ? DMB_NOTE_INCOMPLETE : DMB_OK;
 }

@@ -135,7 +135,7 @@ static int32_t finish(dmb_mode_search *search)
 static int32_t search_modes(dmb_mode_search *search)
 {
     int32_t status = check_balance(search);
-    if (status >= 0) status = dmb_linear_check_joints(search->linear, "modes", search->message);
+    if (status >= 0) status = dmb_linear_check_coefficients(search->linear, "modes", search->message);
     if (status >= 0) status = check_count(search);
     if (status < 0) return status;
     measure(search);

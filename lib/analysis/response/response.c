@@ -182,7 +182,6 @@ static int32_t linearise(response_work *w)
         .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
-    if (status >= 0) status = dmb_linear_check_joints(w->linear, "response", &w->sim->message);
     if (status < 0) return status;
     w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
     return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
@@ -341,13 +340,14 @@ static int32_t analyse(response_work *w, const dmb_response_options *options, co
     if (status < 0) return status;
     dmb_response *made = dmb_response_new(&sim->allocator, w->input_count, w->output_count);
     status = made != NULL ? respond(w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
+    if (status >= 0) status = dmb_linear_note_coefficients(w->linear, "response", &sim->message);
     release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
     if (status < 0)
         dmb_response_destroy(&made);
     else
         *response = made;
-    return status < 0 ? status : DMB_OK;
+    return status;
 }
 
 int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,

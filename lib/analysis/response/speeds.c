@@ -49,6 +49,7 @@ typedef struct speeds_run {
     double *speeds;                             /* of all curves, ascending, shape (points) */
     dmb_speed_band *found;                      /* shape (room) */
     dmb_speeds_report report;
+    dmb_message left_out; /* of responses that leave something out */
     uint32_t room, count;
 } speeds_run;
 
@@ -171,6 +172,7 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
     dmb_sim_take_back(r->sim);
     if (status < 0) return status;
+    if (status == DMB_NOTE_INCOMPLETE) r->left_out = r->sim->message;
     if (response->undamped) r->report.undamped = 1;
     (void)dmb_response_dimensions(response, shape);
     r->curves[k].order = order.order;
@@ -274,7 +276,8 @@ static int32_t judge(speeds_run *r)
     dmb_message_clear(&damping);
     dmb_message_clear(&cut);
     r->report.bands = r->count;
-    if (r->report.silent_orders == 0 && !r->report.undamped && r->report.truncated == 0) return DMB_OK;
+    if (r->report.silent_orders == 0 && !r->report.undamped && r->report.truncated == 0 && r->left_out.text[0] == 0)
+        return DMB_OK;
     if (r->report.silent_orders > 0)
         dmb_message_set(&order, " order %u (%g) moves no output: look at its amplitude and place;", silent,
                         r->curves[silent].order);
@@ -283,7 +286,8 @@ static int32_t judge(speeds_run *r)
     if (r->report.truncated != 0)
         dmb_message_set(&cut, " bands go on beyond %s of %g .. %g rad/s: widen the range;", ends[r->report.truncated],
                         r->options.speed_low, r->options.speed_high);
-    dmb_message_set(&r->sim->message, "speeds:%s%s%s", order.text, damping.text, cut.text);
+    dmb_message_set(&r->sim->message, "speeds:%s%s%s%s%s", order.text, damping.text, cut.text,
+                    r->left_out.text[0] != 0 ? " " : "", r->left_out.text);
     return DMB_NOTE_INCOMPLETE;
 }
 

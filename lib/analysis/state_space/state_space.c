@@ -82,8 +82,6 @@ static int32_t linearise(dmb_space_work *w)
         .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status >= 0) status = check_balance(w);
-    if (status >= 0 && w->options.form != DMB_STATE_MATRICES)
-        status = dmb_linear_check_joints(w->linear, "state", &w->sim->message);
     if (status >= 0) status = dmb_whole_matrices(w->linear, &w->space->whole);
     if (status >= 0) status = dmb_whole_jacobian(w->linear, &w->space->jacobian);
     if (status < 0) return status;
@@ -262,13 +260,15 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
         w->space->allocator = sim->allocator;
         status = run(w, inputs, outputs);
     }
+    if (status >= 0 && w->options.form != DMB_STATE_MATRICES)
+        status = dmb_linear_note_coefficients(w->linear, "state space", &sim->message);
     release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "state space: no memory");
     if (status < 0)
         dmb_state_space_destroy(&w->space);
     else
         *space = w->space;
-    return status < 0 ? status : DMB_OK;
+    return status;
 }
 
 int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
