@@ -14,8 +14,6 @@
 
 /* Rings of a group. */
 typedef struct wall_group {
-    lane_group site;
-    lane_places node, row;
     dmb_real offset, clearance, length;
     dmb_real x[3];                                 /* [m] their centres, world */
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
@@ -27,8 +25,10 @@ typedef struct wall_group {
 #if DMB_REAL_LANES == 1
     dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
 #endif
+    lane_places node, row;
     uint32_t touching; /* one bit for each lane that touches and is not one again */
     uint32_t sticking; /* the same */
+    lane_group site;
 } wall_group;
 
 /* In a hole of sections each ring has laws of its own. */
