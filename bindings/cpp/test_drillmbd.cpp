@@ -1,5 +1,6 @@
 // The C++ binding: owners that clean up and can be moved, failures as exceptions or statuses, a scene from end to end.
 #include "drillmbd.hpp"
+#include "expect.h"
 
 #include <cmath>
 #include <cstdio>
@@ -10,16 +11,6 @@
 #include <utility>
 
 namespace {
-
-int failures = 0;
-
-#define EXPECT(condition)                                                                                              \
-    do {                                                                                                               \
-        if (!(condition)) {                                                                                            \
-            std::cerr << "line " << __LINE__ << ": not so: " << #condition << '\n';                                    \
-            ++failures;                                                                                                \
-        }                                                                                                              \
-    } while (0)
 
 // The status with which a call throws; 0 if it does not.
 template <typename Call>

@@ -1,22 +1,13 @@
 // Fields by which mud goes along with bodies, bits and rings, motors take pressure, and cutters widen the hole, from
 // C++ against closed forms and against the C interface.
 #include "drillmbd.hpp"
+#include "expect.h"
 
 #include <cmath>
 #include <iostream>
 #include <string>
 
 namespace {
-
-int failures = 0;
-
-#define EXPECT(condition)                                                                                              \
-    do {                                                                                                               \
-        if (!(condition)) {                                                                                            \
-            std::cerr << "line " << __LINE__ << ": not so: " << #condition << '\n';                                    \
-            ++failures;                                                                                                \
-        }                                                                                                              \
-    } while (0)
 
 const double pi = 3.14159265358979323846;
 

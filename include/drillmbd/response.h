@@ -95,10 +95,10 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
  * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies.
  * DMB_NOTE_INCOMPLETE: joints whose equations change in these frames, since their parts turn against each other, or a
- * string that turns on the wall, which goes round there; answers hold along and about the axes of the parts, not
- * across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the
- * first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error:
- * DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE,
+ * string that turns on the wall, which goes round there; answers hold along and about the axes of straight
+ * parts, not across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size
+ * that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on
+ * error: DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE,
  * _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED,
  * _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's
  * allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints +

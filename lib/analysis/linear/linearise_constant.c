@@ -201,6 +201,6 @@ int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who,
 
 int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
 {
-    const char *const then = "what that changes is left out; answers hold along and about the axes of the parts";
+    const char *const then = "what that changes is left out; answers hold along and about the axes of straight parts";
     return tell_change(linear, who, then, message) ? DMB_NOTE_INCOMPLETE : DMB_OK;
 }
