@@ -73,6 +73,10 @@ typedef struct dmb_output {
 DMB_SIZED_STRUCT(dmb_output)
 
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
+/* Axes of small motions, of the frames of places, and so of frequencies: those of the parts, which turn with them, or
+ * axes that do not take part in turning about the part's own x axis, as for modes (modes.h): frequencies as they are
+ * seen from outside. The latter is for what is round; there an unbalance of a string that turns at W acts at W. */
+enum { DMB_RESPONSE_AXES_TURNING = 0, DMB_RESPONSE_AXES_AT_REST = 1 };
 typedef struct dmb_response_options {
     uint32_t struct_size;
     uint32_t points;           /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
@@ -87,23 +91,28 @@ typedef struct dmb_response_options {
     int32_t contact;              /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
     int32_t friction;             /* 1 (default): the slope of the friction law damps or drives; 0: left out */
     double contact_gap;           /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
+    int32_t axes;                 /* DMB_RESPONSE_AXES_TURNING (default), _AT_REST */
+    int32_t reserved;
+    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_modes_options; 0 (default): as they do */
 } dmb_response_options;
 DMB_SIZED_STRUCT(dmb_response_options)
 
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
 /* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
- * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies.
- * DMB_NOTE_INCOMPLETE: joints whose equations change in these frames, since their parts turn against each other, or a
- * string that turns on the wall, which goes round there; answers hold along and about the axes of straight
- * parts, not across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size
- * that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on
- * error: DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE,
- * _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED,
- * _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's
- * allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints +
- * inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One
- * thread; several responses of one sim may not be computed at a time. */
+ * Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those
+ * that it has in the state, and section forces are told in axes that do not spin. Structural damping there is that of
+ * what does not turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against
+ * each other, or a string that turns on the wall, which goes round in axes that turn; answers hold along and about the
+ * axes of straight parts, not across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every
+ * struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message.
+ * *response is NULL on error: DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where),
+ * _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free),
+ * _UNSUPPORTED (axes at rest: a load across a part that turns with it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion
+ * drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the
+ * sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements;
+ * of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be
+ * computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
                                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);
@@ -220,13 +229,14 @@ typedef struct dmb_speed_band {
 DMB_SIZED_STRUCT(dmb_speed_band)
 
 /* Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the
- * largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where
- * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the
- * size of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found
- * than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
- * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, a band is
- * truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors:
- * as dmb_analysis_response, with nothing written. Cost: that of order_count responses. */
+ * largest amplitude of an output over its limit, by the linear response at order times speed in axes at rest, where the
+ * orders of what turns are counted, about the state as it turns; 1 is the limit even where all orders add up. limits:
+ * [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first
+ * says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found than there was room.
+ * severity, shape (points), may be NULL: largest within half a step of the grid around each speed. DMB_NOTE_INCOMPLETE
+ * (dmb_sim_message and the report tell): an order excites nothing, nothing damps, a band is truncated at an end of the
+ * range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as dmb_analysis_response,
+ * with nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,

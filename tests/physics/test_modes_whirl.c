@@ -128,6 +128,50 @@ static void axes_that_turn_shift_by_the_speed(void **state)
     rig_close(&s);
 }
 
+/* ---- A gyroscope ------------------------------------------------------------------------------------------------- */
+
+/* A rigid pipe on a pivot that spins about its level axis at W and goes round by gravity: C W P = m g l, steady in axes
+ * that go round with it and do not spin. It nods with n^2 = P^2 + (C W/A)^2 (Lagrange's top about its level state: with
+ * the angle e from level A e'' = -(A P^2 + (C W)^2/A) e). */
+static void nutation_of_a_gyroscope(void **state)
+{
+    const double speeds[] = {400.0, 100.0, 40.0}, m = 1.0, l = 0.25, C = 0.05, A = 0.025 + m * 0.25 / 3.0;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rig s;
+        dmb_pipe_def pipe = beam_pipe(0.5, 1, 1e9, 1e12, 1e6, 1e3);
+        dmb_string_def string = dmb_string_def_default();
+        const double precession = m * 9.81 * l / (C * speeds[k]);
+        const double nutation = hypot(precession, C * speeds[k] / A);
+        rig_open(&s, 0, 0, -9.81);
+        pipe.kind = DMB_PIPE_RIGID;
+        pipe.section_mass = m / 0.5;
+        pipe.section_inertia[0] = C / 0.5;
+        pipe.section_inertia[1] = 0.5 * C / 0.5;
+        string.start_free = DMB_FREE_SPHERICAL;
+        string.end_free = DMB_FREE_ALL;
+        string.velocity[3] = speeds[k];
+        string.velocity[5] = precession;
+        pipe.string = add_string(&s, &string);
+        (void)add_pipes(&s, &pipe, 1);
+        rig_start(&s, NULL);
+        dmb_modes_options options = dmb_modes_options_default();
+        options.kind = DMB_MODES_DAMPED;
+        options.axes = DMB_MODES_AXES_AT_REST;
+        options.select = DMB_MODES_BAND;
+        options.band[0] = 0.5;
+        options.band[1] = 100.0;
+        dmb_modes *modes = find_modes(&s, &options);
+        tell("gyroscope that spins at [rad/s]", speeds[k]);
+        check_below("    out of balance", info_of(modes).residual_of_state, 1e-12);
+        assert_int_equal(info_of(modes).count, 1);
+        check_relative("    nods", mode_at(modes, 0).eigenvalue[1], nutation, 1e-9);
+        check_close("    without decay", mode_at(modes, 0).eigenvalue[0], 0.0, 1e-9 * nutation);
+        dmb_modes_destroy(&modes);
+        rig_close(&s);
+    }
+}
+
 /* ---- On the wall ------------------------------------------------------------------------------------------------- */
 
 /* A rigid pipe that turns on the wall climbs to atan(mu) and swings there: with N = m g cos(atan(mu)) at rest and the
@@ -227,6 +271,7 @@ int main(void)
         cmocka_unit_test(whirl_of_a_shaft),
         cmocka_unit_test(whirl_converges),
         cmocka_unit_test(axes_that_turn_shift_by_the_speed),
+        cmocka_unit_test(nutation_of_a_gyroscope),
         cmocka_unit_test(swing_of_a_pipe_that_turns_on_the_wall),
         cmocka_unit_test(few_and_all_of_a_turning_string),
     };

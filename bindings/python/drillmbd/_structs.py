@@ -1639,7 +1639,7 @@ class ModeShape(Sized):
 
 
 class ResponseOptions(Sized):
-    c_name, about = "dmb_response_options", "Frequency response"
+    c_name, about = "dmb_response_options", ""
     struct_size: int
     points: int
     frequency_low: float
@@ -1652,6 +1652,9 @@ class ResponseOptions(Sized):
     contact: int
     friction: int
     contact_gap: float
+    axes: int
+    reserved: int
+    spin: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -1665,6 +1668,9 @@ class ResponseOptions(Sized):
         ("contact", c_int32),
         ("friction", c_int32),
         ("contact_gap", c_double),
+        ("axes", c_int32),
+        ("reserved", c_int32),
+        ("spin", c_double),
     ]
     field_docs = {
         "points": ("-", "of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000"),
@@ -1678,6 +1684,8 @@ class ResponseOptions(Sized):
         "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
         "friction": ("", "1 (default): the slope of the friction law damps or drives; 0: left out"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
+        "axes": ("", "RESPONSE_AXES_TURNING (default), _AT_REST"),
+        "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_modes_options; 0 (default): as they do"),
     }
 
 

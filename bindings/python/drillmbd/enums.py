@@ -1154,6 +1154,16 @@ OUTPUT_BIT = OutputKind.BIT
 OUTPUT_CHANNEL = OutputKind.CHANNEL
 
 
+class Response(IntEnum):
+    """Values DMB_RESPONSE_... of the headers."""
+    AXES_TURNING = 0
+    AXES_AT_REST = 1
+
+
+RESPONSE_AXES_TURNING = Response.AXES_TURNING
+RESPONSE_AXES_AT_REST = Response.AXES_AT_REST
+
+
 class StateForm(IntEnum):
     """Values DMB_STATE_... of the headers."""
     FULL = 0  #: all coordinates
@@ -1284,6 +1294,7 @@ ENUMS = (
     PartKind,
     InputKind,
     OutputKind,
+    Response,
     StateForm,
     MotionInput,
     Matrix,

@@ -166,25 +166,30 @@ static void add_turned(const double v[6], const double row[6], double to[6])
     for (int i = 0; i < 6; i++) to[i] += product[i];
 }
 
-/* Body-frame speeds and accelerations change by d' + v^ d and d'' + v^ d' + a^ d. */
-void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out)
+/* Body-frame speeds and their rates change by d' + g^ d and d'' + (g^ - w^) d' + (b^ - w^ g^) d (linearise.c). */
+void dmb_functional_turn_frames(const dmb_linear *linear, dmb_functional *out)
 {
-    const dmb_scene *scene = copy->scene;
+    const dmb_scene *scene = &linear->scene;
     for (uint32_t at = 0; at < out->count;) {
         const uint32_t node = dmb_node_of_row(scene, out->row[at]), row = scene->layout.row[node];
         if (scene->layout.size[node] == DMB_NODE_FULL) {
-            add_turned(copy->now.velocity + row, out->speed + at, out->pose + at);
-            add_turned(copy->now.acceleration + row, out->acceleration + at, out->pose + at);
-            add_turned(copy->now.velocity + row, out->acceleration + at, out->speed + at);
+            double back[6] = {0.0};
+            add_turned(linear->spin + row, out->acceleration + at, back);
+            for (int i = 0; i < 6; i++) back[i] = -back[i];
+            add_turned(linear->rest + row, out->speed + at, out->pose + at);
+            add_turned(linear->change + row, out->acceleration + at, out->pose + at);
+            add_turned(linear->rest + row, back, out->pose + at);
+            add_turned(linear->rest + row, out->acceleration + at, out->speed + at);
+            for (uint32_t i = 0; i < 6; i++) out->speed[at + i] += back[i];
         }
         at += scene->layout.size[node];
     }
 }
 
-void dmb_functional_of_answer(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
+void dmb_functional_of_answer(dmb_linear *linear, dmb_answer *answer, const void *what, dmb_functional *out)
 {
-    differences(copy, answer, what, out);
-    dmb_functional_turn_frames(copy, out);
+    differences(linear->work, answer, what, out);
+    dmb_functional_turn_frames(linear, out);
 }
 
 static double of_motion(const dmb_sim *sim, const dmb_output *o, int32_t *status)

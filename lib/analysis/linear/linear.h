@@ -54,6 +54,7 @@ typedef struct dmb_linear {
     uint32_t turning_node; /* a node that turns on the wall in axes that turn with it; DMB_NONE: none */
     double load_factor;    /* [-] of gravity, loads and bit loads */
     double *spin, *rest;   /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
+    double *change;        /* rate of the others as those axes see it: 0 in an equilibrium, shape (rows) */
     double *held_columns;  /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
                               node and the node after, six each: what a drive that moves them exerts on the others;
                               shape (scene.held_count, 3, 18) */
@@ -223,11 +224,11 @@ int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *ou
 /* Takes the rows of one more node in; DMB_NONE is none. */
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
 /* An answer that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
- * of second degree in their speeds. copy: a sim of the state, as before on return. */
+ * of second degree in their speeds. copy: linear->work, as before on return. */
 typedef double dmb_answer(const dmb_sim *copy, const void *what);
-void dmb_functional_of_answer(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out);
-/* Speeds and accelerations taken so far are those in the body frame of the moved nodes: what turning them adds. */
-void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out);
+void dmb_functional_of_answer(dmb_linear *linear, dmb_answer *answer, const void *what, dmb_functional *out);
+/* Speeds and accelerations taken so far are those in the body frame of the moved nodes: what the axes of d turn by. */
+void dmb_functional_turn_frames(const dmb_linear *linear, dmb_functional *out);
 /* to += factor from, of the same rows. */
 void dmb_functional_add(double factor, const dmb_functional *from, dmb_functional *to);
 /* Its rate: what was by pose is by speed. */

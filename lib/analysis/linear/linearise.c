@@ -16,10 +16,11 @@
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
  * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
- * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w velocities of
- * the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
+ * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d, H = G exp(d) exp(w t): with
+ * g = v - w velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^ d) + b^
+ * d with b = a + w^ g, by which g changes in these axes:
  *
- *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
+ *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M b^,
  *
  * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
  * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in
@@ -158,6 +159,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     lay_out_matrix(arena, scene, &to->stiffness);
     to->spin = DMB_ARENA_DOUBLES(arena, rows);
     to->rest = DMB_ARENA_DOUBLES(arena, rows);
+    to->change = DMB_ARENA_DOUBLES(arena, rows);
     to->stiffness_size = DMB_ARENA_DOUBLES(arena, rows);
     to->with_contacts = DMB_ARENA_DOUBLES(arena, rows);
     to->residual = DMB_ARENA_DOUBLES(arena, rows);

@@ -225,16 +225,21 @@ void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_li
     }
 }
 
-/* The spin that the axes of d leave out, and the rest of the velocities. */
+/* The spin w that the axes of d leave out, the rest g of the velocities, and how that changes in these axes, a + w^ g.
+ */
 static void part_velocities(dmb_linear *linear, int32_t still)
 {
     const dmb_scene *scene = &linear->scene;
     memcpy(linear->rest, linear->work->now.velocity, linear->rows * sizeof(double));
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const uint32_t row = scene->layout.row[i] + 3;
-        if (!still || scene->layout.size[i] != DMB_NODE_FULL) continue;
-        linear->spin[row] = linear->rest[row];
-        linear->rest[row] = 0.0;
+    memcpy(linear->change, linear->work->now.acceleration, linear->rows * sizeof(double));
+    for (uint32_t i = 0; still && i < scene->node_count; i++) {
+        const uint32_t row = scene->layout.row[i];
+        double turned[6];
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        linear->spin[row + 3] = linear->rest[row + 3];
+        linear->rest[row + 3] = 0.0;
+        dmb_ad_apply(linear->spin + row, linear->rest + row, turned);
+        dmb_linear_add_array(1.0, turned, 6, linear->change + row);
     }
 }
 
@@ -249,7 +254,7 @@ void dmb_linear_turn_frames(dmb_linear *linear, int32_t still)
     dmb_linear_add_whole_joints(linear, -1.0); /* columns that are held are left of it */
     if (still) dmb_linear_add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
     dmb_linear_add_products(&linear->scene, 1.0, &linear->damping, linear->rest, &linear->stiffness);
-    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->work->now.acceleration, &linear->stiffness);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->change, &linear->stiffness);
     dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->rest, &linear->damping);
     dmb_linear_hold(linear, 1);
     dmb_linear_keep_held(linear, 0);

@@ -178,8 +178,11 @@ static int32_t check_balance(const response_work *w)
 
 static int32_t linearise(response_work *w)
 {
-    const dmb_linear_options options = {
-        .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
+    const dmb_linear_options options = {.contact = w->options.contact,
+                                        .no_friction = !w->options.friction,
+                                        .gap = w->options.contact_gap,
+                                        .still = w->options.axes == DMB_RESPONSE_AXES_AT_REST,
+                                        .spin = w->options.spin};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
     if (status < 0) return status;
@@ -196,7 +199,7 @@ static int32_t take_inputs(response_work *w, const dmb_input *inputs, dmb_respon
         if (status < 0) return status;
         response->amplitude[i] = input.amplitude;
         response->phase[i] = input.phase;
-        status = dmb_excitation_of(w->linear->work, &input, i, &w->sim->message, w->inputs + i);
+        status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->inputs + i);
     }
     return status;
 }

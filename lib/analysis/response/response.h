@@ -80,10 +80,10 @@ typedef struct dmb_excitation {
                         caller's memory, zeros to begin with */
 } dmb_excitation;
 
-/* Fills the excitation of input number `index`, already checked to be one of its kind. copy: a sim of the state; its
- * trial and work are written. message: why not. Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE, _UNSUPPORTED; those of
+/* Fills the excitation of input number `index`, already checked to be one of its kind. linear->work: its trial and work
+ * are written. message: why not. Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE, _UNSUPPORTED; those of
  * dmb_system_evaluate. */
-int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
+int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_input *input, uint32_t index, dmb_message *message,
                           dmb_excitation *out);
 
 /* An output of a frequency response: what a query would answer, as a linear function of the motion and of the forces it

@@ -20,6 +20,7 @@
 #define DMB_EXCITATION_FACTOR 1e6
 
 typedef struct request {
+    const dmb_linear *linear;
     dmb_sim *copy;
     const dmb_input *input;
     uint32_t index;
@@ -165,11 +166,27 @@ static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *d
     return DMB_OK;
 }
 
+/* 1 if the node turns and the axes of d do not: what acts across it in its own frame goes round for them. */
+static int turns(const request *r, uint32_t node)
+{
+    const dmb_block_layout *layout = &r->copy->scene->layout;
+    return layout->size[node] == DMB_NODE_FULL && r->linear->spin[layout->row[node] + 3] != 0.0;
+}
+
+/* 1 if it acts on a row of its node that is not along or about the axis. */
+static int acts_across(const request *r, const dmb_scene_drive *drive)
+{
+    if (drive->joint != DMB_NONE || drive->row == DMB_NONE) return 0;
+    return (drive->row - r->copy->scene->layout.row[drive->node]) % 3 != 0 && turns(r, drive->node);
+}
+
 static int32_t of_drive(const request *r, uint32_t i)
 {
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
     const double force = r->copy->now.drive_force[i];
     r->out->drive = i;
+    if (acts_across(r, drive))
+        return refuse(r, DMB_ERR_UNSUPPORTED, "the drive turns with its part, across axes at rest");
     if (drive->joint != DMB_NONE && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
         return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
@@ -180,6 +197,11 @@ static int32_t of_drive(const request *r, uint32_t i)
 
 static int32_t of_load(const request *r, uint32_t i)
 {
+    const dmb_scene_load *load = r->copy->scene->loads + i;
+    const int across =
+        load->force[1] != 0.0 || load->force[2] != 0.0 || load->moment[1] != 0.0 || load->moment[2] != 0.0;
+    if (load->frame == DMB_FRAME_BODY && across && turns(r, load->node))
+        return refuse(r, DMB_ERR_UNSUPPORTED, "the load turns with its part, across axes at rest; give a force there");
     return derivative(r, r->copy->trial.load_factor + i);
 }
 
@@ -361,10 +383,10 @@ static int32_t make(const request *r)
     }
 }
 
-int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
+int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_input *input, uint32_t index, dmb_message *message,
                           dmb_excitation *out)
 {
-    const request r = {copy, input, index, message, out};
+    const request r = {linear, linear->work, input, index, message, out};
     out->drive = out->bit = DMB_NONE;
     return make(&r);
 }

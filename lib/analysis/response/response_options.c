@@ -74,6 +74,8 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
     dmb_check_choice(&check, "contact", out->contact, DMB_CONTACT_AS_IS, DMB_CONTACT_CLOSED);
     dmb_check_choice(&check, "friction", out->friction, 0, 1);
     dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
+    dmb_check_choice(&check, "axes", out->axes, DMB_RESPONSE_AXES_TURNING, DMB_RESPONSE_AXES_AT_REST);
+    dmb_check_within(&check, "spin", out->spin, -1e6, 1e6);
     if (check.status == DMB_OK && out->frequencies != NULL)
         check_list(&check, out);
     else

@@ -63,14 +63,14 @@ static int32_t of_section(const request *r)
     if (status >= 0) status = dmb_functional_around(r->copy, r->output->place, &r->out->functional);
     if (status < 0) return refuse_place(r, status);
     r->out->elastic = r->output->kind != DMB_OUTPUT_SECTION_STRAIN;
-    dmb_functional_of_answer(r->copy, answer, r->output, &r->out->functional);
+    dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
     return DMB_OK;
 }
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
 /* Quantity of a contact that is asked for. */
-enum { ASK_GAP = 0, ASK_APPROACH = 1, ASK_SLIP = 2, ASK_NORMAL = 4 };
+enum { ASK_APPROACH = 1, ASK_SLIP = 2, ASK_NORMAL = 4 };
 typedef struct contact_question {
     uint32_t site;
     int32_t what;
@@ -81,7 +81,6 @@ static double contact_answer(const dmb_sim *copy, const void *what)
     const contact_question *q = what;
     dmb_contact contact = dmb_contact_default();
     (void)dmb_query_contact(copy, q->site, &contact);
-    if (q->what == ASK_GAP) return contact.gap;
     if (q->what == ASK_APPROACH) return contact.approach;
     return q->what == ASK_NORMAL ? contact.normal_force : contact.slip[q->what - ASK_SLIP];
 }
@@ -90,7 +89,22 @@ static void ask_contact(const request *r, int32_t what, dmb_functional *out)
 {
     const contact_question q = {r->output->place.pipe, what};
     *out = r->out->functional;
-    dmb_functional_of_answer(r->copy, contact_answer, &q, out);
+    dmb_functional_of_answer(r->linear, contact_answer, &q, out);
+}
+
+/* A gap changes by -n dp. By differences n would be that of a chord, and a string that goes along a stiff wall presses
+ * on it by what is left of its motion across n. */
+static void gap_of(const request *r, dmb_functional *out)
+{
+    const dmb_sim *copy = r->copy;
+    const uint32_t site = r->output->place.pipe;
+    double R[9], w[6] = {0.0}, *rows = copy->residual; /* free by now */
+    dmb_site_axes(copy->scene, &copy->now, site, R);
+    dmb_mat3_tvec(R, copy->trial.site_normal + 3 * (size_t)site, w);
+    memset(rows, 0, copy->scene->row_count * sizeof *rows);
+    dmb_site_add_wrench(copy->scene, &copy->now, site, -1.0, w, rows);
+    *out = r->out->functional;
+    for (uint32_t i = 0; i < out->count; i++) out->pose[i] = rows[out->row[i]];
 }
 
 /* Rows without numbers. */
@@ -115,7 +129,7 @@ static void normal_force(const request *r, const dmb_contact_slope *slope, dmb_f
         return;
     }
     *out = r->out->functional;
-    ask_contact(r, ASK_GAP, &part);
+    gap_of(r, &part);
     dmb_functional_add(-slope->normal_by_depth, &part, out);
     if (r->options->contact == DMB_CONTACT_CLOSED)
         dmb_functional_add(-dmb_linear_wall_stiffness(r->linear, site, r->options->contact_gap), &part, out);
@@ -274,7 +288,7 @@ static void reaction_of_joint(const request *r, uint32_t j)
     const dmb_constraint *c = take_joint_nodes(r, j, &r->out->functional);
     int32_t status;
     const double base = dmb_answer_of(r->copy, r->output, &status), step = fmax(fabs(base), 1.0);
-    dmb_functional_of_answer(r->copy, answer, r->output, &r->out->functional);
+    dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
     for (uint32_t k = 0; k < c->rows && k < 6; k++) {
         double *f = r->copy->now.multiplier + c->row + k;
         const double kept = *f;
@@ -367,7 +381,7 @@ static int32_t of_bit(const request *r)
         out->pose[c] = by[0] * slope.along[stride * c] + by[1] * slope.about[stride * c];
         out->speed[c] = by[2] * slope.along[stride * c] + by[3] * slope.about[stride * c];
     }
-    dmb_functional_turn_frames(r->copy, out);
+    dmb_functional_turn_frames(r->linear, out);
     r->out->elastic = 1;
     return DMB_OK;
 }

@@ -157,6 +157,7 @@ static dmb_response_options response_options(const speeds_run *r, double order)
     options.contact = r->options.contact;
     options.friction = r->options.friction;
     options.contact_gap = r->options.contact_gap;
+    options.axes = DMB_RESPONSE_AXES_AT_REST;
     return options;
 }
 

@@ -130,7 +130,7 @@ static int32_t take_inputs(dmb_space_work *w, const dmb_input *inputs)
     for (uint32_t i = 0; i < w->input_count; i++) {
         dmb_input input;
         int32_t status = dmb_input_take(inputs, i, &w->sim->message, &input);
-        if (status >= 0) status = dmb_excitation_of(w->linear->work, &input, i, &w->sim->message, w->inputs + i);
+        if (status >= 0) status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->inputs + i);
         if (status < 0) return status;
         if (w->inputs[i].law == DMB_EXCITE_INERTIA) {
             dmb_message_set(
