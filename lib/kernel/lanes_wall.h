@@ -232,7 +232,7 @@ static inline void begin_bristles(const dmb_wall_job *job, wall_group *g)
     if (g->touching == 0 || (job->friction_law != NULL && job->dynamic)) return;
     load(job->trial.bristle, 2, 2, &g->site, 0, g->bristle);
     for (uint32_t l = 0; l < g->site.used; l++)
-        g->sticking |= (uint32_t)(job->trial.sticks[g->site.first + l] != 0) << l;
+        g->sticking |= (job->trial.sticks[g->site.first + l] != 0 ? 1u : 0u) << l;
 }
 
 static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, dmb_real F[2], dmb_real by_speed[4],

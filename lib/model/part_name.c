@@ -23,7 +23,9 @@ typedef struct name_place {
         word, offsetof(dmb_model, list), sizeof(T), offsetof(T, def.name[0]) \
     }
 
-static const name_place places[] = {
+enum { KINDS = DMB_PART_EVENT + 1 };
+
+static const name_place places[KINDS] = {
     [DMB_PART_PROGRAMME] = {"programme", 0, 0, 0},
     [DMB_PART_WALL] = {"wall", 0, 0, 0},
     [DMB_PART_STRING] = PLAN("string", strings, dmb_string_plan),
@@ -41,7 +43,6 @@ static const name_place places[] = {
     [DMB_PART_INPUT] = PLACE("input", inputs, dmb_input_def),
     [DMB_PART_EVENT] = PLACE("event", events, dmb_event_def),
 };
-enum { KINDS = sizeof places / sizeof places[0] };
 
 static uint32_t name_of_programme(const dmb_model *model, uint32_t index)
 {

@@ -55,7 +55,7 @@ static int32_t open_beside(dmb_text_file *file, const char *path)
         file->stream = fopen(file->part, "wbx"); /* never one that is there */
     }
     if (file->stream == NULL) return DMB_ERR_IO;
-    if (exists && fchmod(fileno(file->stream), old.st_mode & 07777) != 0) file->failed = 1;
+    if (exists && fchmod(fileno(file->stream), old.st_mode & 0xFFF) != 0) file->failed = 1;
     return DMB_OK;
 }
 #else

@@ -130,7 +130,8 @@ static void put_rows(const dmb_sim *sim, uint32_t k, uint32_t node, uint32_t wid
     for (uint32_t c = 0; c < size; c++) {
         const uint32_t place = sim->cluster_place[scene->clusters[k].column + scene->node_place[node] + c];
         if (place < rank) continue;
-        double *row = W + (size_t)width * (place - rank);
+        const size_t independent = place - rank;
+        double *row = W + width * independent;
         for (uint32_t j = 0; j < size; j++) {
             uint32_t one;
             const double *G = dmb_reduced_null_space_row(sim, k, scene->node_place[node] + j, &one);

@@ -9,7 +9,7 @@
 
 static uint64_t mix(uint64_t hash, int flag)
 {
-    return (hash ^ (uint64_t)(flag != 0)) * UINT64_C(0x100000001B3);
+    return (hash ^ (flag != 0 ? UINT64_C(1) : UINT64_C(0))) * UINT64_C(0x100000001B3);
 }
 
 static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
