@@ -25,7 +25,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "ROW_FREE": "RowState",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
-              "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
+              "MODES_AXES_TURNING": "ModesAxes", "RESPONSE_AXES_TURNING": "ResponseAxes",
               "OPERATION_PICK_UP": "OperationKind", "MEASURED_HOOK_LOAD": "Measured",
               "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond", "HOLE_STEP": "HoleShape",
               "EVENT_EITHER": "EventDirection", "PART_ANY": "PartKind",

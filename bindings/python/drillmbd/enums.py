@@ -1154,14 +1154,14 @@ OUTPUT_BIT = OutputKind.BIT
 OUTPUT_CHANNEL = OutputKind.CHANNEL
 
 
-class Response(IntEnum):
+class ResponseAxes(IntEnum):
     """Values DMB_RESPONSE_... of the headers."""
     AXES_TURNING = 0
     AXES_AT_REST = 1
 
 
-RESPONSE_AXES_TURNING = Response.AXES_TURNING
-RESPONSE_AXES_AT_REST = Response.AXES_AT_REST
+RESPONSE_AXES_TURNING = ResponseAxes.AXES_TURNING
+RESPONSE_AXES_AT_REST = ResponseAxes.AXES_AT_REST
 
 
 class StateForm(IntEnum):
@@ -1294,7 +1294,7 @@ ENUMS = (
     PartKind,
     InputKind,
     OutputKind,
-    Response,
+    ResponseAxes,
     StateForm,
     MotionInput,
     Matrix,
