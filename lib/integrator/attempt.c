@@ -388,6 +388,10 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         attempt->evaluation.time, attempt->end.step);
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
+    case DMB_ERR_NOT_FINITE:
+        dmb_message_set(&sim->message, "step to time %g of length %g: forces not finite", attempt->end.time,
+                        attempt->end.step);
+        break;
     case DMB_ERR_CALLBACK:
         if (dmb_parts_explain(sim)) break;
         if (dmb_failed_force(sim, &owner.text)) {

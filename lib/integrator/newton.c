@@ -329,3 +329,9 @@ void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_co
         sim->reuse->corrections = sim->reuse->excess = 0;
     }
 }
+
+void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_attempt *attempt, const dmb_factor_reuse *kept)
+{
+    *sim->reuse = *kept;
+    if (attempt->whole && !attempt->deferred && attempt->factored == DMB_FACTORS_FRESH) dmb_forget_factors(sim);
+}

@@ -36,5 +36,8 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt,
  * corrections that these have taken beyond the first such step have cost as much as new ones. Where reused factors did
  * not do within a step, the next try waits, longer each time. */
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached);
+/* Of a committed step that is taken back; `kept`: sim->reuse before. Factors that the step has kept are lost with it.
+ */
+void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_attempt *attempt, const dmb_factor_reuse *kept);
 
 #endif

@@ -42,43 +42,51 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
     return check.status;
 }
 
-/* 1: behind an accepted step a function of the caller's may be asked. */
-static int asks_behind(const dmb_scene *scene)
+/* 1 if forces, or the rate of a programme, may jump behind the step, so that accelerations may be made anew. *turns:
+ * the rate does. DMB_ERR_CALLBACK. */
+static int32_t may_jump(dmb_sim *sim, const dmb_attempt *attempt, int32_t *turns)
 {
-    return scene->has_callback && (scene->drive_count > 0 || scene->stuck_count > 0 || scene->hole.cuts > 0);
+    const dmb_scene *scene = sim->scene;
+    *turns = dmb_system_rate_jumps(sim, attempt->end.time, fmax(attempt->end.corner, sim->clock->corner));
+    if (*turns != 0) return *turns;
+    return scene->hole.cuts > 0 || dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
+           dmb_actuators_may_jump(scene);
 }
 
-/* Accelerations anew where forces, or the rate of a programme, jump at the time reached; *jumped: they do. A failure
- * other than that of a callback leaves the accelerations of before, which is what there was anyway. */
-static int32_t walk_corner(dmb_sim *sim, int *jumped)
+/* Accelerations anew where forces, or the rate of a programme, jump at the time reached; *jumped: they do. */
+static int32_t walk_corner(dmb_sim *sim, int32_t turns, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
     const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
-    const int32_t turns = freed > 0 || widened ? 1 : dmb_system_rate_jumps(sim);
-    *jumped = turns > 0;
-    if (turns <= 0) return turns;
+    *jumped = freed > 0 || widened || turns || dmb_actuators_jump(sim);
+    if (!*jumped) return DMB_OK;
     sim->busy = DMB_BUSY_CHANGING;
     const int32_t status = dmb_system_jump(sim);
     sim->busy = DMB_BUSY_READABLE;
-    if (status == DMB_ERR_CALLBACK) return status;
-    if (freed > 0) dmb_forget_factors(sim);
-    return DMB_OK;
+    if (status >= 0 && freed > 0) dmb_forget_factors(sim);
+    return status;
 }
 
-/* The state that a failure brings back is set aside unless the call has done that; factors are kept only when none can
- * come any more, and are lost where the accelerations were made anew from others. */
+/* The state that a failure brings back is set aside unless the call has done that. Where a function of the caller's may
+ * fail, factors are kept only when none can come any more, and are lost where the accelerations were made anew from
+ * others; elsewhere those that a step made are lost with it. */
 static int32_t accept(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
+    const dmb_factor_reuse kept = *sim->reuse;
     int jumped = 0;
-    attempt->deferred = asks_behind(sim->scene);
-    if (attempt->deferred && !walk->set_aside) dmb_state_back_up(sim);
-    dmb_attempt_commit(sim, attempt);
-    const int32_t status = walk_corner(sim, &jumped);
+    int32_t turns = 0, status = may_jump(sim, attempt, &turns);
     if (status >= 0) {
-        if (attempt->deferred && !jumped) dmb_factor_reuse_end(sim, attempt, &sim->now);
-        return DMB_OK;
+        attempt->deferred = status > 0 && sim->scene->has_callback;
+        if (status > 0 && !walk->set_aside) dmb_state_back_up(sim);
+        dmb_attempt_commit(sim, attempt);
+        status = walk_corner(sim, turns, &jumped);
+        if (status >= 0) {
+            if (attempt->deferred && !jumped) dmb_factor_reuse_end(sim, attempt, &sim->now);
+            return DMB_OK;
+        }
+        if (!walk->set_aside) dmb_state_restore(sim);
+        dmb_factor_reuse_take_back(sim, attempt, &kept);
     }
-    if (!walk->set_aside) dmb_state_restore(sim);
     walk->report.steps--;
     walk->report.rejected++;
     return status;
@@ -87,7 +95,7 @@ static int32_t accept(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
     if (sim->follower != NULL) {
-        if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= 1.0) {
+        if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED) {
             dmb_message_set(&sim->message,
                             "step to time %g: a stuck place lets go there, which a derivative along the run must not "
                             "meet; end the run before it, or leave out the parameters",

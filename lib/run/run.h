@@ -26,6 +26,8 @@ int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, 
 /* Checks how the fields of `now` and the memory fit together, once each of them has passed. The sim takes the message.
  * DMB_OK or DMB_ERR_VALUE. O(size of the state). run/snapshot_relations */
 int32_t dmb_snapshot_relations(dmb_sim *sim);
+/* 1: something that is held stands elsewhere than its guide leaves it, as described. O(held rows). */
+int dmb_is_off_guides(const dmb_sim *sim);
 
 /* ---- Fingerprints ------------------------------------------------------------------------------------------------ */
 

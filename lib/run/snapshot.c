@@ -255,7 +255,7 @@ int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, 
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
-enum { DMB_SNAPSHOT_VERSION = 7 };
+enum { DMB_SNAPSHOT_VERSION = 8 };
 
 typedef struct snapshot_header {
     uint64_t magic;

@@ -1,12 +1,15 @@
 /* Relations between the fields of a state: values that are each in their range (run/snapshot.c) may still contradict
  * each other. Refused is what later calls take for granted: rotations that are rotations, orders in time, marks that
- * say the same thing twice, rows that are held and stand still, coordinates that may depend on others.
+ * say the same thing twice, rows that are held, stand still and are where they are described, coordinates that may
+ * depend on others.
  *
  * Not compared, for any values of these are harmless: they are found anew by the next step, which converges or is
  * refused, or they are told and nothing else (tests/fuzz/test_forged_relations.c).
  * - Hints where a search begins, and what is found by it: segments and depths of sites, joints and bits.
  * - Contacts: penetration, speeds, bristles and whether they stick. A contact that is told closed and is open by its
  *   pose has no force; the step finds all of them from the pose.
+ * - Guides of a state that is told to be carried from another model, where they may stand anywhere: any state of this
+ *   model's that a transfer might have led to.
  * - Poses, speeds and offsets that do not fit the joints: the step projects them or is refused. Nor do multipliers and
  *   turns have to fit: the former are solved for, of the latter whole revolutions are kept.
  * - A choice of dependent coordinates whose matrix is singular: the step says so. One that leaves equations out is made
@@ -18,9 +21,11 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 #include "force/hole.h"
 #include "math/mat6.h"
+#include "math/so3.h"
 #include "sim/own_scene.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
@@ -117,12 +122,73 @@ static int32_t check_at_rest(dmb_sim *sim, const char *field, const double *rows
     return DMB_OK;
 }
 
+/* A number that the guide of a node does not leave free, against the described pose. */
+typedef struct misfit {
+    const char *field;
+    size_t item;
+    double value; /* [m, -] */
+} misfit;
+
+static int differs(misfit *found, const char *field, size_t item, double value, double bound)
+{
+    if (fabs(value) <= bound) return 0;
+    *found = (misfit){field, item, value};
+    return 1;
+}
+
+/* Free components are closed under motion, so the others stay 0 in the axes of the described pose: of the way, and of
+ * the rotation all or all but one. */
+static int is_off_guide(const dmb_sim *sim, uint32_t node, misfit *found)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint8_t *open = scene->free_row + scene->layout.row[node];
+    const double *u = sim->now.displacement + 3 * (size_t)node, *q0 = scene->reference_quaternion + 4 * (size_t)node;
+    const double far = DMB_ROTATION_ROUNDING * (scene->length_scale + dmb_vec3_norm(u));
+    double moved[3], turned[4];
+    if (scene->layout.size[node] == DMB_NODE_PATH)
+        return (!open[0] && differs(found, "displacement", 3 * (size_t)node, u[0], far)) ||
+               (!open[1] && differs(found, "turn", node, sim->now.turn[node], DMB_ROTATION_ROUNDING));
+    dmb_quat_rotate_inverse(q0, u, moved);
+    dmb_quat_between(q0, sim->now.quaternion + 4 * (size_t)node, turned);
+    for (uint32_t c = 0; c < 3; c++) {
+        if (!open[c] && differs(found, "displacement", 3 * (size_t)node + c, moved[c], far)) return 1;
+        if (!open[3 + c] &&
+            differs(found, "quaternion", 4 * (size_t)node + 1 + c, turned[1 + c], DMB_ROTATION_ROUNDING))
+            return 1;
+    }
+    return 0;
+}
+
+static int any_off_guide(const dmb_sim *sim, misfit *found)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        if (is_off_guide(sim, scene->held_node[i], found)) return 1;
+    return 0;
+}
+
+int dmb_is_off_guides(const dmb_sim *sim)
+{
+    misfit unused;
+    return any_off_guide(sim, &unused);
+}
+
+/* Guides stand where they are described, but where a state transfer has taken them along. */
+static int32_t check_guides(dmb_sim *sim)
+{
+    misfit found;
+    if (sim->counters->carried > 1)
+        return refuse(sim, "counters", offsetof(dmb_counters, carried) / 8, (double)sim->counters->carried, "0 or 1");
+    if (sim->counters->carried || !any_off_guide(sim, &found)) return DMB_OK;
+    return refuse(sim, found.field, found.item, found.value, "0 in the axes of its described pose, since it is held");
+}
+
 static int32_t check_held(dmb_sim *sim)
 {
     int32_t status = check_at_rest(sim, "velocity", sim->now.velocity);
     if (status >= 0) status = check_at_rest(sim, "acceleration", sim->now.acceleration);
     if (status >= 0) status = check_at_rest(sim, "pseudo_acceleration", sim->now.pseudo_acceleration);
-    return status;
+    return status < 0 ? status : check_guides(sim);
 }
 
 /* ---- Times ------------------------------------------------------------------------------------------------------- */

@@ -273,6 +273,7 @@ typedef struct dmb_counters {
     double projection[2];
     double assembly[2];
     uint64_t switches;
+    uint64_t carried; /* 1: by a state transfer what is held stands elsewhere than described */
 } dmb_counters;
 
 enum { DMB_PAUSE_MAX = 31 }; /* [steps] longest pause between tries of reused factors */

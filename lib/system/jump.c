@@ -161,8 +161,6 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
 
 /* ---- Stuck places that come free --------------------------------------------------------------------------------- */
 
-#define DMB_STUCK_REACHED (1.0 - 1e-12) /* [-] share from which on it lets go */
-
 void dmb_stuck_lose(dmb_sim *sim, double before)
 {
     if (sim->options.energy_ledger) dmb_ledger_take_impact(sim, 0.0, before - dmb_stuck_energy(sim, &sim->now));

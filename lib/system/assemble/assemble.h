@@ -201,6 +201,7 @@ double dmb_stuck_energy(const dmb_sim *sim, const dmb_configuration *configurati
 /* Of a place that is stuck; without rates the dampers do not act. */
 void dmb_stuck_hold_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates,
                        dmb_stuck_hold *hold);
+#define DMB_STUCK_REACHED (1.0 - 1e-12) /* [-] share from which on it lets go */
 /* [-] Largest force over that at which it lets go; 0 where it is not stuck. */
 double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates);
 /* [-] The largest of all places. */

@@ -83,24 +83,23 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     return DMB_OK;
 }
 
-int32_t dmb_system_rate_jumps(dmb_sim *sim)
+int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double corner)
 {
     const dmb_scene *scene = sim->scene;
-    if (dmb_actuators_jump(sim)) return 1;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
-        const int32_t status = target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate);
+        const int32_t status = target_of(sim, i, fmax(time, corner), &value, &rate);
         if (status < 0) {
             dmb_message name;
             dmb_message_set(&sim->message,
                             "%s: callback of its programme failed or gave a value beyond +-1e30 at time %g, where it "
                             "was asked for its rate from there on",
-                            dmb_drive_text(scene, i, &name), sim->clock->time);
+                            dmb_drive_text(scene, i, &name), time);
             return status;
         }
         const int on_joint = scene->drives[i].joint != DMB_NONE;
-        const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
+        const double last = on_joint ? sim->trial.drive_rate[i] : sim->trial.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))
             return 1; /* more than differencing noise */
     }
@@ -385,11 +384,24 @@ void dmb_actuators_accept(const dmb_evaluation *evaluation)
 
 #define DMB_JUMP_ROUNDING 1e-12 /* [-] of a command, that is none */
 
+/* A command that is late and neither lags nor is limited in its rate. */
+static int passes_jumps(const dmb_actuator_law *law)
+{
+    return law->delay > 0.0 && !(law->rate_limit > 0.0) && !(law->lag > 0.0);
+}
+
+int32_t dmb_actuators_may_jump(const dmb_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->actuator_count; i++)
+        if (passes_jumps(scene->actuators + i)) return 1;
+    return 0;
+}
+
 int32_t dmb_actuators_jump(const dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->actuator_count; i++) {
         const dmb_actuator_law *law = sim->scene->actuators + i;
-        if (!(law->delay > 0.0) || law->rate_limit > 0.0 || law->lag > 0.0) continue;
+        if (!passes_jumps(law)) continue;
         const dmb_delay_line line = line_of(sim, law);
         const double time = sim->clock->time - law->delay;
         const double before = dmb_delay_before(&line, time), after = dmb_delay_after(&line, time);
