@@ -183,26 +183,40 @@ static void fill_structure(analysis *s, dmb_block_pattern *p)
     eliminate(s, p->column, p->later);
 }
 
-/* Takes rows x columns doubles from the values; false when they overflow. */
-static bool place(dmb_block_pattern *p, uint32_t rows, uint32_t columns, size_t *offset)
+/* Takes rows x columns doubles from the values. */
+static size_t place(dmb_block_pattern *p, uint32_t rows, uint32_t columns)
 {
-    size_t length;
-    *offset = p->values;
-    return dmb_checked_mul_size(rows, columns, &length) && dmb_checked_add_size(p->values, length, &p->values) &&
-           p->values <= SIZE_MAX / sizeof(double);
+    const size_t offset = p->values;
+    p->values += (size_t)rows * columns;
+    return offset;
 }
 
-/* Each position's blocks one after the other, so that factoring walks through memory. */
+/* Doubles of all blocks, by doubles, which do not overflow; the numbers of rows are fewer. */
+static double count_values(const uint32_t *capacity, const dmb_block_pattern *p)
+{
+    double sum = 0.0;
+    for (uint32_t k = 0; k < p->n; k++) {
+        const double own = capacity[p->order[k]];
+        sum += own * own;
+        for (uint32_t e = p->column[k]; e < p->column[k + 1]; e++) sum += 2.0 * own * capacity[p->order[p->later[e]]];
+    }
+    return sum;
+}
+
+/* Each position's blocks one after the other, so that factoring walks through memory; false when they overflow. */
 static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
 {
+    if (count_values(capacity, p) > (double)(SIZE_MAX / (2 * sizeof(double)))) return false;
     for (uint32_t k = 0; k < p->n; k++) {
         const uint32_t own = capacity[p->order[k]];
         double c = own, d = 0.0;
         p->pivot[k] = p->rows;
-        if (!dmb_checked_add_size(p->rows, own, &p->rows) || !place(p, own, own, &p->diagonal[k])) return false;
+        p->rows += own;
+        p->diagonal[k] = place(p, own, own);
         for (uint32_t e = p->column[k]; e < p->column[k + 1]; e++) {
             const uint32_t other = capacity[p->order[p->later[e]]];
-            if (!place(p, own, other, &p->upper[e]) || !place(p, other, own, &p->lower[e])) return false;
+            p->upper[e] = place(p, own, other);
+            p->lower[e] = place(p, other, own);
             d += other;
         }
         p->flops += 2.0 * c * (c * c / 3.0 + c * d + d * d);

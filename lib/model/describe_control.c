@@ -82,14 +82,17 @@ static int same_id(dmb_id a, dmb_id b)
 
 static void check_apart(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
 {
-    for (uint32_t i = 0; i < model->inputs.count && check->status >= 0; i++) {
+    static const char *const what[] = {"target", "name"};
+    static const char *const advice[] = {"one input moves it, name that one", "give it a name of its own"};
+    if (check->status < 0) return;
+    for (uint32_t i = 0; i < model->inputs.count; i++) {
         const dmb_input_def *other = DMB_LIST_AT(const dmb_input_def, model->inputs, i);
         const int same_name = strcmp(other->name, def->name) == 0;
         if (!same_name && (other->target != def->target || !same_id(other->part, def->part))) continue;
         check->status = DMB_ERR_VALUE;
-        dmb_message_set(check->message, "%s: its %s is that of input %u (%s); %s", check->part,
-                        same_name ? "name" : "target", i, other->name,
-                        same_name ? "give it a name of its own" : "one input moves it, name that one");
+        dmb_message_set(check->message, "%s: its %s is that of input %u (%s); %s", check->part, what[same_name], i,
+                        other->name, advice[same_name]);
+        return;
     }
 }
 

@@ -159,20 +159,29 @@ static int32_t check_run_fits(const dmb_model *model, dmb_message *message, uint
 /* Everything that could meet the wall goes through it; no clearance at all is a pipe held on the axis. */
 static int32_t check_diameters(const dmb_model *model, dmb_message *message)
 {
-    int32_t status = DMB_OK;
+    int32_t status;
     if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
     if (model->sections.count > 0 || model->wall.cut_spacing > 0.0) return DMB_OK; /* by depth: dmb_mesh_fits */
-    for (uint32_t i = 0; i < model->runs.count && status >= 0; ++i) status = check_run_fits(model, message, i);
-    for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i)
+    for (uint32_t i = 0; i < model->runs.count; ++i) {
+        status = check_run_fits(model, message, i);
+        if (status < 0) return status;
+    }
+    for (uint32_t i = 0; i < model->bodies.count; ++i) {
         status = check_fits(model, message, DMB_PART_BODY, i, "contact_diameter",
                             DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter);
-    for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i)
+        if (status < 0) return status;
+    }
+    for (uint32_t i = 0; i < model->bits.count; ++i) {
         status = check_fits(model, message, DMB_PART_BIT, i, "diameter",
                             DMB_LIST_AT(const dmb_bit_def, model->bits, i)->diameter);
-    for (uint32_t i = 0; i < model->rings.count && status >= 0; ++i)
+        if (status < 0) return status;
+    }
+    for (uint32_t i = 0; i < model->rings.count; ++i) {
         status = check_fits(model, message, DMB_PART_RING, i, "outer_diameter",
                             DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter);
-    return status;
+        if (status < 0) return status;
+    }
+    return DMB_OK;
 }
 
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */

@@ -275,20 +275,20 @@ static void refer_back(const dmb_mesh *mesh, const dmb_constraint *constraint, u
 /* Rows and storage one after the other; false when 32 bits do not hold them. */
 static bool number_rows(const dmb_mesh *mesh)
 {
-    uint32_t row = 0, jacobian = 0, tangent = 0;
+    uint64_t row = 0, jacobian = 0, tangent = 0;
     for (uint32_t i = 0; i < mesh->constraints.count; ++i) {
         dmb_constraint *constraint = constraint_at(mesh, i);
         dmb_cluster *cluster = cluster_at(mesh, constraint->cluster);
-        if (i == cluster->constraint) cluster->row = row;
-        constraint->row = row;
-        constraint->jacobian = jacobian;
-        constraint->tangent = tangent;
+        if (i == cluster->constraint) cluster->row = (uint32_t)row;
+        constraint->row = (uint32_t)row;
+        constraint->jacobian = (uint32_t)jacobian;
+        constraint->tangent = (uint32_t)tangent;
         cluster->rows += constraint->rows;
         refer_back(mesh, constraint, i);
-        if (!dmb_checked_add_u32(row, constraint->rows, &row) ||
-            !dmb_checked_add_u32(jacobian, constraint->rows * constraint->columns, &jacobian) ||
-            !dmb_checked_add_u32(tangent, constraint->columns * constraint->columns, &tangent))
-            return false;
+        row += constraint->rows;
+        jacobian += (uint64_t)constraint->rows * constraint->columns;
+        tangent += (uint64_t)constraint->columns * constraint->columns;
+        if ((row | jacobian | tangent) > UINT32_MAX) return false;
     }
     return true;
 }
@@ -323,13 +323,13 @@ static int32_t check_size(const dmb_mesh *mesh, const dmb_cluster *cluster)
 /* A cluster is dense where that is the faster way. */
 static int32_t choose_storage(const dmb_mesh *mesh)
 {
-    int32_t status = DMB_OK;
-    for (uint32_t c = 0; c < mesh->clusters.count && status >= 0; ++c) {
+    for (uint32_t c = 0; c < mesh->clusters.count; ++c) {
         dmb_cluster *cluster = cluster_at(mesh, c);
         cluster->sparse = cluster->node_count >= mesh->model->sparse_nodes;
-        if (!cluster->sparse) status = check_size(mesh, cluster);
+        const int32_t status = cluster->sparse ? DMB_OK : check_size(mesh, cluster);
+        if (status < 0) return status;
     }
-    return status;
+    return DMB_OK;
 }
 
 int32_t dmb_mesh_constraints(dmb_mesh *mesh)

@@ -297,8 +297,7 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
 {
     const dmb_ring_range rings = dmb_mesh_rings_of(mesh, string, number);
     const uint32_t first = mesh->model->bodies.count + mesh->model->bits.count;
-    int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < rings.count && status >= 0; ++i) {
+    for (uint32_t i = 0; i < rings.count; ++i) {
         const uint32_t ring = rings.first[i].ring;
         const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
         const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, first + ring);
@@ -307,10 +306,11 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
         double diameters[2];
         dmb_pipe_diameters(pipe, rings.first[i].along > dmb_pipe_body_length(pipe), diameters);
         dmb_ring_body_of(def, diameters[0], &part);
-        status = add_part(mesh, map->node, &part, map->arm, buoyancy, part.mass / def->density);
+        int32_t status = add_part(mesh, map->node, &part, map->arm, buoyancy, part.mass / def->density);
         if (status >= 0) status = add_ring_mud(mesh, ring, map, diameters[0]);
+        if (status < 0) return status;
     }
-    return status;
+    return DMB_OK;
 }
 
 /* ---- Strings ----------------------------------------------------------------------------------------------------- */

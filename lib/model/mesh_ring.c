@@ -141,9 +141,12 @@ int32_t dmb_mesh_ring_places(dmb_mesh *mesh)
     if (status < 0) return status;
     dmb_mesh_ring *items = mesh->ring_order.items;
     sort(items, mesh->ring_order.count);
-    for (size_t i = 0; i + 1 < mesh->ring_order.count && status >= 0; i++)
-        if (items[i].string == items[i + 1].string) status = check_apart(mesh, items + i);
-    return status;
+    for (size_t i = 0; i + 1 < mesh->ring_order.count; i++) {
+        if (items[i].string != items[i + 1].string) continue;
+        status = check_apart(mesh, items + i);
+        if (status < 0) return status;
+    }
+    return DMB_OK;
 }
 
 dmb_ring_range dmb_mesh_rings_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe)

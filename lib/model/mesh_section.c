@@ -246,25 +246,31 @@ int32_t dmb_mesh_fits(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
     dmb_message part;
-    int32_t status = DMB_OK;
+    int32_t status;
     if (mesh->hole.pieces == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
-    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; s++) status = check_string(mesh, s);
-    for (uint32_t i = 0; i < model->bodies.count && status >= 0; i++) {
+    for (uint32_t s = 0; s < mesh->strings.count; s++) {
+        status = check_string(mesh, s);
+        if (status < 0) return status;
+    }
+    for (uint32_t i = 0; i < model->bodies.count; i++) {
         const double depth = depth_of(mesh, i);
         status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_BODY, i, &part), "contact_diameter",
                             DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter, depth, depth);
+        if (status < 0) return status;
     }
-    for (uint32_t i = 0; i < model->bits.count && status >= 0; i++) {
+    for (uint32_t i = 0; i < model->bits.count; i++) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
         const double depth = depth_of(mesh, model->bodies.count + i) + 0.5 * bit->length;
         status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_BIT, i, &part), "diameter", bit->diameter,
                                 depth, dmb_mesh_bit_cuts(mesh, i));
+        if (status < 0) return status;
     }
-    for (uint32_t i = 0; i < model->rings.count && status >= 0; i++) {
+    for (uint32_t i = 0; i < model->rings.count; i++) {
         const double depth = depth_of(mesh, model->bodies.count + model->bits.count + i);
         status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_RING, i, &part), "outer_diameter",
                                 DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter, depth,
                                 dmb_mesh_ring_cuts(mesh, i));
+        if (status < 0) return status;
     }
-    return status;
+    return DMB_OK;
 }

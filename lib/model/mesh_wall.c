@@ -235,18 +235,18 @@ static int32_t add_inside(dmb_mesh *mesh, const dmb_pipe_def *def, uint32_t e, d
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node), *b = a + 1;
-    int32_t status = DMB_OK;
     if (a->size != DMB_NODE_FULL || b->size != DMB_NODE_FULL) return DMB_OK;
     if (!moves_sideways(a, 1.0) && !moves_sideways(b, 1.0)) return DMB_OK;
     site.node = element->node;
-    for (int i = 1; i + 1 < rule->count && status >= 0; ++i) {
+    for (int i = 1; i + 1 < rule->count; ++i) {
         const dmb_scene_point point = {.fraction = rule->node[i], .node = element->node, .element = e};
         site.offset = element->arm[0] + rule->node[i] * element->length;
         site.length = rule->weight[i] * element->length;
-        status = push_site(mesh, &site);
+        int32_t status = push_site(mesh, &site);
         if (status >= 0) status = dmb_vector_append(&mesh->inside, &mesh->model->allocator, &point, 1);
+        if (status < 0) return status;
     }
-    return status;
+    return DMB_OK;
 }
 
 static int32_t add_string_inside(dmb_mesh *mesh, uint32_t string)

@@ -105,16 +105,18 @@ uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene)
 {
     size_t dense = 0, square = 0, full = 0;
+    double most = 0.0; /* above each of them */
     for (uint32_t c = 0; c < count; ++c) {
         dmb_cluster *cluster = clusters + c;
         cluster->dense = dense;
         cluster->square = square;
         cluster->full = full;
         if (cluster->sparse) continue;
-        if (!dmb_checked_add_size(dense, (size_t)cluster->rows * cluster->columns, &dense) ||
-            !dmb_checked_add_size(square, (size_t)cluster->rows * cluster->rows, &square) ||
-            !dmb_checked_add_size(full, (size_t)cluster->columns * cluster->columns, &full))
-            return 0;
+        most += ((double)cluster->rows + cluster->columns) * ((double)cluster->rows + cluster->columns);
+        if (most > (double)(SIZE_MAX / 2)) return 0;
+        dense += (size_t)cluster->rows * cluster->columns;
+        square += (size_t)cluster->rows * cluster->rows;
+        full += (size_t)cluster->columns * cluster->columns;
     }
     scene->dense_count = dense;
     scene->square_count = square;

@@ -169,11 +169,11 @@ int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint
     part_energy sum = {0.0, 0.0};
     if (status < 0) return status;
     if (strain == NULL) return DMB_ERR_NULL;
-    for (int i = 0; i < parts_of(modes) && status >= 0; i++) {
+    for (int i = 0; i < parts_of(modes); i++) {
         const dmb_sim view = moving(modes, index, i);
         status = add_part(&view, part, pipe, &sum);
+        if (status < 0) return status;
     }
-    if (status < 0) return status;
     const double *s = modes->s + 2 * (size_t)index;
     *kinetic = (s[0] * s[0] + s[1] * s[1]) * sum.kinetic;
     *strain = sum.strain;

@@ -99,7 +99,7 @@ static void transfer_bit(dmb_sim *sim, uint32_t k, const dmb_sim *from)
            bit->history_capacity * sizeof(double));
     memcpy(sim->history_surface + bit->history_first, from->history_surface + was->history_first,
            bit->history_capacity * sizeof(double));
-    for (uint32_t i = 0; i < sim->history_head[k].count && bit->history_capacity; i++)
+    for (uint32_t i = 0; i < sim->history_head[k].count; i++) /* none where there is no room for any */
         sim->history_surface[bit->history_first + i] += moved;
 }
 
@@ -150,12 +150,13 @@ static int32_t transfer_hole(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_hole *to = &sim->scene->hole, *old = &from->scene->hole;
     const int32_t status = check_cut(sim, from);
-    for (uint32_t j = 1; j + 1 < to->cuts && status >= 0; j++) {
+    if (status < 0) return status;
+    for (uint32_t j = 1; j + 1 < to->cuts; j++) {
         const double depth = dmb_hole_cut_depth(to, j), widening = widening_at(from, depth);
         const double wider = dmb_hole_described_radius(old, depth) - dmb_hole_described_radius(to, depth);
         sim->hole_widening[j] = widening > 0.0 ? fmax(widening + wider, 0.0) : 0.0;
     }
-    for (uint32_t j = 1; j < to->cuts && status >= 0; j++) {
+    for (uint32_t j = 1; j < to->cuts; j++) {
         const double slope = 2.0 * fabs(sim->hole_widening[j] - sim->hole_widening[j - 1]) / to->cut_spacing;
         if (slope <= DMB_HOLE_SLOPE_MAX * (1.0 + 1e-9)) continue;
         dmb_message_set(
@@ -165,7 +166,7 @@ static int32_t transfer_hole(dmb_sim *sim, const dmb_sim *from)
             slope, dmb_hole_cut_depth(to, j), DMB_HOLE_SLOPE_MAX);
         return DMB_ERR_GEOMETRY;
     }
-    return status;
+    return DMB_OK;
 }
 
 /* ---- Whole ------------------------------------------------------------------------------------------------------- */

@@ -250,19 +250,29 @@ static int32_t check_pipe(dmb_sim *sim, const dmb_sim *from, uint32_t string, ui
     return other_pipe(sim, string, to, old, "section");
 }
 
-static int same_numbers(const double *a, const double *b, size_t n)
+enum { TYPE_NUMBERS = 31 };
+
+/* The numbers of an element that tell it from others: surroundings and compile options enter them. Arms may differ
+ * where rigid pipes come and go. */
+static void numbers_of(const dmb_element_type *type, double numbers[TYPE_NUMBERS])
 {
-    return memcmp(a, b, n * sizeof *a) == 0;
+    numbers[0] = type->length;
+    numbers[1] = type->damping_time;
+    numbers[2] = type->weight_mass;
+    memcpy(numbers + 3, type->stiffness, 6 * sizeof *numbers);
+    memcpy(numbers + 9, type->rest, 6 * sizeof *numbers);
+    memcpy(numbers + 15, type->mass.axial, 2 * sizeof *numbers);
+    memcpy(numbers + 17, type->mass.torsion, 2 * sizeof *numbers);
+    memcpy(numbers + 19, type->mass.bending[0], 6 * sizeof *numbers);
+    memcpy(numbers + 25, type->mass.bending[1], 6 * sizeof *numbers);
 }
 
-/* Surroundings and compile options enter the elements too. Arms may differ where rigid pipes come and go. */
 static int same_type(const dmb_element_type *a, const dmb_element_type *b)
 {
-    return a->length == b->length && same_numbers(a->stiffness, b->stiffness, 6) && same_numbers(a->rest, b->rest, 6) &&
-           a->damping_time == b->damping_time && a->weight_mass == b->weight_mass &&
-           same_numbers(a->mass.axial, b->mass.axial, 2) && same_numbers(a->mass.torsion, b->mass.torsion, 2) &&
-           same_numbers(a->mass.bending[0], b->mass.bending[0], 6) &&
-           same_numbers(a->mass.bending[1], b->mass.bending[1], 6);
+    double of_a[TYPE_NUMBERS], of_b[TYPE_NUMBERS];
+    numbers_of(a, of_a);
+    numbers_of(b, of_b);
+    return memcmp(of_a, of_b, sizeof of_a) == 0;
 }
 
 /* As described: what inputs of density have made of them goes with these. */

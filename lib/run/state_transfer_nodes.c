@@ -245,14 +245,9 @@ int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from)
     memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
            (width) * sizeof *sim->now.field)
 
-static int32_t bristles_go_on(const dmb_sim *sim, const dmb_sim *from)
-{
-    return dmb_scene_has_bristles(sim->scene) && dmb_scene_has_bristles(from->scene);
-}
-
 static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    if (bristles_go_on(sim, from)) {
+    if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
         DMB_COPY_SITE(site_bristle, 2);
         DMB_COPY_SITE(site_sticks, 1);
     }
@@ -268,7 +263,7 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
 
 static void transfer_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    if (bristles_go_on(sim, from)) {
+    if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
         DMB_COPY_SITE(path_bristle, 2);
         DMB_COPY_SITE(path_sticks, 1);
     }
@@ -308,7 +303,7 @@ static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t
     *arm = 0.0;
     for (uint32_t s = 0; s < scene->string_count; s++) {
         const dmb_string_map *map = scene->strings + s;
-        if (node < map->first_node || node - map->first_node >= map->node_count) continue;
+        if (node - map->first_node >= map->node_count) continue; /* also of a node before, by wrapping round */
         const dmb_common_string common = dmb_common_string_of(scene, from, s);
         if (node < common.to) return DMB_NONE;
         const uint32_t old = common.from + (node - common.to);

@@ -146,6 +146,9 @@ static void what_is_not_out_cannot_come_back(void **state)
     give(&pool, other, 128);
     give(&pool, b + 1, 64);
     give(&pool, b, 4096);
+    give(&pool, b, 0);
+    give(&pool, b, 192); /* beyond it is a gap */
+    give(&pool, b + 1024, 64);
     give(&pool, b + 128, 64);
     give(&pool, NULL, 64);
     assert_ptr_equal(take(&pool, 128), a);
@@ -160,6 +163,9 @@ static void the_peak_is_kept(void **state)
 {
     (void)state;
     const dmb_allocator pool = pool_at(0, 4096);
+    dmb_allocator nowhere = pool;
+    nowhere.context = NULL;
+    assert_int_equal(dmb_pool_peak(&nowhere), 0);
     assert_int_equal(dmb_pool_peak(&pool), LINE);
     void *a = take(&pool, 100), *b = take(&pool, 64);
     assert_int_equal(dmb_pool_peak(&pool), LINE + 128 + 64);

@@ -170,6 +170,24 @@ static void carried_guides_are_taken(void **state)
     close_subject(&from);
 }
 
+/* A sim without a ledger goes on from one that has one: its own stays empty, the motion is the same. */
+static void carried_without_a_ledger(void **state)
+{
+    (void)state;
+    dmb_sim_options options = dmb_sim_options_default();
+    subject from = open_body(DMB_FREE_CYLINDRICAL, 0.0), s = open_body(DMB_FREE_CYLINDRICAL, 0.0);
+    dmb_sim *without = NULL;
+    options.energy_ledger = 0;
+    SAVED_MUST(&s.scene, dmb_sim_create(s.scene.model, &options, &without));
+    assert_true(dmb_sim_transfer_state(without, from.sim) >= 0);
+    assert_true(without->ledger->start == 0.0 && without->ledger->input == 0.0);
+    for (int i = 0; i < 3; i++) assert_true(without->now.displacement[i] == from.sim->now.displacement[i]);
+    for (int i = 0; i < 6; i++) assert_true(without->now.velocity[i] == from.sim->now.velocity[i]);
+    dmb_sim_destroy(&without);
+    close_subject(&from);
+    close_subject(&s);
+}
+
 /* The mark tells of the last transfer: one to where it is described takes it back. */
 static void carried_back(void **state)
 {
@@ -184,10 +202,9 @@ static void carried_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_stay_on_their_guides),
-        cmocka_unit_test(strings_stay_where_they_are_held),
-        cmocka_unit_test(carried_guides_are_taken),
-        cmocka_unit_test(carried_back),
+        cmocka_unit_test(bodies_stay_on_their_guides), cmocka_unit_test(strings_stay_where_they_are_held),
+        cmocka_unit_test(carried_guides_are_taken),    cmocka_unit_test(carried_back),
+        cmocka_unit_test(carried_without_a_ledger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -257,9 +257,11 @@ static void described_states(dmb_sim *sim)
 
 static int32_t check_callbacks(dmb_sim *sim)
 {
-    int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < sim->scene->callback_count && status >= 0; i++) status = dmb_callback_check(sim, i);
-    return status;
+    for (uint32_t i = 0; i < sim->scene->callback_count; i++) {
+        const int32_t status = dmb_callback_check(sim, i);
+        if (status < 0) return status;
+    }
+    return DMB_OK;
 }
 
 static int32_t refuse(dmb_sim *sim, uint32_t row, double violation, const char *what)
@@ -315,9 +317,11 @@ int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint)
 
 static int32_t refuse_flips(dmb_sim *sim)
 {
-    int32_t status = DMB_OK;
-    for (uint32_t j = 0; j < sim->scene->joint_count && status >= 0; j++) status = dmb_joint_refuse_flip(sim, j);
-    return status;
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
+        const int32_t status = dmb_joint_refuse_flip(sim, j);
+        if (status < 0) return status;
+    }
+    return DMB_OK;
 }
 
 /* B v + rate of the rows that were dropped must vanish with the others. */

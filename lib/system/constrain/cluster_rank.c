@@ -172,13 +172,16 @@ int32_t dmb_cluster_rank_make(const dmb_sim *sim, dmb_cluster_rank *rank)
         return status;
     }
     rank->violation = dmb_clusters_violation(&s.sim, 0, &rank->violation_row);
-    for (uint32_t k = 0; k < sim->scene->cluster_count && status >= 0; k++) {
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         dmb_progress_at(sim, (double)k / sim->scene->cluster_count);
         status = dmb_progress_pulse(sim);
-        if (status >= 0) rank_cluster(&s, k, rank);
+        if (status < 0) {
+            dmb_cluster_rank_release(sim, rank);
+            return status;
+        }
+        rank_cluster(&s, k, rank);
     }
-    if (status < 0) dmb_cluster_rank_release(sim, rank);
-    return status;
+    return DMB_OK;
 }
 
 void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank)

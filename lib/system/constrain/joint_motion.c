@@ -306,9 +306,11 @@ double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint)
 
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
 {
-    int32_t status = DMB_OK;
-    for (uint32_t j = 0; j < sim->scene->joint_count && status >= 0; j++) status = check_joint(sim, j, moving, time);
-    return status;
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
+        const int32_t status = check_joint(sim, j, moving, time);
+        if (status < 0) return status;
+    }
+    return DMB_OK;
 }
 
 /* ---- Memory of a joint ------------------------------------------------------------------------------------------- */

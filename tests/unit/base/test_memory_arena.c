@@ -102,6 +102,9 @@ static void sizes_that_overflow(void **state)
     dmb_arena_count(&arena);
     dmb_arena_take(&arena, SIZE_MAX - 10, 1, 1);
     assert_true(dmb_arena_block_size(&arena) == SIZE_MAX);
+    assert_false(arena.overflow);
+    assert_null(dmb_arena_take(&arena, 0, 1, 64)); /* no multiple of 64 is left */
+    assert_true(arena.overflow);
 }
 
 static void alignments_that_are_none(void **state)

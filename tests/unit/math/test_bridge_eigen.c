@@ -125,6 +125,50 @@ static void hold_general(size_t n, double values, double equation)
     }
 }
 
+/* D A D^-1 with D of powers of 2, and the places of rows and columns exchanged: the values are those of A. */
+static void scaled_beyond_reason(void **state)
+{
+    (void)state;
+    const double a = 0.3, b = -0.7, c = 0.9, d = -0.2, turn = sqrt(-(0.25 * (a - d) * (a - d) + b * c));
+    for (int exponent = -1010; exponent <= 1010; exponent += 505) {
+        const double given[4] = {a, ldexp(c, exponent), ldexp(b, -exponent), d};
+        memcpy(A, given, sizeof given);
+        assert_int_equal(dmb_dense_general(2, A, re, im, V, work), 0);
+        for (int k = 0; k < 2; k++) {
+            if (fabs(re[k] - 0.5 * (a + d)) > 1e-14 || fabs(fabs(im[k]) - turn) > 1e-14)
+                fail_msg("2^%d: %.17g %.17g", exponent, re[k], im[k]);
+        }
+        assert_true(im[0] == -im[1]);
+    }
+}
+
+/* A row without entries beside a column with some, as a body that nothing holds. */
+static void rows_of_zeros(void **state)
+{
+    (void)state;
+    const double given[9] = {0.0, 1.0, 2.0, 0.0, 3.0, 0.0, 0.0, 1.0, -2.0};
+    const double wanted[3] = {0.0, 3.0, -2.0};
+    memcpy(A, given, sizeof given);
+    assert_int_equal(dmb_dense_general(3, A, re, im, V, work), 0);
+    for (int k = 0; k < 3; k++) {
+        double nearest = 1.0;
+        for (int i = 0; i < 3; i++) nearest = fmin(nearest, fabs(wanted[k] - re[i]) + fabs(im[i]));
+        assert_true(nearest < 1e-14);
+    }
+}
+
+static void numbers_that_are_none(void **state)
+{
+    (void)state;
+    const double nothing[4] = {1.0, (double)NAN, (double)NAN, 1.0}, much[4] = {1.0, (double)INFINITY, 1.0, 1.0};
+    double K[4] = {1.0, 0.0, 0.0, 1.0}, heavy[4] = {1.0, 0.0, 0.0, (double)INFINITY};
+    memcpy(A, nothing, sizeof nothing);
+    assert_int_not_equal(dmb_dense_general(2, A, re, im, V, work), 0);
+    memcpy(A, much, sizeof much);
+    assert_int_not_equal(dmb_dense_general(2, A, re, im, V, work), 0);
+    assert_int_equal(dmb_dense_pair(2, K, heavy, re, work), 4);
+}
+
 static void general_as_lapack(void **state)
 {
     (void)state;
@@ -317,9 +361,10 @@ static void order_without_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(symmetric_as_lapack), cmocka_unit_test(pair_as_lapack),
-                                       cmocka_unit_test(general_as_lapack),   cmocka_unit_test(state_matrices),
-                                       cmocka_unit_test(special_matrices),    cmocka_unit_test(falling_matrices),
-                                       cmocka_unit_test(rank_as_lapack),      cmocka_unit_test(order_as_cholmod),
-                                       cmocka_unit_test(order_without_memory)};
+                                       cmocka_unit_test(general_as_lapack),   cmocka_unit_test(scaled_beyond_reason),
+                                       cmocka_unit_test(rows_of_zeros),       cmocka_unit_test(numbers_that_are_none),
+                                       cmocka_unit_test(state_matrices),      cmocka_unit_test(special_matrices),
+                                       cmocka_unit_test(falling_matrices),    cmocka_unit_test(rank_as_lapack),
+                                       cmocka_unit_test(order_as_cholmod),    cmocka_unit_test(order_without_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
