@@ -777,6 +777,39 @@ static void motors_elsewhere_are_refused(void **state)
     rig_close(&h.s);
 }
 
+/* Status of a model of two pipes whose motor sits at that part of a pipe, the string on either side of the joint. */
+static int32_t with_motor_at(uint32_t pipe_index, double fraction, int string_is_b)
+{
+    const dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE);
+    const dmb_environment_def e = mud_of(motor_flow, 0.0);
+    const dmb_motor motor = line_motor();
+    hanging h = describe(&pipe, &e, 2);
+    dmb_body_def body = dmb_body_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    double speed = 0.0;
+    body.position[0] = (pipe_index + fraction) * pipe.length;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1.0;
+    const dmb_place shaft = dmb_station(add_body(&h.s, &body), 0, 0.0),
+                    at = dmb_station(h.string, pipe_index, fraction);
+    assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
+    drive.part = add_joint_between(&h.s, DMB_JOINT_REVOLUTE, string_is_b ? shaft : at, string_is_b ? at : shaft);
+    drive.programme = add_constant(&h.s, speed);
+    (void)add_drive(&h.s, &drive);
+    const int32_t status = dmb_model_compile(h.s.model, NULL);
+    rig_close(&h.s);
+    return status;
+}
+
+static void motors_sit_at_the_far_end(void **state)
+{
+    (void)state;
+    for (int string_is_b = 0; string_is_b < 2; string_is_b++) {
+        assert_true(with_motor_at(1, 1.0, string_is_b) >= 0);
+        assert_int_equal(with_motor_at(1, 0.0, string_is_b), DMB_ERR_UNSUPPORTED);
+        assert_int_equal(with_motor_at(0, 1.0, string_is_b), DMB_ERR_UNSUPPORTED);
+    }
+}
+
 static void what_it_cannot_is_refused(void **state)
 {
     dmb_environment_def e = mud_of(0.01, 0.0);
@@ -846,6 +879,7 @@ int main(void)
         cmocka_unit_test(motors_take_pressure),
         cmocka_unit_test(motors_by_tables),
         cmocka_unit_test(motors_elsewhere_are_refused),
+        cmocka_unit_test(motors_sit_at_the_far_end),
         cmocka_unit_test(what_it_cannot_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
