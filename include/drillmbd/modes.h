@@ -96,9 +96,10 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot
  * be told from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). Joints whose
  * equations change in `axes` while the state moves on (a rotor on a carrier in axes that turn; rolling), and strings
- * that turn on the wall in axes that turn with them, are refused (_UNSUPPORTED): coefficients are not constant. Springs
- * that hold what turns must be alike across it in axes that turn, and what turns be round in axes at rest, which is
- * not checked. *modes is NULL on error: DMB_ERR_VALUE (option; more modes than
+ * that turn on the wall in axes that turn with them, are refused (_UNSUPPORTED): coefficients are not constant. So are
+ * modes whose coefficients change by more than 1e-4 while parts turn, which the state turned on by a radian tells: in
+ * axes that turn what holds them unlike across (springs, the sag of a shaft held along), in axes at rest what is not
+ * round. *modes is NULL on error: DMB_ERR_VALUE (option; more modes than
  * coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR,
  * _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE, _UNSUPPORTED. */
 DMB_API int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_modes **modes);

@@ -104,15 +104,15 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * that it has in the state, and section forces are told in axes that do not spin. Structural damping there is that of
  * what does not turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against
  * each other, or a string that turns on the wall, which goes round in axes that turn; answers hold along and about the
- * axes of straight parts, not across. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every
- * struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message.
- * *response is NULL on error: DMB_ERR_VALUE (option, component, band; a state out of balance: by how much and where),
- * _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free),
- * _UNSUPPORTED (axes at rest: a load across a part that turns with it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion
- * drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the
- * sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements;
- * of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be
- * computed at a time. */
+ * axes of straight parts, not across. Or coefficients that change while parts turn, as of modes. inputs, outputs:
+ * shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
+ * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
+ * band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part
+ * that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with
+ * it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the
+ * sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints
+ * + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those.
+ * One thread; several responses of one sim may not be computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
                                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);

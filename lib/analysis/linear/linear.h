@@ -79,6 +79,27 @@ void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_option
 int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
 int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
 
+/* The scene of a linear system linearised once more with what turns turned on: NULL where nothing does. */
+typedef struct dmb_linear_turned {
+    dmb_linear *linear;
+    double *angle; /* [rad] by which nodes turned on against the axes of d, shape (node_count), and memory of work */
+    size_t bytes;
+    double change; /* [-] largest so far, and the node where it is most */
+    uint32_t node;
+    uint32_t reserved;
+} dmb_linear_turned;
+
+/* sim, options: as of `linear`. Errors as dmb_linear_make; `out` is released by the caller in any case. */
+int32_t dmb_linear_turn_on(const dmb_linear *linear, const dmb_sim *sim, const dmb_linear_options *options,
+                           dmb_linear_turned *out);
+void dmb_linear_turned_release(dmb_linear_turned *turned, const dmb_allocator *allocator);
+/* [-] What the forces of an answer d e^(s t) change by while parts turn, d = re + i im by rows, im may be NULL. */
+double dmb_linear_change_of(dmb_linear_turned *turned, const dmb_linear *linear, const double s[2], const double *re,
+                            const double *im);
+/* DMB_ERR_UNSUPPORTED with a message of `who` and `then` what, where the largest change is more than 1e-4. */
+int32_t dmb_linear_check_change(const dmb_linear_turned *turned, const char *who, const char *then,
+                                dmb_message *message);
+
 /* Entry of component c of a node on the diagonal of A. */
 static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_linear_matrix *A, uint32_t node,
                                          uint32_t c)

@@ -143,6 +143,26 @@ static int32_t search_modes(dmb_mode_search *search)
     return status < 0 ? status : finish(search);
 }
 
+/* Modes of coefficients that change as parts turn are not modes. */
+static int32_t check_turned(const dmb_mode_search *search, const dmb_sim *sim, const dmb_linear_options *how)
+{
+    const dmb_modes *modes = search->modes;
+    dmb_linear_turned turned;
+    int32_t status = dmb_linear_turn_on(search->linear, sim, how, &turned);
+    if (turned.linear != NULL && search->options->kind == DMB_MODES_UNDAMPED)
+        dmb_linear_clear(turned.linear, &turned.linear->damping); /* as of the modes */
+    for (uint32_t k = 0; k < modes->count && status >= 0; k++) {
+        const size_t at = (size_t)k * modes->rows;
+        if (modes->rigid[k]) continue;
+        (void)dmb_linear_change_of(&turned, search->linear, modes->s + 2 * (size_t)k, modes->re + at,
+                                   modes->im != NULL ? modes->im + at : NULL);
+    }
+    if (status >= 0)
+        status = dmb_linear_check_change(&turned, "modes", "take the other axes, or run in time", search->message);
+    dmb_linear_turned_release(&turned, &search->linear->allocator);
+    return status;
+}
+
 static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, double load_growth, dmb_message *message,
                        dmb_modes *modes)
 {
@@ -164,6 +184,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
     search.work = dmb_allocate(&modes->allocator, bytes);
     search.coordinate_mass = search.work + 9 * (size_t)modes->rows;
     status = search.work != NULL ? search_modes(&search) : DMB_ERR_NO_MEMORY;
+    if (status >= 0) status = check_turned(&search, sim, &how);
     if (search.rigid != NULL) dmb_modes_forget_rigid(&search);
     dmb_release(&modes->allocator, search.work, bytes);
     dmb_linear_release(&search.linear);

@@ -122,6 +122,7 @@ typedef struct response_work {
     dmb_sim *sim; /* for its message */
     dmb_response_options options;
     dmb_linear *linear;
+    dmb_linear_turned turned;
     dmb_dynamic_stiffness stiffness;
     dmb_excitation *inputs;
     dmb_response_output *outputs;
@@ -185,6 +186,7 @@ static int32_t linearise(response_work *w)
                                         .spin = w->options.spin};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
+    if (status >= 0) status = dmb_linear_turn_on(w->linear, w->sim, &options, &w->turned);
     if (status < 0) return status;
     w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
     return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
@@ -255,7 +257,7 @@ static int32_t nothing_holds(const response_work *w, double frequency, uint32_t 
 
 static int32_t solve_point(response_work *w, dmb_response *response, uint32_t point)
 {
-    const double frequency = response->frequency[point], omega = DMB_TWO_PI * frequency;
+    const double frequency = response->frequency[point], omega = DMB_TWO_PI * frequency, s[2] = {0.0, omega};
     const int32_t told = dmb_progress_pulse(w->sim);
     if (told < 0) return told;
     const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
@@ -264,6 +266,7 @@ static int32_t solve_point(response_work *w, dmb_response *response, uint32_t po
         const int32_t status = load(w, i, omega);
         if (status < 0) return status;
         dmb_dynamic_stiffness_solve(&w->stiffness, w->inputs[i].law == DMB_EXCITE_MOTION, w->x);
+        (void)dmb_linear_change_of(&w->turned, w->linear, s, w->x.re, w->x.im);
         double *value = dmb_response_value(response, point, i);
         for (uint32_t k = 0; k < w->output_count; k++) {
             const dmb_complex_number found =
@@ -317,8 +320,18 @@ static int32_t respond(response_work *w, const dmb_input *inputs, const dmb_outp
     return status;
 }
 
+/* Tells what the answers leave out. */
+static int32_t note_left_out(const response_work *w)
+{
+    const int32_t status = dmb_linear_note_coefficients(w->linear, "response", &w->sim->message);
+    if (status != DMB_OK) return status;
+    const char *const then = "what that changes is left out; take the other axes, or a stepped sine";
+    return dmb_linear_check_change(&w->turned, "response", then, &w->sim->message) < 0 ? DMB_NOTE_INCOMPLETE : DMB_OK;
+}
+
 static void release(response_work *w)
 {
+    if (w->linear != NULL) dmb_linear_turned_release(&w->turned, &w->linear->allocator);
     dmb_dynamic_stiffness_release(&w->stiffness);
     dmb_linear_release(&w->linear);
     if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
@@ -343,7 +356,7 @@ static int32_t analyse(response_work *w, const dmb_response_options *options, co
     if (status < 0) return status;
     dmb_response *made = dmb_response_new(&sim->allocator, w->input_count, w->output_count);
     status = made != NULL ? respond(w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
-    if (status >= 0) status = dmb_linear_note_coefficients(w->linear, "response", &sim->message);
+    if (status >= 0) status = note_left_out(w);
     release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
     if (status < 0)
@@ -368,80 +381,4 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
     w.input_count = input_count;
     w.output_count = output_count;
     return dmb_sim_leave(sim, analyse(&w, options, inputs, outputs, response));
-}
-
-/* ---- Peaks ------------------------------------------------------------------------------------------------------- */
-
-/* Values below this part of a function's largest magnitude are rounding and have no peaks. */
-#define DMB_PEAK_FLOOR 1e-10
-/* Intervals shorter than this part of their frequency are not divided. */
-#define DMB_PEAK_WIDTH 1e-12
-
-static double magnitude(const dmb_response *response, size_t point, size_t pair)
-{
-    const double *value = dmb_response_value(response, point, 0) + 2 * pair;
-    return hypot(value[0], value[1]);
-}
-
-/* Marks the intervals i, i + 1 on both sides of each inner maximum; a plateau has none. */
-static void mark_pair(const dmb_response *response, size_t pair, uint8_t *split)
-{
-    const size_t n = response->points;
-    double largest = 0.0;
-    for (size_t i = 0; i < n; i++) largest = fmax(largest, magnitude(response, i, pair));
-    for (size_t i = 1; i + 1 < n; i++) {
-        const double here = magnitude(response, i, pair);
-        if (!(here > DMB_PEAK_FLOOR * largest)) continue;
-        if (here > magnitude(response, i - 1, pair) && here >= magnitude(response, i + 1, pair))
-            split[i - 1] = split[i] = 1;
-    }
-}
-
-static uint32_t mark(const dmb_response *response, uint8_t *split)
-{
-    const size_t pairs = (size_t)response->inputs * response->outputs;
-    const double *f = response->frequency;
-    uint32_t count = 0;
-    for (size_t k = 0; k < pairs; k++) mark_pair(response, k, split);
-    for (size_t i = 0; i + 1 < response->points; i++) {
-        if (!(f[i + 1] - f[i] > DMB_PEAK_WIDTH * f[i + 1])) split[i] = 0;
-        count += split[i];
-    }
-    return count;
-}
-
-static void merge(const dmb_response *old, const uint8_t *split, dmb_response *response, uint8_t *fresh)
-{
-    const size_t stride = 2 * (size_t)old->inputs * old->outputs;
-    size_t to = 0;
-    for (size_t i = 0; i < old->points; i++) {
-        response->frequency[to] = old->frequency[i];
-        memcpy(response->value + stride * to++, old->value + stride * i, stride * sizeof(double));
-        if (i + 1 == old->points || !split[i]) continue;
-        response->frequency[to] = 0.5 * (old->frequency[i] + old->frequency[i + 1]);
-        fresh[to++] = 1;
-    }
-}
-
-int32_t dmb_response_split_peaks(dmb_response *response, uint8_t **fresh)
-{
-    const dmb_response old = *response;
-    uint8_t *split = dmb_allocate(&old.allocator, old.points);
-    *fresh = NULL;
-    if (split == NULL) return DMB_ERR_NO_MEMORY;
-    const uint32_t added = mark(response, split);
-    int32_t status = DMB_OK;
-    if (added > 0) {
-        *fresh = dmb_allocate(&old.allocator, old.points + added);
-        status = *fresh == NULL ? DMB_ERR_NO_MEMORY : dmb_response_resize(response, old.points + added);
-        if (status == DMB_OK) {
-            merge(&old, split, response, *fresh);
-            dmb_release(&old.allocator, old.table, old.table_size);
-        } else if (*fresh != NULL) {
-            dmb_release(&old.allocator, *fresh, old.points + added);
-            *fresh = NULL;
-        }
-    }
-    dmb_release(&old.allocator, split, old.points);
-    return status;
 }
