@@ -84,6 +84,7 @@ typedef struct dmb_linear_turned {
     dmb_linear *linear;
     double *angle; /* [rad] by which nodes turned on against the axes of d, shape (node_count), and memory of work */
     size_t bytes;
+    double spin;   /* [rad/s] of what turns fastest */
     double change; /* [-] largest so far, and the node where it is most */
     uint32_t node;
     uint32_t reserved;

@@ -88,10 +88,10 @@ static int32_t linearise(const dmb_linear *linear, const dmb_sim *sim, const dmb
 int32_t dmb_linear_turn_on(const dmb_linear *linear, const dmb_sim *sim, const dmb_linear_options *options,
                            dmb_linear_turned *out)
 {
-    const double spin = fastest(linear, options->still);
     memset(out, 0, sizeof *out);
     out->node = DMB_NONE;
-    return spin > DMB_TURNED_SPIN ? linearise(linear, sim, options, DMB_TURNED_ANGLE / spin, out) : DMB_OK;
+    out->spin = fastest(linear, options->still);
+    return out->spin > DMB_TURNED_SPIN ? linearise(linear, sim, options, DMB_TURNED_ANGLE / out->spin, out) : DMB_OK;
 }
 
 void dmb_linear_turned_release(dmb_linear_turned *turned, const dmb_allocator *allocator)

@@ -76,10 +76,16 @@ static int32_t check_balance(const dmb_space_work *w)
     return DMB_ERR_VALUE;
 }
 
-static int32_t linearise(dmb_space_work *w)
+static dmb_linear_options how_to_linearise(const dmb_space_work *w)
 {
     const dmb_linear_options options = {
         .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
+    return options;
+}
+
+static int32_t linearise(dmb_space_work *w)
+{
+    const dmb_linear_options options = how_to_linearise(w);
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status >= 0) status = check_balance(w);
     if (status >= 0) status = dmb_whole_matrices(w->linear, &w->space->whole);
@@ -238,6 +244,15 @@ static int32_t run(dmb_space_work *w, const dmb_input *inputs, const dmb_output 
     return dmb_space_fill(w);
 }
 
+/* Tells what the matrices leave out. */
+static int32_t note_coefficients(dmb_space_work *w)
+{
+    const dmb_linear_options options = how_to_linearise(w);
+    if (w->options.form == DMB_STATE_MATRICES) return DMB_OK;
+    const int32_t status = dmb_linear_note_coefficients(w->linear, "state space", &w->sim->message);
+    return status != DMB_OK ? status : dmb_space_note_turning(w, &options);
+}
+
 static void release(dmb_space_work *w)
 {
     dmb_dynamic_stiffness_release(&w->stiffness);
@@ -260,8 +275,7 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
         w->space->allocator = sim->allocator;
         status = run(w, inputs, outputs);
     }
-    if (status >= 0 && w->options.form != DMB_STATE_MATRICES)
-        status = dmb_linear_note_coefficients(w->linear, "state space", &sim->message);
+    if (status >= 0) status = note_coefficients(w);
     release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "state space: no memory");
     if (status < 0)

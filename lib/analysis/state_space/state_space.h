@@ -89,6 +89,9 @@ int32_t dmb_space_make_basis(dmb_space_work *w);
 uint64_t dmb_space_basis_room(const dmb_space_work *w);
 /* A, B, C, D. */
 int32_t dmb_space_fill(dmb_space_work *w);
+/* DMB_NOTE_INCOMPLETE with its message where coefficients change while parts turn, w->work is written. Errors as
+ * dmb_linear_make. */
+int32_t dmb_space_note_turning(dmb_space_work *w, const dmb_linear_options *how);
 /* Number of extra states of an input. */
 uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_excitation *input);
 
