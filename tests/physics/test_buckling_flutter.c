@@ -143,12 +143,84 @@ static void dead_push(void **state)
     check_relative("Euler [EI/L^2]", 1.0 + factor, 0.25 * PI * PI, 1e-4);
 }
 
+/* ---- Rigid links, which loads along them do not move: told from the present pose --------------------------------- */
+
+#define HINGE 100.0 /* [N m/rad] */
+#define LINK 2.0    /* [m] */
+
+/* A point mass at x, on a link along x from `from`, hinged there and held straight by a spring. */
+static dmb_id add_link(rig *s, dmb_id from, double x, double y, double mass)
+{
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def hinge = dmb_joint_def_default();
+    body.position[0] = x;
+    body.position[1] = y;
+    body.mass = mass;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 1e-9;
+    const dmb_id link = add_body(s, &body);
+    hinge.kind = DMB_JOINT_REVOLUTE;
+    hinge.place_a = dmb_station(from, 0, 0.0);
+    hinge.place_b = dmb_station(link, 0, 0.0);
+    if (from.index == 0) hinge.origin_a[1] = y;
+    hinge.origin_b[0] = -LINK;
+    for (int i = 0; i < 3; i++) hinge.axis_a[i] = hinge.axis_b[i] = i == 2 ? 1.0 : 0.0;
+    hinge.normal_a[0] = hinge.normal_b[0] = 1.0;
+    hinge.stiffness[DMB_RX] = HINGE;
+    (void)add_joint(s, &hinge);
+    return link;
+}
+
+static void push_link(rig *s, dmb_id link, int32_t frame, double force)
+{
+    dmb_load_def load = dmb_load_def_default();
+    load.place = dmb_station(link, 0, 0.0);
+    load.frame = frame;
+    load.force[0] = -force;
+    (void)add_load(s, &load);
+}
+
+/* Ziegler's double pendulum, masses 2 m and m, follower push P: w = m l^2 |s|^2 from 2 w^2 - (7 k - 2 P l) w + k^2 = 0,
+ * flutter from P l/k = 7/2 - sqrt 2 on (Ziegler 1952); beside it a pendulum that a dead push tips over. */
+static dmb_buckling_info zieglers_pendulum(double push, double dead, int32_t wanted, double *factor)
+{
+    rig s;
+    dmb_buckling *found = NULL;
+    dmb_buckling_info info = dmb_buckling_info_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    const dmb_id first = add_link(&s, ground_id, LINK, 0.0, 6.0), second = add_link(&s, first, 2.0 * LINK, 0.0, 3.0);
+    push_link(&s, second, DMB_FRAME_BODY, push * HINGE / LINK);
+    push_link(&s, add_link(&s, ground_id, LINK, 5.0, 1.0), DMB_FRAME_WORLD, dead * HINGE / LINK);
+    (void)rig_start(&s, NULL);
+    assert_int_equal(dmb_analysis_buckling(s.sim, NULL, &found), wanted);
+    assert_int_equal(dmb_buckling_get_info(found, &info), DMB_OK);
+    assert_int_equal(info.stiffness, DMB_STIFFNESS_UNSYMMETRIC);
+    assert_int_equal(dmb_buckling_factor(found, 0, factor), DMB_OK);
+    dmb_buckling_destroy(&found);
+    rig_close(&s);
+    return info;
+}
+
+static void links_that_flutter_before_one_tips(void **state)
+{
+    const double flutter = 3.5 - sqrt(2.0);
+    double factor;
+    (void)state;
+    dmb_buckling_info info = zieglers_pendulum(1.0, 1.0 / 3.0, DMB_NOTE_FLUTTER, &factor);
+    check_relative("flutter", 1.0 + info.flutter_factor, flutter, 1e-5);
+    check_relative("divergence of the other", factor, 2.0, 1e-9);
+    info = zieglers_pendulum(0.5, 1.0 / 3.0, DMB_OK, &factor);
+    assert_int_equal(info.flutter, DMB_FLUTTER_NONE);
+    check_relative("divergence before flutter", factor, 2.0, 1e-9);
+    info = zieglers_pendulum(flutter * 1.01, 1.0 / 3.0, DMB_NOTE_FLUTTER, &factor);
+    assert_true(info.flutter_factor == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(becks_column),       cmocka_unit_test(damping_destabilises),
         cmocka_unit_test(twisted_cantilever), cmocka_unit_test(greenhills_shaft),
-        cmocka_unit_test(dead_push),
+        cmocka_unit_test(dead_push),          cmocka_unit_test(links_that_flutter_before_one_tips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,27 +128,32 @@ static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
     }
 }
 
-/* Negative eigenvalues of H + rho D; the blocks are used up. -1: a block is singular before its turn. */
-static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, int friction_turned)
+/* *none: 1 if H + rho D has no negative eigenvalue, 0: it has some, a block is singular before its turn, or no friction
+ * can be turned; the blocks are used up. Errors: those of dmb_static_evaluate, DMB_ERR_NO_MEMORY. */
+static int32_t look_at_symmetric_part(dmb_static_search *state, double rho, int friction_turned, int *none)
 {
     dmb_sim *sim = state->sim;
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
-    if (dmb_static_evaluate(state) < 0) return -1;
+    const int32_t status = dmb_static_evaluate(state);
+    *none = 0;
+    if (status < 0) return status;
     dmb_system_iteration_matrix(&state->evaluation);
-    if (friction_turned && dmb_stability_turn_friction(&state->evaluation) <= 0) return -1;
+    const int32_t turned = friction_turned ? dmb_stability_turn_friction(&state->evaluation) : 1;
+    if (turned <= 0) return turned;
     raise_diagonal(sim, rho, 0);
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].jointed)
             negative += dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower,
                                            sim->stiffness_upper, NULL, scene->chains[c].first, scene->chains[c].count);
-    if (scene->cluster_count == 0) return (int32_t)negative;
+    *none = negative == 0;
+    if (scene->cluster_count == 0 || !*none) return DMB_OK;
     raise_diagonal(sim, rho, 1);
     dmb_reduced_assemble(sim);
     dmb_make_reduced_symmetric(sim, sim->reduced_value);
     dmb_block_sparse matrix = {sim->reduced_value, sim->reduced_pivot, sim->reduced_size};
-    if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return -1;
-    return (int32_t)(negative + dmb_reduced_negative(sim));
+    *none = dmb_block_sparse_factor(&scene->pattern, &matrix) < 0 && dmb_reduced_negative(sim) == 0;
+    return DMB_OK;
 }
 
 /* ---- Real eigenvalues nearest 0 ------------------------------------------------------------------------------------
@@ -260,8 +265,8 @@ static int determinant_is_negative(const dmb_sim *sim)
 typedef struct search {
     dmb_static_search *state;
     double rounding;
-    int32_t odd;      /* 1: det K < 0 */
-    int32_t complete; /* 1: there are no other negative ones */
+    int32_t odd;  /* 1: det K < 0 */
+    int complete; /* 1: there are no other negative ones */
     int32_t negative;
     uint32_t wanted, dimension;
 } search;
@@ -307,14 +312,17 @@ static int32_t look(search *s)
     s->negative = count_negative(&found, s->rounding);
     const double last = found.count ? hypot(found.re[found.count - 1], found.im[found.count - 1]) : 0.0;
     dmb_krylov_release(&found);
-    s->complete = s->wanted >= s->dimension || (last > 0.0 && negative_of_symmetric_part(s->state, 1.0 / last, 0) == 0);
-    return factor_again(s->state);
+    s->complete = s->wanted >= s->dimension;
+    const int32_t looked =
+        s->complete || !(last > 0.0) ? DMB_OK : look_at_symmetric_part(s->state, 1.0 / last, 0, &s->complete);
+    return looked < 0 ? looked : factor_again(s->state);
 }
 
 /* Whether a symmetric part says that there is none; the factors are gone then. */
-static int has_none(dmb_static_search *state, double rounding)
+static int32_t look_for_none(dmb_static_search *state, double rounding, int *none)
 {
-    return negative_of_symmetric_part(state, rounding, 0) == 0 || negative_of_symmetric_part(state, rounding, 1) == 0;
+    const int32_t status = look_at_symmetric_part(state, rounding, 0, none);
+    return status < 0 || *none ? status : look_at_symmetric_part(state, rounding, 1, none);
 }
 
 static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_stability *out)
@@ -324,7 +332,9 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
                 .odd = determinant_is_negative(state->sim),
                 .wanted = DMB_DIVERGENCE_FIRST,
                 .dimension = coordinates_of(state->sim)};
-    const int32_t none = has_none(state, out->rounding), status = factor_again(state);
+    int none;
+    int32_t status = look_for_none(state, out->rounding, &none);
+    if (status >= 0) status = factor_again(state);
     out->negative = 0;
     if (status < 0 || none) return status;
     out->negative = -1;
