@@ -95,7 +95,8 @@ enum {
     DMB_SCALE_ALL = 0,   /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
     DMB_SCALE_LOADS = 1, /* the same without gravity */
     DMB_SCALE_PART = 2   /* one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a
-                            motion drive of a string or body moves its component by */
+                            motion drive of a string or body moves its component by, which joints, springs or forces
+                            at several parts must not hold (DMB_ERR_UNSUPPORTED) */
 };
 typedef struct dmb_buckling_options {
     uint32_t struct_size;

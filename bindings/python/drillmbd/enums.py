@@ -506,7 +506,7 @@ class Scale(IntEnum):
     """Values DMB_SCALE_... of the headers."""
     ALL = 0  #: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
     LOADS = 1  #: the same without gravity
-    PART = 2  #: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by
+    PART = 2  #: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
 
 
 SCALE_ALL = Scale.ALL
