@@ -56,7 +56,7 @@ static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t c
         double value = 0.0;
         status = motion_component(copy, place, frame, component, &value);
         copy->now.velocity[r] = 0.0;
-        if (value != 0.0 && status >= 0) take_value(r, value, out);
+        if (value != 0.0) take_value(r, value, out);
     }
     exchange_motion(copy);
     return status;
@@ -73,9 +73,6 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
 
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
 {
-    if (node == DMB_NONE) return;
-    for (uint32_t i = 0; i < out->count; i++)
-        if (out->row[i] == scene->layout.row[node]) return;
     for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;
 }
 

@@ -243,7 +243,7 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
 /* Rows of the nodes around a place: the node or the two nodes it follows, and one more on either side, and no numbers.
  * copy and errors as above. */
 int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out);
-/* Takes the rows of one more node in; DMB_NONE is none. */
+/* Takes the rows of a node in that are not in it yet. */
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
 /* An answer that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
  * of second degree in their speeds. copy: linear->work, as before on return. */

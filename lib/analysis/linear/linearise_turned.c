@@ -97,7 +97,7 @@ int32_t dmb_linear_turn_on(const dmb_linear *linear, const dmb_sim *sim, const d
 void dmb_linear_turned_release(dmb_linear_turned *turned, const dmb_allocator *allocator)
 {
     dmb_linear_release(&turned->linear);
-    if (turned->angle != NULL) dmb_release(allocator, turned->angle, turned->bytes);
+    dmb_release(allocator, turned->angle, turned->bytes);
     turned->angle = NULL;
 }
 

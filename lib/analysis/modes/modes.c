@@ -215,7 +215,7 @@ static uint32_t coordinates_of(const dmb_sim *state)
     uint32_t count = 0, rank = 0;
     for (uint32_t i = 0; i < scene->row_count; i++) count += scene->solved_row[i] != 0;
     for (uint32_t k = 0; k < scene->cluster_count; k++) rank += state->partition_rank[k];
-    return count > rank ? count - rank : 0;
+    return count - rank;
 }
 
 int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *message, double root[2])
@@ -232,8 +232,7 @@ int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *
     root[0] = -(double)INFINITY;
     root[1] = 0.0;
     for (uint32_t i = 0; status >= 0 && i < modes->count; i++)
-        if (!modes->rigid[i] && modes->s[2 * (size_t)i] > root[0])
-            memcpy(root, modes->s + 2 * (size_t)i, sizeof(double[2]));
+        if (modes->s[2 * (size_t)i] > root[0]) memcpy(root, modes->s + 2 * (size_t)i, sizeof(double[2]));
     dmb_modes_destroy(&modes);
     return status;
 }
@@ -258,7 +257,7 @@ enum { DMB_COUNT_TRIES = 3 };
 static int is_dense(const dmb_mode_search *search, uint32_t wanted)
 {
     const uint32_t n = search->linear->coordinates;
-    return search->options->select == DMB_MODES_ALL || n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
+    return n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
 }
 
 /* Rigid-body motions are apart where K is symmetric and no damping feels them. */

@@ -163,9 +163,8 @@ typedef struct reach {
 typedef struct covering {
     dmb_mode_search *search;
     double low, high; /* [1/s] of |s| */
-    int strip;        /* 1: all roots are along the imaginary axis, and counts of w^2 tell about where */
-    reach *reaches;
-    uint32_t count, room;
+    dmb_vector reaches;
+    int strip; /* 1: all roots are along the imaginary axis, and counts of w^2 tell about where */
 } covering;
 
 static int holds(const rectangle *r, const double s[2])
@@ -191,8 +190,8 @@ static int covers(const reach *w, const rectangle *r)
 /* Whether an earlier search has covered it and told no root in it. */
 static int is_empty(const covering *c, const rectangle *r)
 {
-    for (uint32_t i = 0; i < c->count; i++) {
-        const reach *w = c->reaches + i;
+    for (size_t i = 0; i < c->reaches.count; i++) {
+        const reach *w = DMB_VECTOR_AT(const reach, &c->reaches, i);
         uint32_t inside = 0;
         if (!covers(w, r)) continue;
         for (uint32_t k = 0; k < w->count; k++) inside += holds(r, w->root[k]) != 0;
@@ -209,20 +208,6 @@ static int is_outside(const covering *c, const rectangle *r)
     return near > c->high || far < c->low;
 }
 
-static int32_t make_room(covering *c)
-{
-    const dmb_allocator *allocator = &c->search->linear->allocator;
-    const uint32_t room = 2 * c->room + 64;
-    if (c->count < c->room) return DMB_OK;
-    reach *more = dmb_allocate_array(allocator, room, sizeof *more);
-    if (more == NULL) return DMB_ERR_NO_MEMORY;
-    if (c->count > 0) memcpy(more, c->reaches, c->count * sizeof *more);
-    if (c->reaches != NULL) dmb_release(allocator, c->reaches, c->room * sizeof *more);
-    c->reaches = more;
-    c->room = room;
-    return DMB_OK;
-}
-
 /* Roots of little damping stand beside the imaginary axis, not on the circle about growth through its own conjugate. */
 static double shift_growth(const rectangle *r)
 {
@@ -236,19 +221,15 @@ static int32_t search_rectangle(covering *c, const rectangle *r)
 {
     dmb_modes *modes = c->search->modes;
     const uint32_t first = modes->count;
-    int32_t status = make_room(c);
-    if (status < 0) return status;
-    reach *w = c->reaches + c->count;
-    w->growth = shift_growth(r);
-    w->omega = r->im[0] > 0.0 ? 0.5 * (r->im[0] + r->im[1]) : 0.0;
-    w->count = 0;
-    status = dmb_modes_shifted(c->search, &w->growth, w->omega, DMB_PIECE, &w->least);
+    reach w = {.growth = shift_growth(r), .omega = r->im[0] > 0.0 ? 0.5 * (r->im[0] + r->im[1]) : 0.0};
+    int32_t status = dmb_modes_shifted(c->search, &w.growth, w.omega, DMB_PIECE, &w.least);
     if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far off all roots */
     if (status < 0) return status;
-    for (uint32_t i = first; i < modes->count && w->count < 2 * DMB_PIECE; i++, w->count++)
-        memcpy(w->root[w->count], modes->s + 2 * (size_t)i, 2 * sizeof(double));
-    c->count++;
-    const int done = covers(w, r);
+    for (uint32_t i = first; i < modes->count && w.count < 2 * DMB_PIECE; i++, w.count++)
+        memcpy(w.root[w.count], modes->s + 2 * (size_t)i, 2 * sizeof(double));
+    status = dmb_vector_append(&c->reaches, &c->search->linear->allocator, &w, 1);
+    if (status < 0) return status;
+    const int done = covers(&w, r);
     uint32_t kept = first;
     for (uint32_t i = first; i < modes->count && done; i++) {
         if (!holds(r, modes->s + 2 * (size_t)i)) continue;
@@ -329,12 +310,13 @@ int dmb_modes_find_strip(dmb_mode_search *search, double high, double strip[2])
 
 int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high)
 {
-    covering c = {.search = search, .low = DMB_TWO_PI * low, .high = DMB_TWO_PI * high};
+    covering c = {
+        .search = search, .low = DMB_TWO_PI * low, .high = DMB_TWO_PI * high, .reaches = dmb_vector_of(sizeof(reach))};
     const double edge = (1.0 + 1e-9) * c.high;
     rectangle all = {{-edge, edge}, {0.0, edge}, 0};
     c.strip = dmb_modes_find_strip(search, high, all.re);
     search->modes->count = 0;
     const int32_t status = cover(&c, all);
-    if (c.reaches != NULL) dmb_release(&search->linear->allocator, c.reaches, c.room * sizeof(reach));
+    dmb_vector_release(&c.reaches, &search->linear->allocator);
     return status;
 }

@@ -158,7 +158,7 @@ static double quotient(const dmb_mode_search *search, const dmb_dense *d, size_t
     dmb_linear_multiply(linear, &linear->mass, d->x, product);
     const double mass = dmb_dot(linear->rows, d->x, product);
     dmb_linear_multiply(linear, &linear->stiffness, d->x, product);
-    return mass > 0.0 ? dmb_dot(linear->rows, d->x, product) / mass : d->square[k];
+    return dmb_dot(linear->rows, d->x, product) / mass;
 }
 
 static int32_t take_symmetric(dmb_mode_search *search, dmb_dense *d)

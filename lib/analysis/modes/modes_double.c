@@ -156,7 +156,6 @@ int32_t dmb_modes_join(dmb_mode_search *search)
     const int damped = search->options->kind == DMB_MODES_DAMPED;
     joining g = {.search = search, .count = (uint32_t)count};
     int32_t status = DMB_OK;
-    if (modes->im == NULL) return DMB_OK;
     g.x = dmb_allocate(&search->linear->allocator, bytes);
     if (g.x == NULL) return DMB_ERR_NO_MEMORY;
     double *block = g.x;

@@ -65,7 +65,7 @@ void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, con
 
 void dmb_modes_forget_rigid(dmb_mode_search *search)
 {
-    if (search->rigid != NULL) dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
+    dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
     search->rigid = search->rigid_momentum = NULL;
     search->rigid_count = 0;
 }
@@ -99,7 +99,7 @@ static uint32_t next_pin(size_t rows, size_t m, double *W, double *direction)
         const double here = dmb_dot(m, W + m * r, W + m * r);
         if (here > square) square = here, most = r;
     }
-    for (size_t j = 0; j < m; j++) direction[j] = square > 0.0 ? W[m * most + j] / sqrt(square) : 0.0;
+    for (size_t j = 0; j < m; j++) direction[j] = W[m * most + j] / sqrt(square);
     for (size_t r = 0; r < rows; r++) {
         const double part = dmb_dot(m, W + m * r, direction);
         for (size_t j = 0; j < m; j++) W[m * r + j] -= part * direction[j];
@@ -122,7 +122,6 @@ static void place_pin(const dmb_mode_search *search, uint32_t row, pin *p)
     p->before = *p->entry;
     p->stiffness = fabs(p->before);
     if (!(p->stiffness > 0.0)) p->stiffness = linear->mass.diagonal[at] * fmax(search->noise / DMB_NOISE, 1.0);
-    if (!(p->stiffness > 0.0)) p->stiffness = 1.0;
 }
 
 /* Factors K with pins; K itself is left as it was. */

@@ -21,7 +21,7 @@ static void normalise(const dmb_mode_search *search, double *x, double *y)
         yy = dmb_dot(n, y, My);
         xy = dmb_dot(n, x, My);
     }
-    const double size = xx + yy > 0.0 ? 1.0 / sqrt(xx + yy) : 0.0, phase = -0.5 * atan2(2.0 * xy, xx - yy);
+    const double size = 1.0 / sqrt(xx + yy), phase = -0.5 * atan2(2.0 * xy, xx - yy);
     const double c = size * cos(phase), s = size * sin(phase);
     uint32_t most = 0;
     for (uint32_t i = 0; i < n; i++) {
@@ -82,7 +82,7 @@ static double whirl_of(const dmb_mode_search *search, const double *x, const dou
 {
     const double forward = circling(search, x, y, 1.0), backward = circling(search, x, y, -1.0);
     const double sum = forward + backward + not_circling(search, x) + not_circling(search, y);
-    return sum > 0.0 ? (forward - backward) / sum : 0.0;
+    return (forward - backward) / sum;
 }
 
 /* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
@@ -254,7 +254,7 @@ int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im)
     if (old.s == NULL) return DMB_OK;
     memcpy(modes->s, old.s, 2 * (size_t)old.count * sizeof(double));
     memcpy(modes->re, old.re, part);
-    if (old.im != NULL && modes->im != NULL) memcpy(modes->im, old.im, part);
+    if (old.im != NULL) memcpy(modes->im, old.im, part);
     memcpy(modes->whirl, old.whirl, old.count * sizeof(double));
     memcpy(modes->rigid, old.rigid, old.count);
     dmb_release(&modes->allocator, old.s, bytes_of(&old, old.capacity, old.im != NULL));

@@ -92,7 +92,6 @@ static void measure_part(conditions *c, rigid_part *p)
         dmb_vec3_sub(place, p->middle, place);
         p->size = fmax(p->size, dmb_vec3_norm(place));
     }
-    if (!(p->size > 0.0)) p->size = 1.0;
     c->tolerance = fmax(c->tolerance, DMB_RIGID_ROUNDING + DMB_RIGID_AWAY * away / p->size);
 }
 

@@ -203,7 +203,7 @@ static uint32_t coordinates_of(const dmb_sim *sim)
     uint32_t count = 0, rank = 0;
     for (uint32_t i = 0; i < scene->row_count; i++) count += scene->solved_row[i] != 0;
     for (uint32_t k = 0; k < scene->cluster_count; k++) rank += sim->partition_rank[k];
-    return count > rank ? count - rank : 0;
+    return count - rank;
 }
 
 /* A real double value is split by rounding into two, or into a pair this close to the real axis. */
