@@ -1,5 +1,5 @@
-/* What the present state tells of buckling, and what the way there makes of it: a column that a buffer relieves before
- * its critical load, a column of one element that turns at its ends only. */
+/* Buckling that the present state tells wrongly, followed to where it is: a column that a buffer relieves before its
+ * critical load. A column of one element, which turns at its ends only. */
 #include <string.h>
 
 #include "rig.h"
