@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "rig.h"
+#include "sim/sim.h"
 
 static double height = -0.0437;
 
@@ -217,6 +218,34 @@ static void test_failures(void **state)
     trio_close(&t);
 }
 
+/* Energies that a run sums up and counts of steps have none; that of the whole as it is has: m v by v. */
+static void test_channels_of_the_whole(void **state)
+{
+    static const int32_t summed[] = {DMB_CHANNEL_ENERGY_DRIVES, DMB_CHANNEL_ENERGY_UNEXPLAINED, DMB_CHANNEL_STEPS,
+                                     DMB_CHANNEL_REDUNDANT, DMB_CHANNEL_DRIVE_WORK};
+    trio t = trio_of(1e-6);
+    dmb_sensitivity *sensitivity;
+    dmb_channel channel = {.quantity = DMB_CHANNEL_ENERGY_KINETIC};
+    double derivative = 0.0, value = 0.0, velocity[6], by[6];
+    uint32_t rows;
+    (void)state;
+    must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
+    for (int i = 0; i < 60; i++) (void)dmb_sensitivity_step(sensitivity, 1e-3, NULL); /* into the wall */
+    must(&t.s, dmb_sensitivity_channels(sensitivity, &channel, 1, &value, &derivative));
+    must(&t.s, dmb_sensitivity_rows(sensitivity, 0, NULL, by, &rows));
+    memcpy(velocity, t.s.sim->now.velocity, sizeof velocity);
+    check_relative("    kinetic energy", value, 0.5 * velocity[2] * velocity[2], 1e-9);
+    assert_true(fabs(derivative) > 0.1);
+    check_relative("    by the height", derivative, velocity[2] * by[2], 1e-4);
+    for (size_t i = 0; i < sizeof summed / sizeof summed[0]; i++) {
+        channel.quantity = summed[i];
+        assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, &value, &derivative), DMB_ERR_UNSUPPORTED);
+        assert_non_null(strstr(dmb_sim_message(t.s.sim), "sums and counts"));
+    }
+    dmb_sensitivity_destroy(&sensitivity);
+    trio_close(&t);
+}
+
 static void test_allocates_nothing(void **state)
 {
     trio t = trio_of(1e-6);
@@ -234,12 +263,23 @@ static void test_allocates_nothing(void **state)
 /* ---- Forces of the caller that fail ------------------------------------------------------------------------------ */
 
 static uint32_t calls, fails_at; /* of the force; 0: never */
+static dmb_sensitivity *within;  /* asked by the force; NULL: none */
+
+/* The call under way goes on with it. */
+static void ask_within(void)
+{
+    dmb_sensitivity *kept = within;
+    assert_int_equal(dmb_sensitivity_step(within, 1e-3, NULL), DMB_ERR_ORDER);
+    dmb_sensitivity_destroy(&within);
+    assert_ptr_equal(within, kept);
+}
 
 static int32_t pull(void *context, double time, uint32_t count, const double (*poses)[12],
                     const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
 {
     (void)context, (void)time, (void)count, (void)velocities, (void)tangent, (void)potential;
     forces[0][0] = -50.0 * poses[0][0];
+    if (within != NULL) ask_within();
     return ++calls == fails_at;
 }
 
@@ -323,6 +363,30 @@ static void test_forces_that_fail(void **state)
     }
 }
 
+static void test_calls_within_a_call(void **state)
+{
+    dmb_id push, other;
+    rig s = pulled_body(0.1, &push), low = pulled_body(0.1 - 1e-4, &other), high = pulled_body(0.1 + 1e-4, &other);
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    (void)state;
+    parameter.step = 1e-4;
+    parameter.low = low.sim;
+    parameter.high = high.sim;
+    must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+    within = sensitivity;
+    calls = 0;
+    must(&s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    within = NULL;
+    assert_true(calls > 2);
+    must(&s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    dmb_sensitivity_destroy(&sensitivity);
+    assert_null(sensitivity);
+    rig_close(&s);
+    rig_close(&low);
+    rig_close(&high);
+}
+
 /* A body on that force, moved across by a drive whose acceleration jumps within an advance. */
 static rig moved_body(double velocity)
 {
@@ -397,6 +461,8 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_times_differ),
+        cmocka_unit_test(test_channels_of_the_whole),
+        cmocka_unit_test(test_calls_within_a_call),
         cmocka_unit_test(test_allocates_nothing),
         cmocka_unit_test(test_forces_that_fail),
         cmocka_unit_test(test_failures_beside_a_jump),

@@ -24,8 +24,19 @@ static int32_t channel_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, 
     const dmb_channel there = channel_in(p->model[side], channel);
     dmb_sensitivity_aside(s, p, side);
     s->worker->magic = DMB_HANDLE_SIM;
+    s->worker->options.energy_ledger = s->sim->options.energy_ledger; /* without it energies are not told */
     const int32_t status = dmb_channel_value(s->worker, &there, value);
+    s->worker->options.energy_ledger = 0;
     s->worker->magic = 0;
+    return status;
+}
+
+static int32_t channel_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, const dmb_channel *channel, double *rate)
+{
+    double value[2] = {0.0, 0.0};
+    int32_t status = channel_beside(s, p, DMB_SIDE_LOW, channel, &value[DMB_SIDE_LOW]);
+    if (status >= 0) status = channel_beside(s, p, DMB_SIDE_HIGH, channel, &value[DMB_SIDE_HIGH]);
+    *rate = (value[DMB_SIDE_HIGH] - value[DMB_SIDE_LOW]) / (2.0 * p->step);
     return status;
 }
 
@@ -71,10 +82,8 @@ int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel
     for (uint32_t i = 0; i < count; i++) {
         if (values != NULL) (void)dmb_channel_value(s->sim, &channels[i], &values[i]);
         for (uint32_t k = 0; k < s->count; k++) {
-            double low = 0.0, high = 0.0;
-            (void)channel_beside(s, &s->parameters[k], DMB_SIDE_LOW, &channels[i], &low);
-            (void)channel_beside(s, &s->parameters[k], DMB_SIDE_HIGH, &channels[i], &high);
-            derivatives[(size_t)i * s->count + k] = (high - low) / (2.0 * s->parameters[k].step);
+            status = channel_rate(s, &s->parameters[k], &channels[i], &derivatives[(size_t)i * s->count + k]);
+            if (status < 0) return refuse_channel(s, i, channels[i].quantity, status);
         }
     }
     return DMB_OK;
