@@ -81,7 +81,7 @@ static int bends_unseen(const dmb_sim *sim, dmb_place place)
     const dmb_scene *scene = sim->scene;
     dmb_material_point point;
     if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) return 0;
-    if (dmb_material_point_of(sim, place, &point) < 0 || point.element == DMB_NONE) return 0;
+    (void)dmb_material_point_of(sim, place, &point); /* of a place that has a section */
     return scene->layout.size[scene->element_node[point.element]] == DMB_NODE_PATH;
 }
 
@@ -105,7 +105,7 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
     return DMB_OK;
 }
 
-/* [byte] of all arrays behind the struct; 0: too many. */
+/* [byte] of all arrays behind the struct; of too many more than any block has. */
 static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
 {
     const double counters = (double)places * options->points;
@@ -113,7 +113,7 @@ static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
                          counters * ((double)sizeof(counter) + options->classes * (double)sizeof(double) +
                                      (options->classes + 4.0) * (double)sizeof(uint32_t)) +
                          2.0 * options->points * (double)sizeof(double);
-    return bytes < (double)(SIZE_MAX / 4) ? (size_t)bytes : 0;
+    return (size_t)fmin(bytes, 0.75 * (double)SIZE_MAX);
 }
 
 static void take_section(const dmb_sim *sim, dmb_place place, section *out)
@@ -168,7 +168,7 @@ static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_
     if (status >= 0) status = check_places(sim, places, place_count);
     if (status < 0) return status;
     const size_t bytes = bytes_of(&options, place_count);
-    made = bytes > 0 ? dmb_allocate(&sim->allocator, bytes) : NULL;
+    made = dmb_allocate(&sim->allocator, bytes);
     if (made == NULL) {
         dmb_message_set(&sim->message, "fatigue: no memory for %u places of %u points and %u classes; ask for fewer",
                         place_count, options.points, options.classes);

@@ -76,5 +76,5 @@ void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *co
             first++;
     }
     for (uint32_t i = first + 1; i < n; i++) tell(count, context, flow->turns[i - 1], flow->turns[i], 0.5);
-    if (n > first) tell(count, context, flow->turns[n - 1], last, 0.5);
+    tell(count, context, flow->turns[n - 1], last, 0.5);
 }

@@ -42,8 +42,7 @@ static void put_diameter(dmb_text_file *file, const void *context, const dmb_vtk
 {
     const dmb_sim *sim = context;
     const dmb_pipe_run *run = dmb_pipe_run_of(sim->model, at->string, at->place.pipe);
-    const double diameter = run != NULL ? run->def.outer_diameter : 0.0;
-    dmb_vtk_put_tuple(file, &diameter, 1);
+    dmb_vtk_put_tuple(file, &run->def.outer_diameter, 1);
 }
 
 /* Rigid pipes have no section loads: 0. */

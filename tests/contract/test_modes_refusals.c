@@ -210,6 +210,8 @@ static void nonsense_is_refused(void **state)
     assert_int_equal(dmb_modes_part(modes, 0, s.string, 12, &kinetic, &strain), DMB_ERR_VALUE);
     assert_int_equal(dmb_modes_part(modes, 0, s.string, 0, &kinetic, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_write_vtk_mode(modes, 0, 1.0, 0.0, 0, "x"), DMB_ERR_VALUE);
+    assert_int_equal(dmb_write_vtk_mode(modes, 0, (double)INFINITY, 0.0, 1, "x"), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_write_vtk_mode(modes, 0, 1.0, (double)NAN, 1, "x"), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_write_vtk_mode(modes, 0, 1.0, 0.0, 1, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_write_vtk_mode(modes, 10, 1.0, 0.0, 1, "x"), DMB_ERR_VALUE);
     assert_int_equal(dmb_write_vtk_mode(modes, 0, 1.0, 0.0, 1, "/no such folder/x"), DMB_ERR_IO);

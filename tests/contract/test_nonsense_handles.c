@@ -161,6 +161,47 @@ static int32_t write_vtk_strings(dmb_sim *sim, int missing)
     return dmb_write_vtk_strings(sim, 2, GIVEN("/dev/null"));
 }
 
+static int32_t profile_recorder_take(dmb_sim *sim, int missing)
+{
+    dmb_profile profile = dmb_profile_default();
+    dmb_profile_recorder recorder = dmb_profile_recorder_default();
+    int32_t quantity = DMB_PROFILE_AXIAL_FORCE;
+    double table[64];
+    profile.quantities = &quantity;
+    profile.quantity_count = 1;
+    profile.station_count = 2;
+    recorder.profile = &profile;
+    recorder.table = GIVEN(table);
+    recorder.capacity = 8;
+    return dmb_profile_recorder_take(&recorder, sim);
+}
+static int32_t fatigue_create(dmb_sim *sim, int missing)
+{
+    dmb_fatigue_options options = dmb_fatigue_options_default();
+    dmb_fatigue *made = NULL;
+    options.curve_stress = 1e8;
+    options.slope = 5.0;
+    const int32_t status = dmb_fatigue_create(sim, &options, GIVEN(&scene.place), 1, &made);
+    assert_null(made);
+    return status;
+}
+static int32_t window_create(dmb_sim *sim, int missing)
+{
+    const dmb_channel channel = {.place = scene.place, .quantity = DMB_CHANNEL_POSITION_Y};
+    dmb_window *made = NULL;
+    const int32_t status = dmb_window_create(sim, NULL, GIVEN(&channel), 1, &made);
+    assert_null(made);
+    return status;
+}
+static int32_t sensitivity_create(dmb_sim *sim, int missing)
+{
+    const dmb_parameter parameter = dmb_parameter_default();
+    dmb_sensitivity *made = NULL;
+    const int32_t status = dmb_sensitivity_create(sim, GIVEN(&parameter), 1, &made);
+    assert_null(made);
+    return status;
+}
+
 static const struct {
     const char *name;
     sim_call call;
@@ -192,6 +233,10 @@ static const struct {
                  {"bit", query_bit},
                  {"statistics", query_statistics},
                  {"recorder_take", recorder_take},
+                 {"profile_recorder_take", profile_recorder_take},
+                 {"fatigue_create", fatigue_create},
+                 {"window_create", window_create},
+                 {"sensitivity_create", sensitivity_create},
                  {"write_vtk_strings", write_vtk_strings}};
 enum { SIM_CALLS = sizeof sim_calls / sizeof sim_calls[0] };
 

@@ -128,6 +128,41 @@ static void factors(void **state)
     destroy(&s);
 }
 
+/* Beyond the tensile strength nothing is borne. */
+static void mean_above_the_strength(void **state)
+{
+    scene s = turning(3000.0);
+    dmb_fatigue_options options = curve();
+    (void)state;
+    options.tensile_strength = 2e6;
+    const dmb_fatigue_result result = after_turns(&s, &options, 1, NULL);
+    assert_true(isinf(result.damage) && result.life == 0.0);
+    destroy(&s);
+}
+
+/* Over a quarter turn points go through unlike ranges, most of all those at 45 deg; where none of them is damaged the
+ * largest range is the one that is told. */
+static void largest_range_without_damage(void **state)
+{
+    scene s = turning(0.0);
+    dmb_fatigue_options options = curve();
+    dmb_fatigue *fatigue = NULL;
+    dmb_fatigue_result result = dmb_fatigue_result_default();
+    (void)state;
+    options.endurance = 1e9;
+    must(dmb_fatigue_create(s.sim, &options, &s.root, 1, &fatigue), dmb_sim_message(s.sim));
+    must(dmb_fatigue_take(fatigue, s.sim), "take");
+    for (int i = 0; i < 25; i++) {
+        must(dmb_sim_step(s.sim, 2.5e-3, NULL), dmb_sim_message(s.sim));
+        must(dmb_fatigue_take(fatigue, s.sim), "take");
+    }
+    must(dmb_fatigue_get(fatigue, 0, &result), "get");
+    assert_true(result.damage == 0.0);
+    check_relative("range over a quarter turn", result.largest_range, sqrt(2.0) * bending_stress(), 1e-2);
+    dmb_fatigue_destroy(&fatigue);
+    destroy(&s);
+}
+
 static void refused(void **state)
 {
     scene s = turning(0.0), other = turning(0.0);
@@ -172,6 +207,11 @@ static void refused(void **state)
     assert_int_equal(dmb_fatigue_take(NULL, s.sim), DMB_ERR_NULL);
     assert_int_equal(dmb_fatigue_take((dmb_fatigue *)s.sim, s.sim), DMB_ERR_HANDLE);
     assert_int_equal(dmb_fatigue_take(fatigue, other.sim), DMB_ERR_ID); /* has no such part */
+    const dmb_place two[2] = {s.root, s.root};
+    dmb_fatigue *both = NULL;
+    must(dmb_fatigue_create(s.sim, &good, two, 2, &both), dmb_sim_message(s.sim));
+    assert_int_equal(dmb_fatigue_take(both, other.sim), DMB_ERR_ID);
+    dmb_fatigue_destroy(&both);
     assert_int_equal(dmb_fatigue_get(fatigue, 1, &result), DMB_ERR_VALUE);
     assert_int_equal(dmb_fatigue_get(fatigue, 0, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_fatigue_histogram(fatigue, 1, histogram), DMB_ERR_VALUE);
@@ -227,7 +267,11 @@ static void bending_that_is_not_seen(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns), cmocka_unit_test(factors),
-                                       cmocka_unit_test(refused), cmocka_unit_test(bending_that_is_not_seen)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns),
+                                       cmocka_unit_test(factors),
+                                       cmocka_unit_test(mean_above_the_strength),
+                                       cmocka_unit_test(largest_range_without_damage),
+                                       cmocka_unit_test(refused),
+                                       cmocka_unit_test(bending_that_is_not_seen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_dr
     const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
     const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
     double piece, change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
-    if (!(gain > 0.0 || gain < 0.0)) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    if (gain == 0.0) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
     (void)dmb_drive_gain(r->copy->scene, &r->copy->now, i, &piece);
     if (drive->table != DMB_NONE) change = -fmin(fabs(change), 0.25 * piece);
     return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
@@ -176,7 +176,7 @@ static int turns(const request *r, uint32_t node)
 /* 1 if it acts on a row of its node that is not along or about the axis. */
 static int acts_across(const request *r, const dmb_scene_drive *drive)
 {
-    if (drive->joint != DMB_NONE || drive->row == DMB_NONE) return 0;
+    if (drive->joint != DMB_NONE) return 0;
     return (drive->row - r->copy->scene->layout.row[drive->node]) % 3 != 0 && turns(r, drive->node);
 }
 

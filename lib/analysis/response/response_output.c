@@ -289,7 +289,7 @@ static void reaction_of_joint(const request *r, uint32_t j)
     int32_t status;
     const double base = dmb_answer_of(r->copy, r->output, &status), step = fmax(fabs(base), 1.0);
     dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
-    for (uint32_t k = 0; k < c->rows && k < 6; k++) {
+    for (uint32_t k = 0; k < c->rows; k++) {
         double *f = r->copy->now.multiplier + c->row + k;
         const double kept = *f;
         *f = kept + step;
