@@ -39,7 +39,7 @@ static inline int32_t ask_statics_in_steps(const asked_of *a)
 static inline int32_t ask_steady(const asked_of *a)
 {
     dmb_static_options options = dmb_static_options_default();
-    options.steady = 1;
+    options.steady = DMB_STEADY_AT_REST;
     return dmb_analysis_static(a->sim, &options, NULL);
 }
 

@@ -10,7 +10,8 @@
 #include "rig.h"
 #include "scarce.h"
 
-enum { TRIED = 40 }; /* allocations of a call that fail, spread over all of them */
+/* Allocations of a call that fail, spread over all of them; of short calls each. */
+enum { TRIED = 40, EACH = 1000 };
 
 typedef struct subject {
     rig s;
@@ -131,6 +132,59 @@ static void open_long_string(subject *c)
     pipe.damping_time = 1e-4;
     (void)add_pipes(&c->s, &pipe, 40);
     start(c);
+}
+
+/* The same free at both ends, so that its rigid-body motions are taken apart. */
+static void open_free_string(subject *c)
+{
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_environment_def none = dmb_environment_def_default();
+    open_model(c);
+    none.gravity[2] = 0.0;
+    must_model(&c->s, dmb_model_set_environment(c->s.model, &none));
+    string.start_free = DMB_FREE_ALL;
+    pipe.string = c->part = add_string(&c->s, &string);
+    (void)add_pipes(&c->s, &pipe, 20);
+    c->place = dmb_station(c->part, 19, 1.0);
+    start(c);
+}
+
+/* A string that turns on the low side of its hole. */
+static void open_turning_string(subject *c)
+{
+    const dmb_wall_def hole = s1_hole();
+    const dmb_pipe_def pipe = s1_pipe();
+    dmb_static_options steady = dmb_static_options_default();
+    open_model(c);
+    (void)add_wall(&c->s, &hole);
+    c->part = add_pipes(&c->s, &pipe, 4);
+    c->place = dmb_station(c->part, 2, 0.5);
+    c->drive = add_simple_drive(&c->s, DMB_DRIVE_MOTION, c->part, DMB_X, add_constant(&c->s, 0.0));
+    (void)add_simple_drive(&c->s, DMB_DRIVE_MOTION, c->part, DMB_RX, add_constant(&c->s, 3.0));
+    start(c);
+    steady.steady = DMB_STEADY_AUTO;
+    must(&c->s, dmb_analysis_static(c->s.sim, &steady, NULL));
+    must(&c->s, dmb_analysis_static(c->low, &steady, NULL));
+}
+
+/* A rotor that spins on a carrier, which springs hold. */
+static void open_rotor_on_joints(subject *c)
+{
+    dmb_body_def carrier = dmb_body_def_default(), rotor = dmb_body_def_default();
+    open_model(c);
+    rotor.velocity[3] = 20.0;
+    c->part = add_body(&c->s, &carrier);
+    const dmb_id wheel = add_body(&c->s, &rotor), ground = {0, 0};
+    c->place = dmb_station(c->part, 0, 0.0);
+    dmb_joint_def ball = joint_between(DMB_JOINT_SPHERICAL, dmb_station(ground, 0, 0.0), c->place);
+    for (int k = 3; k < 6; k++) ball.stiffness[k] = 100.0;
+    (void)add_joint(&c->s, &ball);
+    (void)add_joint_between(&c->s, DMB_JOINT_REVOLUTE, c->place, dmb_station(wheel, 0, 0.0));
+    dmb_sim_options options = dmb_sim_options_default();
+    must_model(&c->s, dmb_model_compile(c->s.model, NULL));
+    options.allocator = &c->allocator;
+    must_model(&c->s, dmb_sim_create(c->s.model, &options, &c->s.sim));
 }
 
 static void close_subject(subject *c)
@@ -357,7 +411,58 @@ static void on_a_long_string(void **state)
     static const row wide[2] = {{"modes of a wide band", NULL, ask_wide_band, 0, 0},
                                 {"damped modes of a wide band", NULL, ask_wide_damped_band, 0, 0}};
     (void)state;
-    for (int i = 0; i < 2; i++) one_call(open_long_string, &wide[i], 12);
+    for (int i = 0; i < 2; i++) one_call(open_long_string, &wide[i], 17);
+}
+
+static void on_what_is_free(void **state)
+{
+    static const row calls[] = {{"lowest modes", NULL, ask_lowest_modes, 0, 0},
+                                {"all modes", NULL, ask_all_modes, 0, 0},
+                                {"damped modes", NULL, ask_damped_modes, 0, 0},
+                                {"all damped modes", NULL, ask_all_damped_modes, 0, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof calls / sizeof calls[0]; i++) one_call(open_free_string, &calls[i], EACH);
+}
+
+static int32_t response_that_turns(const asked_of *a)
+{
+    const asked_of across = {a->sim, a->place, DMB_RY, a->points, a->frequency, a->factor_max};
+    return ask_response(&across);
+}
+
+static int32_t state_space_that_turns(const asked_of *a)
+{
+    const asked_of across = {a->sim, a->place, DMB_RY, a->points, a->frequency, a->factor_max};
+    return ask_state_space(&across);
+}
+
+static int32_t modes_in_axes_at_rest(const asked_of *a)
+{
+    dmb_modes_options options = dmb_modes_options_default();
+    dmb_modes *found = NULL;
+    options.kind = DMB_MODES_DAMPED;
+    options.axes = DMB_MODES_AXES_AT_REST;
+    options.count = 3;
+    const int32_t status = dmb_analysis_modes(a->sim, &options, &found);
+    GIVES_NOTHING_OUT(found);
+    dmb_modes_destroy(&found);
+    return status;
+}
+
+static void on_what_turns(void **state)
+{
+    static const row of_string[] = {{"steady states", NULL, ask_statics, 1, 0},
+                                    {"modes in axes at rest", NULL, modes_in_axes_at_rest, 0, 0},
+                                    {"response", NULL, ask_response, 0, 0},
+                                    {"state space", NULL, ask_state_space, 0, 0}};
+    static const row of_rotor[] = {{"modes in axes at rest", NULL, modes_in_axes_at_rest, 0, 0},
+                                   {"response", NULL, response_that_turns, 0, 0},
+                                   {"state space", NULL, state_space_that_turns, 0, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof of_string / sizeof of_string[0]; i++)
+        one_call(open_turning_string, &of_string[i], EACH);
+    for (size_t i = 0; i < sizeof of_rotor / sizeof of_rotor[0]; i++)
+        one_call(open_rotor_on_joints, &of_rotor[i], EACH);
 }
 
 /* ---- Descriptions that the whole scene does not have ------------------------------------------------------------- */
@@ -439,8 +544,10 @@ static void descriptions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(on_a_string),        cmocka_unit_test(on_an_unloaded_string), cmocka_unit_test(on_a_mechanism),
-        cmocka_unit_test(by_sparse_matrices), cmocka_unit_test(on_a_long_string),      cmocka_unit_test(descriptions),
+        cmocka_unit_test(on_a_string),      cmocka_unit_test(on_an_unloaded_string),
+        cmocka_unit_test(on_a_mechanism),   cmocka_unit_test(by_sparse_matrices),
+        cmocka_unit_test(on_a_long_string), cmocka_unit_test(on_what_is_free),
+        cmocka_unit_test(on_what_turns),    cmocka_unit_test(descriptions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
