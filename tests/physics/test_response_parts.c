@@ -141,7 +141,7 @@ static void what_turns_with_its_part(void **state)
     rig_close(&s);
 }
 
-/* What pulls at the end of a rod is the force in it there; far below its first mode it is so all along. */
+/* A pull at the end of a rod is the force in it there, and far below its first mode all along it. */
 static void section_at_the_end(void **state)
 {
     const double frequency = 0.01;
