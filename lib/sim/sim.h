@@ -386,10 +386,10 @@ struct dmb_sim {
  * not. */
 enum { DMB_BUSY_NOT = 0, DMB_BUSY_READABLE = 1, DMB_BUSY_CHANGING = 2 };
 
-/* 1: the call fails by the caller's will or function, nothing else is tried. */
+/* 1: the call fails by the caller's will, function or memory, nothing else is tried. */
 static inline int dmb_is_final(int32_t status)
 {
-    return status == DMB_ERR_CALLBACK || status == DMB_ERR_CANCELLED;
+    return status == DMB_ERR_CALLBACK || status == DMB_ERR_CANCELLED || status == DMB_ERR_NO_MEMORY;
 }
 
 #endif

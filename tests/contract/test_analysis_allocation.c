@@ -187,6 +187,26 @@ static void open_rotor_on_joints(subject *c)
     must_model(&c->s, dmb_sim_create(c->s.model, &options, &c->s.sim));
 }
 
+/* Beck's column, pushed along its own axis: its stiffness is unsymmetric, and it flutters on the way. */
+static void open_fluttering_column(subject *c)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = beam_pipe(10.0, 6, 2e11, 2e11, 1e5, 2e5);
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_load_def push = dmb_load_def_default();
+    open_model(c);
+    none.gravity[2] = 0.0;
+    must_model(&c->s, dmb_model_set_environment(c->s.model, &none));
+    string.start_free = DMB_FREE_NONE;
+    pipe.string = c->part = add_string(&c->s, &string);
+    (void)add_pipes(&c->s, &pipe, 1);
+    push.place = c->place = dmb_station(c->part, 0, 1.0);
+    push.frame = DMB_FRAME_BODY;
+    push.force[0] = -1e4;
+    (void)add_load(&c->s, &push);
+    start(c);
+}
+
 static void close_subject(subject *c)
 {
     dmb_sim_destroy(&c->low);
@@ -424,6 +444,19 @@ static void on_what_is_free(void **state)
     for (size_t i = 0; i < sizeof calls / sizeof calls[0]; i++) one_call(open_free_string, &calls[i], EACH);
 }
 
+static int32_t flutter(const asked_of *a)
+{
+    const asked_of bounded = {a->sim, a->place, DMB_Y, a->points, a->frequency, 5.0};
+    return ask_followed_buckling(&bounded);
+}
+
+static void on_what_flutters(void **state)
+{
+    static const row followed = {"buckling, followed to flutter", NULL, flutter, 0, 0};
+    (void)state;
+    one_call(open_fluttering_column, &followed, TRIED);
+}
+
 static int32_t response_that_turns(const asked_of *a)
 {
     const asked_of across = {a->sim, a->place, DMB_RY, a->points, a->frequency, a->factor_max};
@@ -547,7 +580,8 @@ int main(void)
         cmocka_unit_test(on_a_string),      cmocka_unit_test(on_an_unloaded_string),
         cmocka_unit_test(on_a_mechanism),   cmocka_unit_test(by_sparse_matrices),
         cmocka_unit_test(on_a_long_string), cmocka_unit_test(on_what_is_free),
-        cmocka_unit_test(on_what_turns),    cmocka_unit_test(descriptions),
+        cmocka_unit_test(on_what_turns),    cmocka_unit_test(on_what_flutters),
+        cmocka_unit_test(descriptions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
 /* A buckling analysis refuses bad arguments and leaves the sim as it was. */
+#include <string.h>
+
 #include "purse.h"
 #include "pushed_column.h"
 
@@ -31,6 +33,33 @@ static void states_that_cannot_buckle(void **state)
     assert_int_equal(dmb_analysis_static(c.s.sim, NULL, NULL), DMB_NOTE_UNSTABLE);
     must_say(&c.s, "unstable");
     refused(&c, NULL, DMB_ERR_ORDER, "not stable");
+    column_close(&c);
+}
+
+/* A body that nothing holds, beside the column. */
+static void body_that_is_free(void **state)
+{
+    (void)state;
+    pushed_column c;
+    dmb_string_def string = dmb_string_def_default();
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    (void)memset(&c, 0, sizeof c);
+    rig_open(&c.s, 0.0, 0.0, 0.0);
+    string.start_free = DMB_FREE_NONE;
+    dmb_pipe_def pipe = s1_pipe();
+    pipe.string = c.string = add_string(&c.s, &string);
+    (void)add_pipes(&c.s, &pipe, 4);
+    (void)add_body(&c.s, &body);
+    load.place = dmb_station(c.string, 3, 1.0);
+    load.programme = add_constant(&c.s, 0.0);
+    load.force[0] = -1.0;
+    c.load = add_load(&c.s, &load);
+    (void)rig_start(&c.s, NULL);
+    dmb_buckling_options options = dmb_buckling_options_default();
+    options.scale = DMB_SCALE_PART;
+    options.part = c.load;
+    refused(&c, &options, DMB_ERR_SINGULAR, "body 0");
     column_close(&c);
 }
 
@@ -149,9 +178,9 @@ static void every_allocation_may_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(states_that_cannot_buckle), cmocka_unit_test(options_out_of_bounds),
-        cmocka_unit_test(nothing_below_the_bound),   cmocka_unit_test(nonsense_handles),
-        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(states_that_cannot_buckle), cmocka_unit_test(body_that_is_free),
+        cmocka_unit_test(options_out_of_bounds),     cmocka_unit_test(nothing_below_the_bound),
+        cmocka_unit_test(nonsense_handles),          cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ static void give(void *context, void *block, size_t size, size_t alignment)
 
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
-enum { HANGING, IN_HOLE, DRIVEN, JOINTED, SCENES };
+enum { HANGING, IN_HOLE, DRIVEN, JOINTED, PUSHED };
 
 typedef struct scene {
     ledger ledger;
@@ -62,7 +62,7 @@ static void add_string(scene *s)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     string.start_free = s->kind == DRIVEN ? DMB_FREE_X | DMB_FREE_RX : DMB_FREE_NONE;
-    if (s->kind == HANGING || s->kind == JOINTED) string.rotation[1] = 1.5707963267948966;
+    if (s->kind != IN_HOLE && s->kind != DRIVEN) string.rotation[1] = 1.5707963267948966;
     must(dmb_model_add_string(s->model, &string, &s->string));
     pipe.damping_time = 1e-3;
     must(dmb_model_add_pipes(s->model, &pipe, 12, NULL));
@@ -74,6 +74,11 @@ static void add_load(scene *s)
     load.place = dmb_station(s->string, 11, 1.0);
     load.force[0] = -200.0; /* pushes: along the hole, up where it hangs */
     load.frame = DMB_FRAME_BODY;
+    if (s->kind == PUSHED) { /* with a potential, so that factors are counted */
+        load.frame = DMB_FRAME_WORLD;
+        load.force[0] = 0.0;
+        load.force[2] = 200.0;
+    }
     must(dmb_model_add_load(s->model, &load, NULL));
     load.programme = rig_step(s->model, 1.0); /* something for steps to do */
     load.force[1] = 100.0;
@@ -103,7 +108,7 @@ static void open_scene(scene *s, int kind)
     }
     add_string(s);
     if (kind == DRIVEN) add_drives(s);
-    if (kind == JOINTED) add_bodies(s);
+    if (kind == JOINTED || kind == PUSHED) add_bodies(s);
     if (kind != DRIVEN) add_load(s);
     if (dmb_model_compile(s->model, NULL) < 0) fail_msg("%s", dmb_model_message(s->model));
     s->allocator = dmb_allocator_default();
@@ -473,6 +478,16 @@ static void with_joints(void **state)
     check_scene(JOINTED, calls, sizeof calls / sizeof *calls);
 }
 
+static void pushed(void **state)
+{
+    static const int calls[] = {PATH, BUCKLING};
+    const uint32_t before = cancels;
+    (void)state;
+    cancels = before > 25 ? before : 25;
+    check_scene(PUSHED, calls, 2);
+    cancels = before;
+}
+
 static void handles(void **state)
 {
     (void)state;
@@ -484,8 +499,8 @@ static void handles(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) cancels = (uint32_t)strtoul(argv[1], NULL, 10);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hanging), cmocka_unit_test(in_a_hole),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hanging),     cmocka_unit_test(in_a_hole),
                                        cmocka_unit_test(with_drives), cmocka_unit_test(with_joints),
-                                       cmocka_unit_test(handles)};
+                                       cmocka_unit_test(pushed),      cmocka_unit_test(handles)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,6 +80,21 @@ static void by_the_way_of_a_drive(void **state)
     options.factor_end = 1.5 * followed;
     must(&c.s, dmb_analysis_path(c.s.sim, &options, &report));
     check_relative("on the path", report.first_bifurcation, followed, 1e-6);
+    double aside[2];
+    for (int sized = 0; sized < 2; sized++) { /* the same branch by a first step of its own, and by that of the path */
+        options.branch = 1;
+        options.branch_size = sized ? 0.01 : 0.0;
+        options.place = dmb_station(c.string, 0, 1.0);
+        options.component = DMB_Y;
+        must(&c.s, dmb_analysis_path(c.s.sim, &options, &report));
+        check_relative("    end of its branch", report.factor, options.factor_end, 1e-9);
+        options.component = DMB_Z;
+        aside[sized] = report.displacement * report.displacement;
+        must(&c.s, dmb_analysis_path(c.s.sim, &options, &report));
+        aside[sized] += report.displacement * report.displacement;
+    }
+    assert_true(aside[0] > 1e-4);
+    check_relative("    how far it goes aside", aside[0], aside[1], 1e-6);
     rig_close(&c.s);
 }
 

@@ -66,7 +66,7 @@ static int32_t linearise_here(follower *f)
 
 static int32_t say_lost(follower *f, int32_t status)
 {
-    if (status == DMB_ERR_NO_MEMORY || dmb_is_final(status)) return status;
+    if (dmb_is_final(status)) return status;
     dmb_message_set(
         &f->sim->message,
         "buckling: the equilibria are stable up to factor = %g and could not be followed to the critical factor "
@@ -102,7 +102,7 @@ static int32_t linearise_before(follower *f, double arc)
 {
     dmb_path *path = &f->path;
     int32_t status = DMB_ERR_NO_CONVERGENCE;
-    for (int k = 0; k < 4 && status < 0 && status != DMB_ERR_NO_MEMORY && !dmb_is_final(status); k++) {
+    for (int k = 0; k < 4 && status < 0 && !dmb_is_final(status); k++) {
         dmb_message_clear(&f->sim->message);
         status = DMB_OK;
         if (step_back[k] > 0.0) {

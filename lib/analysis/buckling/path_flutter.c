@@ -36,7 +36,7 @@ static int32_t pass_by(dmb_flutter *flutter, int32_t status)
 {
     flutter->failed = 1;
     flutter->growth = 0.0;
-    return status == DMB_ERR_NO_MEMORY || dmb_is_final(status) ? status : DMB_OK;
+    return dmb_is_final(status) ? status : DMB_OK;
 }
 
 /* Largest real part of a damped mode about flutter->state, 0 where it is rounding of one that neither grows nor decays.

@@ -130,9 +130,9 @@ static double watched_of(const dmb_path *path)
     if (path->options->place.part.generation == 0) return 0.0;
     const dmb_configuration now = path->work->now; /* the query looks at `now` */
     path->work->now = path->work->trial;
-    const int32_t status = dmb_query_pose(path->work, path->options->place, &pose);
+    (void)dmb_query_pose(path->work, path->options->place, &pose); /* a place that was taken from the options */
     path->work->now = now;
-    return status < 0 ? 0.0 : pose.displacement[path->options->component];
+    return pose.displacement[path->options->component];
 }
 
 int32_t dmb_path_tangent(dmb_path *path, const double *towards)
@@ -248,7 +248,7 @@ static double softness(dmb_path *path)
         grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
         memcpy(path->mode, x, rows * sizeof(double));
     }
-    return grown != 0.0 ? 1.0 / grown : 0.0;
+    return 1.0 / grown;
 }
 
 /* ---- Locating ---------------------------------------------------------------------------------------------------- */

@@ -83,7 +83,7 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
         if (!scene->chains[c].jointed)
             *negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower,
                                             pencil->work.upper, NULL, scene->chains[c].first, scene->chains[c].count);
-    if (scene->cluster_count == 0 || pencil->sim == NULL) return 1; /* where joints are, there is a sim */
+    if (scene->cluster_count == 0) return 1;
     dmb_block_sparse matrix = sparse_of(pencil, &pencil->work);
     if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return 0;
     *negative += dmb_block_sparse_negative(&scene->pattern, &matrix, pencil->room);
@@ -117,7 +117,7 @@ static double aside_of(const dmb_pencil *pencil, double factor)
 int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
 {
     *count = 0;
-    if (pencil->sim != NULL && dmb_progress_pulse(pencil->sim) < 0) return 0;
+    if (dmb_progress_pulse(pencil->sim) < 0) return 0;
     for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
         shift(pencil, k == 0 ? factor : factor + k * aside_of(pencil, factor));
         if (count_shifted(pencil, count)) return 1;
@@ -163,7 +163,6 @@ double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double mo
     if (found <= 0) return found == 0 ? (double)INFINITY : (double)NAN;
     while (high - low > tolerance * high) {
         const double middle = 0.5 * (low + high);
-        if (!(middle > low && middle < high)) break;
         const int beyond = exceeds(pencil, middle, k);
         if (beyond < 0) return (double)NAN;
         if (beyond > 0)
@@ -232,7 +231,7 @@ static void normalise(uint32_t rows, double *x)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < rows; i++) most = fmax(most, fabs(x[i]));
-    for (uint32_t i = 0; i < rows && most > 0.0; i++) x[i] /= most;
+    for (uint32_t i = 0; i < rows; i++) x[i] /= most;
 }
 
 static int is_reduced(const dmb_scene *scene, uint32_t node)

@@ -73,10 +73,31 @@ static void tells_what_cannot_be_counted(void **state)
     dmb_block_pattern_release(&p.scene.pattern, &allocator);
 }
 
+/* K = G = 0: no shift is regular. A vector that cannot be found leaves the factor as it was given. */
+static void singular_everywhere(void **state)
+{
+    (void)state;
+    pair p;
+    const dmb_allocator allocator = dmb_allocator_default();
+    const dmb_pencil_search search = {.wanted = 1, .most = 1e12, .allocator = &allocator};
+    uint32_t count = 7, found = 7;
+    double x[2], factor;
+    open_pair(&p, &allocator, 0.0, 0.0);
+    p.pencil.unknowns = 2;
+    p.scene.pattern.rows = 2;
+    assert_int_equal(dmb_pencil_count(&p.pencil, 1.0, &count), 0);
+    assert_true(isnan(dmb_pencil_factor(&p.pencil, 0, 1.0, 10.0, 1e-10)));
+    assert_true(dmb_pencil_vector(&p.pencil, 3.0, NULL, 0, x) == 3.0);
+    assert_int_equal(dmb_pencil_general(&p.pencil, &search, &factor, x, &found), DMB_ERR_SINGULAR);
+    assert_int_equal(found, 0);
+    dmb_block_pattern_release(&p.scene.pattern, &allocator);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_aside_at_zero),
+        cmocka_unit_test(singular_everywhere),
         cmocka_unit_test(tells_what_cannot_be_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
