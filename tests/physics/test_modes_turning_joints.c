@@ -230,6 +230,45 @@ static void rolling_is_refused(void **state)
     }
 }
 
+/* y of the body does not move. */
+static int32_t no_side_slip(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                            double *jacobian)
+{
+    (void)context, (void)time, (void)count, (void)poses;
+    value[0] = 0.0;
+    for (int i = 0; i < 6; i++) jacobian[i] = i == 1 ? 1.0 : 0.0;
+    return 0;
+}
+
+/* The caller's knife edge turns with its body, beside one that spins; at rest nothing but the edge holds it. */
+static void edge_of_the_caller_is_refused(void **state)
+{
+    (void)state;
+    for (int turns = 0; turns < 2; turns++) {
+        rig s;
+        dmb_body_def sledge = dmb_body_def_default();
+        dmb_constraint_def edge = dmb_constraint_def_default();
+        rig_open(&s, 0.0, 0.0, 0.0);
+        sledge.velocity[5] = turns ? 3.0 : 0.0;
+        edge.kind = DMB_CONSTRAINT_NONHOLONOMIC;
+        edge.place[0] = dmb_station(add_body(&s, &sledge), 0, 0.0);
+        edge.provides = DMB_PROVIDES_JACOBIAN;
+        edge.callback = no_side_slip;
+        (void)strcpy(edge.name, "edge");
+        must_model(&s, dmb_model_add_constraint(s.model, &edge, NULL));
+        (void)rig_start(&s, NULL);
+        if (turns) {
+            check_refused(&s, DMB_MODES_AXES_TURNING, "edge");
+        } else {
+            dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
+            assert_int_equal(info_of(modes).count, 5);
+            assert_int_equal(info_of(modes).rigid, 5);
+            dmb_modes_destroy(&modes);
+        }
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +277,7 @@ int main(void)
         cmocka_unit_test(equations_that_turn_are_refused),
         cmocka_unit_test(arm_on_a_hub),
         cmocka_unit_test(rolling_is_refused),
+        cmocka_unit_test(edge_of_the_caller_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -188,8 +188,8 @@ static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    int32_t status = dmb_steady_move(steady, evaluation, 1.0);
-    for (uint32_t i = 0; i < scene->held_count && status >= 0; i++) {
+    (void)dmb_steady_move(steady, evaluation, 1.0); /* which does not fail where all moves as one body */
+    for (uint32_t i = 0; i < scene->held_count; i++) {
         const uint32_t node = scene->held_node[i], c = scene->held_component[i];
         const double speed = sim->trial.velocity[scene->layout.row[node] + c];
         double held = 0.0;
@@ -205,7 +205,7 @@ static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
             "the whole to turn as one body; take DMB_STEADY_AT_REST",
             owner.text.text, c, held, speed);
     }
-    return status;
+    return DMB_OK;
 }
 
 static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
@@ -320,7 +320,7 @@ static int is_moving_so(const dmb_sim *work)
             most = fmax(most, arm * fabs(work->trial.velocity[row]));
             off = fmax(off, arm * fabs(work->trial.velocity[row] - work->now.velocity[row]));
         }
-    return most > 0.0 && off <= DMB_STEADY_LIKE * most;
+    return off <= DMB_STEADY_LIKE * most;
 }
 
 int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who)

@@ -30,7 +30,7 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t s = steady->string[scene->element_node[e]];
         const double *rest = scene->types[scene->element_type[e]].rest;
-        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
+        if (steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
         const dmb_owner owner = dmb_owner_of_element(scene, e);
         return DMB_STEADY_REFUSE(sim,
                                  "%s: it is bent when unloaded, so that turning about an axis at rest is not steady; "
