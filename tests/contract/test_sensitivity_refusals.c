@@ -355,11 +355,66 @@ static void a_long_chain(void **state)
     rig_close(&s.s);
 }
 
+/* ---- Constraints of the caller ----------------------------------------------------------------------------------- */
+
+static int32_t keep_level(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                          double *jacobian)
+{
+    (void)context, (void)time, (void)jacobian;
+    value[0] = poses[0][2] + poses[count - 1][2];
+    value[1] = poses[0][1];
+    return 0;
+}
+
+/* Two bodies, and what holds them: one row on the first, two rows, one row on both, one on the second, a spring. */
+enum { ONE_ROW, TWO_ROWS, BOTH_BODIES, SECOND_BODY, A_SPRING, HOLDS };
+
+static void open_held(scene *c, int holds)
+{
+    dmb_constraint_def rule = dmb_constraint_def_default();
+    dmb_spring_def spring = dmb_spring_def_default();
+    memset(c, 0, sizeof *c);
+    rig_open(&c->s, 0.0, 0.0, 0.0);
+    for (int i = 0; i < 2; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        body.position[0] = i;
+        c->body[i] = add_body(&c->s, &body);
+    }
+    rule.row_count = holds == TWO_ROWS ? 2 : 1;
+    rule.place_count = holds == BOTH_BODIES ? 2 : 1;
+    rule.place[0] = spring.place_a = dmb_station(c->body[holds == SECOND_BODY], 0, 0.0);
+    rule.place[1] = spring.place_b = dmb_station(c->body[1], 0, 0.0);
+    rule.callback = keep_level;
+    spring.stiffness = 10.0;
+    if (holds == A_SPRING)
+        must_model(&c->s, dmb_model_add_spring(c->s.model, &spring, NULL));
+    else
+        must_model(&c->s, dmb_model_add_constraint(c->s.model, &rule, NULL));
+    (void)rig_start(&c->s, NULL);
+}
+
+static void held_in_other_ways(void **state)
+{
+    scene s, low;
+    (void)state;
+    open_held(&s, ONE_ROW);
+    open_held(&low, ONE_ROW);
+    expect_good(&s, &low, &low);
+    for (int holds = TWO_ROWS; holds < HOLDS; holds++) {
+        scene high;
+        open_held(&high, holds);
+        expect(&s, &low, &high, DMB_ERR_VALUE, "other parts");
+        rig_close(&high.s);
+    }
+    rig_close(&s.s);
+    rig_close(&low.s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_difference),        cmocka_unit_test(what_was_set), cmocka_unit_test(inputs_on_their_way),
-        cmocka_unit_test(multipliers_of_joints), cmocka_unit_test(a_long_chain),
+        cmocka_unit_test(multipliers_of_joints), cmocka_unit_test(a_long_chain), cmocka_unit_test(held_in_other_ways),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
