@@ -134,6 +134,38 @@ static void rigid_modes_with_drag(void **state)
     rig_close(&s);
 }
 
+/* However slow the drag, the motion along the axis dies out at its rate beside the root 0: drag over mass. */
+static void slow_drag_of(double drag, uint32_t pipes, int32_t select, double tolerance)
+{
+    rig s;
+    const dmb_pipe_def pipe = s1_pipe();
+    dmb_environment_def environment = dmb_environment_def_default();
+    dmb_modes_options options = dmb_modes_options_default();
+    double least = 1.0;
+    environment.axial_damping = drag;
+    environment.gravity[2] = 0.0;
+    options.kind = DMB_MODES_DAMPED;
+    options.select = select;
+    (void)lay_string(&s, &pipe, pipes, DMB_FREE_ALL, DMB_FREE_ALL);
+    must_model(&s, dmb_model_set_environment(s.model, &environment));
+    rig_start(&s, NULL);
+    dmb_modes *modes = find_modes(&s, &options);
+    for (uint32_t i = 0; i < info_of(modes).count; i++)
+        least = fmin(least, fabs(mode_at(modes, i).eigenvalue[0] * s1_values().mass / drag + 1.0));
+    print_message("    %u pipes, drag %g N s/m2\n", pipes, drag);
+    check_below("        rate", least, tolerance);
+    assert_int_equal(info_of(modes).rigid, 6);
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
+static void slow_drag(void **state)
+{
+    (void)state;
+    for (double drag = 1.0; drag > 1e-7; drag *= 1e-2) slow_drag_of(drag, 8, DMB_MODES_ALL, 1e-9 + 1e-13 / drag);
+    for (double drag = 1.0; drag > 5e-4; drag *= 1e-1) slow_drag_of(drag, 40, DMB_MODES_LOWEST, 1e-9);
+}
+
 /* ---- Whirl ------------------------------------------------------------------------------------------------------- */
 
 /* Eccentric mass is not round: forward and backward circles are not orthogonal in it. */
@@ -164,9 +196,8 @@ static void whirl_stays_within_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flutter_grows_in_one_shape),
-        cmocka_unit_test(rigid_modes_of_a_damped_string_are_real),
-        cmocka_unit_test(rigid_modes_with_drag),
+        cmocka_unit_test(flutter_grows_in_one_shape), cmocka_unit_test(rigid_modes_of_a_damped_string_are_real),
+        cmocka_unit_test(rigid_modes_with_drag),      cmocka_unit_test(slow_drag),
         cmocka_unit_test(whirl_stays_within_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

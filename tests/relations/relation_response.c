@@ -1,22 +1,10 @@
 /* Frequency responses: reciprocity; against the sum over all modes; against stepped sine in time. Effective masses
  * against the mass. A pulse and the free vibration after it against the modes. */
-#include <complex.h>
-
-#include "relations.h"
+#include "linear_tools.h"
 
 enum { TOPIC_RESPONSE = TOPIC_OF_RELATION + 70, PLACES = 3, FREQUENCIES = 5, MODES_MOST = 500 };
 
 /* ---- Tools ------------------------------------------------------------------------------------------------------ */
-
-static int32_t open_at_rest(const scene *s, const dmb_sim_options *options, built *b)
-{
-    int32_t status = scene_open(s, 0, options, b);
-    if (status < 0) return status;
-    dmb_static_options exact = dmb_static_options_default();
-    exact.tolerance = 1e-12; /* next to nothing is left that moves beside a small excitation */
-    status = dmb_analysis_static(b->sim, &exact, NULL);
-    return status < 0 ? built_fail(b, status) : status;
-}
 
 /* 0 where places do not move across the hole, or the stiffness is unsymmetric. */
 static int reciprocal(trial *t)
@@ -28,36 +16,6 @@ static int reciprocal(trial *t)
     return t->verdict == VERDICT_HELD;
 }
 
-/* A place and a component of it in the world. */
-typedef struct material_point {
-    part_ref place;
-    int32_t component;
-} material_point;
-
-static material_point draw_spot(const scene *s, stream *n, int32_t components)
-{
-    const uint32_t k = draw_count(n, 0, s->strings - 1);
-    const part_ref place = {PART_STRING, k, draw_count(n, 0, s->string[k].pipes - 1), 1.0};
-    const material_point out = {place, (int32_t)draw_count(n, 0, (uint32_t)components - 1)};
-    return out;
-}
-
-static dmb_input input_of(const built *b, const material_point *at)
-{
-    dmb_input input = dmb_input_default();
-    input.place = built_place(b, at->place);
-    input.component = at->component;
-    return input;
-}
-
-static dmb_output output_of(const built *b, const material_point *at)
-{
-    dmb_output output = dmb_output_default();
-    output.place = built_place(b, at->place);
-    output.component = at->component;
-    return output;
-}
-
 static dmb_response_options frequencies_from(stream *n, double *list, double low, double high)
 {
     dmb_response_options options = dmb_response_options_default();
@@ -65,11 +23,6 @@ static dmb_response_options frequencies_from(stream *n, double *list, double low
     options.frequencies = list;
     options.points = FREQUENCIES;
     return options;
-}
-
-static double complex number(const double pair[2])
-{
-    return pair[0] + pair[1] * (double complex)I;
 }
 
 /* Transfer functions between the material_points, shape (PLACES inputs, PLACES outputs, FREQUENCIES). */

@@ -75,6 +75,8 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
 double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *x);
 /* Whether what was found is a root 0 of rigid-body motions once more, y NULL: x is real. */
 int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y);
+/* [1/s] a real root s of shape x that is none of those: sharp where drag slows down what rounding of K hides. */
+double dmb_modes_drift(const dmb_mode_search *search, double s, const double *x);
 /* [1/s] |s| of mode i. */
 double dmb_modes_size(const dmb_modes *modes, uint32_t i);
 void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j);

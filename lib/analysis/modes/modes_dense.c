@@ -361,6 +361,7 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
         root_of(search, d, i, s);
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
+        if (dmb_modes_is_rigid_root(search, s[0], s[1], d->x, paired ? d->y : NULL)) continue;
         status = paired && !is_damped(search) ? add_flutter(search, d, s)
                                               : dmb_modes_add(search, s[0], s[1], d->x, paired ? d->y : NULL);
     }

@@ -89,6 +89,11 @@ static double whirl_of(const dmb_mode_search *search, const double *x, const dou
 
 /* So much of a shape, by its square, is beside the rigid-body motions where it is made of them. */
 #define DMB_BESIDE_RIGID 1e-6
+/* Likewise of a motion that drag slows down so little that nothing else is felt. */
+#define DMB_BESIDE_DRIFT 1e-10
+/* Damping is known to this part of the terms that add up to it; [1/s] below this it is none. */
+#define DMB_DRIFT_NOISE 1e-12
+#define DMB_DRIFT_LEAST 1e-15
 
 /* x^T M x of what x has beside the rigid-body motions; its own in *whole. */
 static double beside_rigid(const dmb_mode_search *search, const double *x, double *whole)
@@ -104,13 +109,48 @@ static double beside_rigid(const dmb_mode_search *search, const double *x, doubl
     return sum;
 }
 
+/* [1/s] c = x^H C x over x^H M x = whole, and what rounding of its terms may make of it. */
+static double damping_of(const dmb_mode_search *search, const double *x, const double *y, double whole, double *noise)
+{
+    const dmb_linear *linear = search->linear;
+    const double *const parts[2] = {x, y};
+    double *product = search->work, c = 0.0, terms = 0.0;
+    for (int i = 0; i < 2 && parts[i] != NULL; i++) {
+        dmb_linear_multiply(linear, &linear->damping, parts[i], product);
+        c += dmb_dot(linear->rows, parts[i], product);
+        dmb_linear_terms(linear, &linear->damping, parts[i], product);
+        for (uint32_t r = 0; r < linear->rows; r++) terms += fabs(parts[i][r]) * product[r];
+    }
+    *noise = fmax(DMB_DRIFT_NOISE * terms / whole, DMB_DRIFT_LEAST);
+    return c / whole;
+}
+
+/* Where drag slows a motion down, K x = 0 has the roots 0 and -c; that one is a mode of its own. */
 int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y)
 {
-    double whole = 0.0, beside = 0.0;
+    double whole = 0.0, beside = 0.0, noise = 0.0, c = 0.0;
     if (search->rigid_count == 0 || search->apart) return 0;
-    if (re * re + im * im > DMB_RIGID_NOISE * search->noise) return 0;
     beside = beside_rigid(search, x, &whole) + (y != NULL ? beside_rigid(search, y, &whole) : 0.0);
-    return beside <= DMB_BESIDE_RIGID * whole;
+    if (!(beside <= DMB_BESIDE_RIGID * whole)) return 0;
+    if (search->options->kind == DMB_MODES_DAMPED) c = damping_of(search, x, y, whole, &noise);
+    if (re * re + im * im > fmax(DMB_RIGID_NOISE * search->noise, noise * noise)) return 0;
+    return !(c > noise && hypot(re + c, im) < 0.5 * c);
+}
+
+/* By C alone: K x, which is 0 but for rounding, would count for more. */
+double dmb_modes_drift(const dmb_mode_search *search, double s, const double *x)
+{
+    const size_t n = search->linear->rows;
+    double *r = search->work + 2 * n, whole = 0.0, kept = 0.0, noise;
+    if (search->rigid_count == 0 || search->apart || search->options->kind != DMB_MODES_DAMPED) return s;
+    if (!(beside_rigid(search, x, &whole) <= DMB_BESIDE_DRIFT * whole)) return s;
+    memset(r, 0, n * sizeof(double));
+    for (uint32_t i = 0; i < search->rigid_count; i++) {
+        const double part = dmb_dot(n, search->rigid_momentum + n * i, x);
+        for (size_t k = 0; k < n; k++) r[k] += part * search->rigid[n * i + k];
+        kept += part * part;
+    }
+    return -damping_of(search, r, NULL, kept, &noise);
 }
 
 /* ---- Adding ------------------------------------------------------------------------------------------------------ */

@@ -168,7 +168,10 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
         for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, of im > 0 */
         const int decays = search->options->kind == DMB_MODES_UNDAMPED && im == 0.0 && re < 0.0;
         if (decays || dmb_modes_is_rigid_root(search, re, im, x, im != 0.0 ? y : NULL)) continue;
-        status = dmb_modes_add(search, re, fabs(im), x, im != 0.0 ? y : NULL);
+        if (im == 0.0)
+            status = dmb_modes_add(search, dmb_modes_drift(search, re, x), 0.0, x, NULL);
+        else
+            status = dmb_modes_add(search, re, fabs(im), x, y);
     }
     return status;
 }
@@ -378,7 +381,8 @@ static int32_t take(shifted *T, const dmb_krylov *found)
         im = real ? 0.0 : fabs(im);
         if (search->options->kind == DMB_MODES_UNDAMPED && real && creal(s) < 0.0) continue;
         if (dmb_modes_is_rigid_root(search, creal(s), im, x, real ? NULL : y)) continue;
-        status = dmb_modes_add(search, creal(s), im, x, real ? NULL : y);
+        const double re = real ? dmb_modes_drift(search, creal(s), x) : creal(s);
+        status = dmb_modes_add(search, re, im, x, real ? NULL : y);
     }
     return status;
 }
