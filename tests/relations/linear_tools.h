@@ -1,4 +1,4 @@
-/* What relations between linear analyses share: states of rest, and places that are pushed and looked at. */
+/* Tools of relations between linear analyses: states of rest, and places that are pushed and looked at. */
 #ifndef DMB_RELATIONS_LINEAR_TOOLS_H
 #define DMB_RELATIONS_LINEAR_TOOLS_H
 

@@ -285,6 +285,63 @@ static void check_seen(trial *t)
     }
 }
 
+/* Motion in the sense of turning that a force going round with it by w makes at a place, in some axes. */
+static int32_t circle(built *b, part_ref place, const dmb_response_options *options, double complex *out)
+{
+    dmb_input in[2];
+    dmb_output answer[2];
+    double pair[2];
+    dmb_response *response = NULL;
+    *out = 0.0;
+    for (int32_t i = 0; i < 2; ++i) {
+        const material_point at = {place, DMB_Y + i};
+        in[i] = input_of(b, &at);
+        answer[i] = output_of(b, &at);
+        in[i].frame = answer[i].frame = DMB_FRAME_BODY;
+    }
+    const int32_t status = dmb_analysis_response(b->sim, options, in, 2, answer, 2, &response);
+    for (uint32_t i = 0; i < 2 && status >= 0; ++i)
+        for (uint32_t k = 0; k < 2; ++k) { /* y + i z over 2 of y = cos w t, z = sin w t */
+            (void)dmb_response_transfer(response, i, k, pair);
+            *out += 0.5 * number(pair) * (k == 0 ? 1.0 : (double complex)I) * (i == 0 ? 1.0 : -(double complex)I);
+        }
+    dmb_response_destroy(&response);
+    return status < 0 ? built_fail(b, status) : status;
+}
+
+/* Motion that goes round with w at rest goes round with w - W in axes that turn with W. */
+static void check_circled(trial *t)
+{
+    stream n = stream_of(t->s.seed, t->s.number, TOPIC_LINEAR + 3);
+    dmb_response_options options = dmb_response_options_default();
+    double frequency = 0.0;
+    double complex rest = 0.0, turning = 0.0;
+    built b;
+    t->s.loads = t->s.drives = 0;
+    t->s.environment.torsional_damping = 0.0; /* it would brake */
+    memset(t->s.environment.gravity, 0, sizeof t->s.environment.gravity);
+    const material_point at = draw_spot(&t->s, &n, 1);
+    const double spin = draw_size(&n, 1.0, 60.0), aside = draw_size(&n, 0.3, 300.0);
+    options.frequencies = &frequency;
+    options.points = 1;
+    options.spin = spin;
+    frequency = aside;
+    int32_t status = scene_open(&t->s, 0, NULL, &b);
+    if (status >= 0) status = circle(&b, at.place, &options, &turning);
+    options.axes = DMB_RESPONSE_AXES_AT_REST;
+    frequency = aside + spin / (2.0 * PI);
+    const int32_t noted = status;
+    if (status >= 0) status = circle(&b, at.place, &options, &rest);
+    if (status < 0)
+        refused(t, status, b.message);
+    else if (status != DMB_OK || noted != DMB_OK)
+        left_out(t, "what a note tells");
+    else
+        hold(t, "response at rest beside that in axes that turn", cabs(rest - turning),
+             (t->s.joints + t->s.bodies > 0 ? 1e-3 : 1e-6) * cabs(rest) + 1e-14);
+    scene_close(&b);
+}
+
 /* ---- Derivatives along a run ------------------------------------------------------------------------------------- */
 
 enum { ROWS_MOST = 4000, STEPS = 40 };
@@ -467,6 +524,13 @@ const relation relation_seen = {"seen",
                                 0.2,
                                 check_seen,
                                 0.0};
+const relation relation_circled = {"circled",
+                                   "responses in axes that turn against responses in axes at rest",
+                                   {FAMILY_LINE | FAMILY_FREE, WISH_STILL | WISH_ROUND | WISH_NO_LOADS, 8},
+                                   20,
+                                   0.2,
+                                   check_circled,
+                                   0.0};
 const relation relation_sensed = {
     "sensed", "derivatives along a run against two runs", {FAMILY_ALL, WISH_NO_BIT, 4}, 20, 0.2, check_sensed, 0.0};
 const relation relation_walked = {"walked",
