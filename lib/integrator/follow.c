@@ -154,14 +154,12 @@ static int32_t correct_once(course *of)
     return DMB_OK;
 }
 
-/* Corrections by the factors at hand. Where the matrix is exact, the first does. Else the second shows whether it has
- * done: tangents of contacts that close and of bits that meet the rock are off by some 1e-5, and the iteration matrix
- * of joints by some 1e-2. */
-static int32_t correct(course *of)
+/* Corrections by the factors at hand, until one is small. Tangents of contacts that close and of bits that meet the
+ * rock are off by some 1e-5, and the iteration matrix of joints by some 1e-2. */
+static int32_t correct_often(course *of)
 {
     const int jointed = of->sim->scene->cluster_count > 0; /* what moves is put on the joints by the evaluation */
     double first = 0.0;
-    if (of->lead->room->exact) return correct_once(of);
     for (uint32_t k = 0; k < DMB_CORRECTIONS_MAX; k++) {
         dmb_solve_correction(of->sim);
         const double size = size_of_correction(of->sim);
@@ -175,14 +173,20 @@ static int32_t correct(course *of)
     return DMB_OK;
 }
 
-/* Corrected to where contacts open, and the accelerations that these forces had there. */
+static int32_t correct(course *of)
+{
+    return of->lead->room->exact ? correct_once(of) : correct_often(of);
+}
+
+/* Corrected to where contacts open, and the accelerations that these forces had there. The matrix of the room is that
+ * of the step once more, where a contact may be closed again: it does not belong to these factors. */
 static int32_t open_beside(course *of)
 {
     dmb_sim *sim = of->sim;
     dmb_follow_room *room = of->lead->room;
     dmb_factors_swap(sim, &room->before);
     int32_t status = evaluate(of, 0);
-    if (status >= 0) status = correct(of);
+    if (status >= 0) status = correct_often(of);
     dmb_factors_swap(sim, &room->before);
     if (status < 0) return status;
     dmb_factors_swap(sim, &room->mass);

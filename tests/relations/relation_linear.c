@@ -345,7 +345,7 @@ static void check_circled(trial *t)
 /* ---- Derivatives along a run ------------------------------------------------------------------------------------- */
 
 enum { ROWS_MOST = 4000, STEPS = 40 };
-#define ASIDE 1e-5
+#define ASIDE 1e-6
 
 typedef struct speeds {
     uint32_t rows;
@@ -434,7 +434,7 @@ static void check_sensed(trial *t)
     const double rounding[2] = {floor[ANSWER_VELOCITY], floor[ANSWER_SPIN]};
     for (int kind = 0; kind < 2; ++kind)
         hold(t, kind == 0 ? "derivative of speeds beside two runs" : "of turning", worst[kind],
-             1e-3 * most[kind] + 1e-4 * size[kind] + rounding[kind] / ASIDE);
+             1e-3 * most[kind] + 1e-4 * size[kind] + 10.0 * rounding[kind] / ASIDE);
 }
 
 /* ---- Paths ------------------------------------------------------------------------------------------------------- */
