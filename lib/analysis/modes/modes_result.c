@@ -294,7 +294,7 @@ int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im)
     if (old.s == NULL) return DMB_OK;
     memcpy(modes->s, old.s, 2 * (size_t)old.count * sizeof(double));
     memcpy(modes->re, old.re, part);
-    if (old.im != NULL) memcpy(modes->im, old.im, part);
+    if (old.im != NULL && modes->im != NULL) memcpy(modes->im, old.im, part);
     memcpy(modes->whirl, old.whirl, old.count * sizeof(double));
     memcpy(modes->rigid, old.rigid, old.count);
     dmb_release(&modes->allocator, old.s, bytes_of(&old, old.capacity, old.im != NULL));

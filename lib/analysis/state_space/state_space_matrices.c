@@ -36,7 +36,7 @@ static void add_entry(builder *b, uint32_t column, const double entry[3])
         if (b->placing) b->to->column[b->at[column]] = column;
     }
     if (!b->placing) return;
-    for (uint32_t k = 0; k < b->to->kinds; k++) b->to->value[k][b->at[column]] += entry[k];
+    for (uint32_t k = 0; k < b->to->kinds && k < 3; k++) b->to->value[k][b->at[column]] += entry[k];
 }
 
 static void add_block_entry(builder *b, uint32_t i, uint32_t r, uint32_t j, uint32_t c)
