@@ -146,7 +146,7 @@ static int32_t take_roots(built *b, const dmb_modes_options *options, roots *r)
 /* Distance of the closest root of r that has no partner yet, which it becomes. */
 static double take_closest(const roots *r, double complex s, unsigned char *taken)
 {
-    double least = INFINITY;
+    double least = (double)INFINITY;
     uint32_t best = 0;
     for (uint32_t i = 0; i < r->count; ++i)
         if (!taken[i] && cabs(r->s[i] - s) < least) {
