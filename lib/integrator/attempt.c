@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "integrator/newton.h"
+#include "integrator/prediction.h"
 #include "integrator/step_motion.h"
 #include "math/so3.h"
 #include "sim/node.h"
@@ -205,7 +206,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_atte
 {
     dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
     attempt->released = 0;
-    dmb_step_motion_predict(sim, c, attempt->end.step);
+    dmb_prediction_make(sim, c, attempt);
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_step_motion_keep_prescribed(sim);
@@ -300,6 +301,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     dmb_counters *counters = sim->counters;
     dmb_system_accept(&attempt->evaluation);
     if (!attempt->deferred) dmb_factor_reuse_end(sim, attempt, &sim->trial);
+    dmb_prediction_note(sim, attempt);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;

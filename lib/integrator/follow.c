@@ -40,7 +40,7 @@ static int32_t evaluate(course *of, int32_t tangent)
 static int32_t predict(course *of)
 {
     dmb_attempt_set_up(of->sim, &of->attempt.end, &of->attempt.evaluation);
-    dmb_step_motion_predict(of->sim, &of->c, of->attempt.end.step);
+    dmb_step_motion_predict(of->sim, &of->c, of->attempt.end.step, 0.0);
     const int32_t status = dmb_system_prescribe(&of->attempt.evaluation);
     if (status < 0) return status;
     if (of->sim->scene->cluster_count) dmb_step_motion_keep_prescribed(of->sim);

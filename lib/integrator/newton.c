@@ -3,6 +3,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "integrator/prediction.h"
 #include "integrator/step_motion.h"
 #include "kernel/kernels.h"
 #include "sim/access.h"
@@ -103,10 +104,11 @@ static double share_of(const dmb_sim *sim)
 }
 
 /* The bound of the residual; reused factors aim below the tolerance. */
-static dmb_residual_bound bound_of(const dmb_sim *sim, uint32_t corrections, double aim)
+static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_newton_course *course, double aim)
 {
     const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0, 0};
-    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST, corrections == 0};
+    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST,
+                                          course->corrections == 0 && !course->linear};
     return follows_error(sim) ? following : given;
 }
 
@@ -163,11 +165,11 @@ static double excess_of_power(const powers *p)
 }
 
 /* Compares the residual with its bound. */
-static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course,
-                                 double aim)
+static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course, double aim)
 {
-    const dmb_residual_bound bound = bound_of(sim, course->corrections, aim);
+    const dmb_residual_bound bound = bound_of(sim, course, aim);
     dmb_residual_norm norm = dmb_residual_norm_within(&attempt->evaluation, &bound);
+    if (course->linear && course->corrections == 0) course->first = course->last = norm.start;
     if (norm.converged != DMB_SMALL_PART) return norm;
     const powers p = powers_of(sim);
     const double of_error = excess_of_error(sim, norm.relative, course) / pace_of(attempt, course, p.exchanged);
@@ -179,16 +181,16 @@ static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt,
 }
 
 /* The bound asked for is reached: reused factors only aimed lower. */
-static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
+static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
 {
     return attempt->factored == DMB_FACTORS_REUSED && compare(sim, attempt, course, 1.0).converged != 0;
 }
 
 /* Residual, and the tangent where it will be needed at once, on the constraints. */
-static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt)
+static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt, const dmb_newton_course *course)
 {
     dmb_evaluation *evaluation = &attempt->evaluation;
-    evaluation->tangent = attempt->factored == DMB_FACTORS_NONE;
+    evaluation->tangent = attempt->factored == DMB_FACTORS_NONE && !(course->linear && course->corrections == 0);
     const int32_t status = sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
@@ -227,7 +229,7 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *a
 static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
 {
     int32_t status = dmb_progress_pulse(sim);
-    if (status >= 0) status = evaluate(sim, attempt);
+    if (status >= 0) status = evaluate(sim, attempt, course);
     if (status >= 0) status = judge(sim, attempt, course);
     if (status != 1) return status;
     if (!course->hidden && !dmb_factor_reuse_will_do(sim, attempt, course)) {
@@ -241,12 +243,21 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     return 1;
 }
 
+/* The change that a linear prediction makes counts as a first correction; where there is none, as after a jump, it is
+ * the constant one. */
+static void begin_linear(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
+{
+    course->work = course->most_work = dmb_prediction_saved(sim, attempt);
+    course->linear = attempt->linear = course->work > 0.0;
+}
+
 int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     dmb_newton_course course;
     int32_t status;
     memset(&course, 0, sizeof course);
     dmb_factor_reuse_begin(sim, attempt);
+    if (attempt->linear && !attempt->released) begin_linear(sim, attempt, &course);
     do status = iterate(sim, c, attempt, &course);
     while (status == 1);
     return status;
@@ -319,7 +330,7 @@ static int32_t is_near_touch(const dmb_sim *sim, const dmb_configuration *reache
 
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached)
 {
-    if (!attempt->whole) return;
+    if (!attempt->whole || attempt->iterations == 0) return;
     if (attempt->factored == DMB_FACTORS_REUSED) {
         count_success(sim->reuse, attempt->iterations);
     } else if (attempt->factored == DMB_FACTORS_FRESH) {

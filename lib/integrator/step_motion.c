@@ -32,10 +32,11 @@ static void predict(void *work, uint32_t first, uint32_t end)
     job.acceleration += first;
     job.pseudo_acceleration += first;
     job.increment += first;
+    job.change += first;
     rows->kernels->predict(&job);
 }
 
-void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h, double slope)
 {
     const double whole = 1.0 - c->am;
     const dmb_step_motion to = dmb_step_motion_of(sim);
@@ -49,6 +50,10 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .v_from_a1 = h * c->gamma,
         .z_from_a0 = h * h * (0.5 - c->beta),
         .z_from_a1 = h * h * c->beta,
+        .slope = slope,
+        .a_from_change = (1.0 - c->af) / whole,
+        .z_from_change = h * h * c->beta * (1.0 - c->af) / whole,
+        .change = sim->correction,
         .now_velocity = sim->now.velocity,
         .now_acceleration = sim->now.acceleration,
         .now_pseudo_acceleration = sim->now.pseudo_acceleration,
@@ -60,6 +65,8 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
     predict_rows rows = {sim->scene->kernels, &job};
     dmb_parts_run(sim, job.count, ROWS, predict, &rows);
     if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &job);
+    for (uint32_t i = 0; i < sim->scene->held_count && slope != 0.0; i++)
+        sim->correction[sim->scene->layout.row[sim->scene->held_node[i]] + sim->scene->held_component[i]] = 0.0;
 }
 
 void dmb_step_motion_keep_prescribed(dmb_sim *sim)

@@ -55,8 +55,9 @@ static inline double dmb_step_motion_carried(const dmb_sim *sim, double ratio, u
     return a + ratio * (sim->now.pseudo_acceleration[i] - a);
 }
 
-/* Start of a step of length h [s]: v1' = v0'. */
-void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
+/* Start of a step of length h [s]: v1' = v0' + slope (a0 - v0'). Where slope [-] is not 0, sim->correction becomes what
+ * the increments are more by than with 0; then without joints and free rigid bodies. */
+void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h, double slope);
 /* Takes over what motion drives of nodes have written into the trial. */
 void dmb_step_motion_keep_prescribed(dmb_sim *sim);
 /* Pose of the trial: that of now moved by the increments. */

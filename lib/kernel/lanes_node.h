@@ -168,7 +168,7 @@ static void node_forces(dmb_node_force_job *job)
 /* Generalized-alpha from an acceleration that stays (THEORY 4): a0 carried over from the last step, which may have had
  * another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
  * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
-static void predict(const dmb_predict_job *job)
+static void predict_constant(const dmb_predict_job *job)
 {
     const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;
     const double v_a0 = job->v_from_a0, v_a1 = job->v_from_a1, z_a0 = job->z_from_a0, z_a1 = job->z_from_a1;
@@ -184,6 +184,36 @@ static void predict(const dmb_predict_job *job)
         v[i] = now_v[i] + v_a0 * a0 + v_a1 * a1;
         z[i] = h * now_v[i] + (z_a0 * a0 + z_a1 * a1);
     }
+}
+
+/* The same from an acceleration that changes by slope (a0 - v0'). */
+static void predict_linear(const dmb_predict_job *job)
+{
+    const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;
+    const double v_a0 = job->v_from_a0, v_a1 = job->v_from_a1, z_a0 = job->z_from_a0, z_a1 = job->z_from_a1;
+    const double slope = job->slope, a_more = job->a_from_change, z_more = job->z_from_change;
+    const double *restrict now_v = job->now_velocity, *restrict now_dv = job->now_acceleration,
+                           *restrict now_a = job->now_pseudo_acceleration;
+    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
+                     *restrict z = job->increment, *restrict change = job->change;
+    DMB_LANES_APART
+    for (uint32_t i = 0; i < job->count; i++) {
+        const double apart = ratio * (now_a[i] - now_dv[i]), a0 = now_dv[i] + apart, more = slope * apart;
+        const double a1 = a_dv * now_dv[i] + a_a0 * a0 + a_more * more;
+        dv[i] = now_dv[i] + more;
+        a[i] = a1;
+        v[i] = now_v[i] + v_a0 * a0 + v_a1 * a1;
+        z[i] = h * now_v[i] + (z_a0 * a0 + z_a1 * a1);
+        change[i] = z_more * more;
+    }
+}
+
+static void predict(const dmb_predict_job *job)
+{
+    if (job->slope != 0.0)
+        predict_linear(job);
+    else
+        predict_constant(job);
 }
 
 /* z, v, v' and a follow a correction of the increment by constant factors. */

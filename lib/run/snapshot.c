@@ -198,6 +198,15 @@ static int32_t check_factors(const probe *p)
     return DMB_OK;
 }
 
+static int32_t check_prediction(const probe *p)
+{
+    dmb_prediction kept;
+    memcpy(&kept, p->from, sizeof kept);
+    if (kept.pause > DMB_PAUSE_MAX) return refuse(p, 1, kept.pause, "at most 31");
+    if (kept.back_off > DMB_PAUSE_MAX) return refuse(p, 2, kept.back_off, "at most 31");
+    return DMB_OK;
+}
+
 /* Frames of the nodes where the factors were made; zeros where none are kept, by which they are not of use either. */
 static int32_t check_frames(const probe *p)
 {
@@ -232,6 +241,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_LEDGER: return check_numbers(p, 0, sizeof(dmb_ledger) / sizeof(double)); /* all members are */
     case DMB_CHECK_COUNTERS: return check_counters(p);
     case DMB_CHECK_REUSE: return check_factors(p);
+    case DMB_CHECK_PREDICTION: return check_prediction(p);
     case DMB_CHECK_FRAMES: return check_frames(p);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
@@ -255,7 +265,7 @@ int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, 
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
-enum { DMB_SNAPSHOT_VERSION = 8 };
+enum { DMB_SNAPSHOT_VERSION = 9 };
 
 typedef struct snapshot_header {
     uint64_t magic;

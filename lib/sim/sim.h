@@ -78,6 +78,7 @@
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
                                               system/constrain/cluster_projection, system/constrain/cluster */                \
+    X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                         \
@@ -145,7 +146,8 @@
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
                                 analysis/static/static_newton; pulls and stretches: analysis/static/static_lay */      \
-    X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve */          \
+    X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin   \
+                                     with: system/assemble/inertia_of_change */                                     \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
@@ -284,6 +286,14 @@ typedef struct dmb_factor_reuse {
     uint32_t corrections; /* fewest that a step with them has taken; 0: none yet */
     uint32_t excess;      /* corrections beyond that, in all */
 } dmb_factor_reuse;
+
+/* How steps begin (integrator/prediction). */
+typedef struct dmb_prediction {
+    uint32_t constant; /* iterations of the last step that began with accelerations that stay; 0: none yet */
+    uint32_t pause;    /* steps to come that begin so too */
+    uint32_t back_off; /* pause after the next step in which going on saves no iteration */
+    uint32_t reserved;
+} dmb_prediction;
 
 typedef struct dmb_history_head {
     uint32_t head, count;

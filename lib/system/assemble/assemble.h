@@ -14,6 +14,10 @@
 void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction);
 void dmb_gather_elements(dmb_evaluation *evaluation);
 
+/* force = factor M change, both by rows, with masses lumped on the nodes: sideways what both ends of an element have
+ * together, rotation across the axis by itself. */
+void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double factor, double *force);
+
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 
 void dmb_gather_nodes(dmb_evaluation *evaluation);

@@ -125,7 +125,7 @@ dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, con
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    dmb_residual_norm norm = {0.0, 0.0, bound->tolerance, DMB_CONVERGED, 0};
+    dmb_residual_norm norm = {0.0, 0.0, 0.0, bound->tolerance, DMB_CONVERGED, 0};
     double excess = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const norms n = norms_of(sim, scene->chains + c);
@@ -133,6 +133,7 @@ dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, con
         const double part = part_of(sim, c, bound, n), relative = relative_of(n);
         norm.converged = worse(norm.converged, judge(evaluation, scene->chains + c, bound->tolerance, part, n));
         norm.relative = fmax(norm.relative, relative);
+        if (n.all > 0.0) norm.start = fmax(norm.start, sqrt(sim->chain_start[c] / n.all));
         norm.balance += n.all;
         if (!(bound->share > 0.0)) continue;
         const double own = n.all > 0.0 ? fmax(bound->tolerance, sqrt(part / n.all)) : bound->tolerance;
@@ -143,6 +144,12 @@ dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, con
     }
     norm.balance = sqrt(norm.balance);
     return norm;
+}
+
+void dmb_residual_begins_at(dmb_sim *sim)
+{
+    for (uint32_t c = 0; c < sim->scene->chain_count; c++)
+        sim->chain_start[c] = norms_of(sim, sim->scene->chains + c).rest;
 }
 
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)

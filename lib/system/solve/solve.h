@@ -13,6 +13,7 @@ enum { DMB_CONVERGED = 1, DMB_AT_ROUNDING = 2, DMB_SMALL_PART = 3 };
 typedef struct dmb_residual_norm {
     double relative;   /* [-] norm of the residual over that of the terms that balance in it, of the worst chain */
     double balance;    /* [N] norm of those terms, all chains */
+    double start;      /* [-] likewise, of the residual that chain_start tells */
     double bound;      /* [-] what the relative residual of the chain furthest above its bound must come down to */
     int32_t converged; /* how it compares with the tolerance; 0: none of the above */
     int32_t reserved;
@@ -30,6 +31,8 @@ typedef struct dmb_residual_bound {
  * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
 dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound);
+/* What is in sim->residual is what chain_start says from now on. */
+void dmb_residual_begins_at(dmb_sim *sim);
 /* Factors the iteration matrix in place, that of joints by DMB_METHOD_.... Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method);
 /* The same for statics, by independent coordinates, telling the weakest pivot: what nothing holds shows as one of

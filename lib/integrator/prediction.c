@@ -1,0 +1,44 @@
+#include "integrator/prediction.h"
+
+#include "kernel/kernels.h"
+#include "system/assemble/assemble.h"
+#include "system/solve/solve.h"
+
+/* [-] Smallest part of its change over a step by which a0 is apart from v0': near spectral radius 1 it is next to
+ * nothing, and the slope would be that of what Newton has left. */
+#define DMB_APART_MIN 0.02
+
+/* Joints move their trial, and free rigid bodies their centres of mass, by rules of their own. */
+static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_attempt *attempt)
+{
+    const dmb_scene *scene = sim->scene;
+    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || attempt->astray) return 0;
+    return c->af - c->am >= DMB_APART_MIN && sim->prediction->constant > 0 && sim->prediction->pause == 0;
+}
+
+void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+{
+    attempt->linear = may_be_linear(sim, c, attempt);
+    dmb_step_motion_predict(sim, c, attempt->end.step, attempt->linear ? 1.0 / (c->am - c->af) : 0.0);
+}
+
+double dmb_prediction_saved(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_inertia_of_change(scene, sim->correction, attempt->evaluation.mass_factor, sim->residual);
+    dmb_residual_begins_at(sim);
+    return scene->kernels->product(scene->row_count, sim->correction, sim->residual);
+}
+
+void dmb_prediction_note(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    dmb_prediction *p = sim->prediction;
+    if (!attempt->linear) {
+        p->constant = attempt->iterations;
+        if (p->pause > 0) p->pause--;
+        return;
+    }
+    p->back_off = attempt->iterations < p->constant ? 0 : 2 * p->back_off + 1;
+    if (p->back_off > DMB_PAUSE_MAX) p->back_off = DMB_PAUSE_MAX;
+    p->pause = p->back_off;
+}

@@ -1,0 +1,17 @@
+/* Where the iteration of a step begins (THEORY 4): from accelerations that stay, or from such as go on as they did. */
+#ifndef DMB_INTEGRATOR_PREDICTION_H
+#define DMB_INTEGRATOR_PREDICTION_H
+
+#include "integrator/attempt.h"
+#include "integrator/step_motion.h"
+
+/* Motion of the trial to begin with; attempt->linear tells which of the two it is. */
+void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt);
+/* [J] |z . residual| that a linear prediction has saved, z being what its increments are more by; sim->chain_start
+ * becomes the residual that it would have begun with. By lumped masses: of motion that the step resolves it is that,
+ * of stiffer motion less. */
+double dmb_prediction_saved(dmb_sim *sim, const dmb_attempt *attempt);
+/* After an accepted step: which one the next begins with. */
+void dmb_prediction_note(dmb_sim *sim, const dmb_attempt *attempt);
+
+#endif

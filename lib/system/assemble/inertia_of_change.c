@@ -1,0 +1,49 @@
+#include <string.h>
+
+#include "system/assemble/assemble.h"
+
+/* Inertia forces of a change of the accelerations, by lumped masses. */
+
+/* [kg, kg m2] times the factor, by the rows of an end that is FULL. */
+typedef struct lumped {
+    double row[6];
+} lumped;
+
+static lumped half_of(const dmb_element_type *type, double factor)
+{
+    const dmb_beam_mass *m = &type->mass;
+    lumped half = {{m->axial[0] + m->axial[1], m->bending[0][0] + m->bending[0][2], m->bending[1][0] + m->bending[1][2],
+                    m->torsion[0] + m->torsion[1], m->bending[1][4], m->bending[0][4]}};
+    for (int k = 0; k < 6; k++) half.row[k] *= factor;
+    return half;
+}
+
+static void add_node(uint32_t size, const lumped *mass, const double *z, double *force)
+{
+    if (size == DMB_NODE_PATH) {
+        force[0] += mass->row[DMB_X] * z[0];
+        force[1] += mass->row[DMB_RX] * z[1];
+        return;
+    }
+    for (uint32_t k = 0; k < 6; k++) force[k] += mass->row[k] * z[k];
+}
+
+void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double factor, double *force)
+{
+    lumped half = {{0.0}};
+    memset(force, 0, scene->row_count * sizeof *force);
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const uint32_t a = scene->element_node[e], row = scene->layout.row[a], next = scene->layout.row[a + 1];
+        if (e == 0 || scene->element_type[e] != scene->element_type[e - 1])
+            half = half_of(scene->types + scene->element_type[e], factor);
+        add_node(scene->layout.size[a], &half, change + row, force + row);
+        add_node(scene->layout.size[a + 1], &half, change + next, force + next);
+    }
+    for (uint32_t i = 0; i < scene->rigid_mass_count; i++) {
+        const dmb_rigid_mass *m = scene->rigid_masses + i;
+        const lumped mass = {{factor * m->mass, factor * m->mass, factor * m->mass, factor * m->inertia[0],
+                              factor * m->inertia[1], factor * m->inertia[2]}};
+        const uint32_t row = scene->layout.row[m->node];
+        add_node(scene->layout.size[m->node], &mass, change + row, force + row);
+    }
+}
