@@ -164,12 +164,29 @@ static double excess_of_power(const powers *p)
     return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;
 }
 
+/* What an iteration takes for its start: the residual at hand, or what a linear prediction has saved, unless that
+ * leaves more than it tells: then the motion is stiffer than its inertia, and the step begins from where the prediction
+ * led. */
+static void note_start(const dmb_evaluation *evaluation, dmb_newton_course *course, dmb_residual_norm *norm,
+                       const dmb_residual_bound *bound)
+{
+    if (norm->relative < norm->start) {
+        course->first = course->last = norm->start;
+        return;
+    }
+    dmb_residual_bound at_hand = *bound;
+    at_hand.start = 1;
+    course->linear = 0;
+    course->work = course->most_work = 0.0;
+    *norm = dmb_residual_norm_within(evaluation, &at_hand);
+}
+
 /* Compares the residual with its bound. */
 static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course, double aim)
 {
     const dmb_residual_bound bound = bound_of(sim, course, aim);
     dmb_residual_norm norm = dmb_residual_norm_within(&attempt->evaluation, &bound);
-    if (course->linear && course->corrections == 0) course->first = course->last = norm.start;
+    if (course->linear && course->corrections == 0) note_start(&attempt->evaluation, course, &norm, &bound);
     if (norm.converged != DMB_SMALL_PART) return norm;
     const powers p = powers_of(sim);
     const double of_error = excess_of_error(sim, norm.relative, course) / pace_of(attempt, course, p.exchanged);

@@ -167,7 +167,8 @@ typedef struct dmb_predict_job {
     uint32_t reserved;
     double step, ratio;                                                      /* [s], [-] */
     double a_from_dv, a_from_a0, v_from_a0, v_from_a1, z_from_a0, z_from_a1; /* [-], [s], [s2] */
-    double slope, a_from_change, z_from_change; /* [-], [-], [s2] of a change slope (a0 - v0') of v'; slope 0: it stays */
+    double slope, a_from_change,
+        z_from_change; /* [-], [-], [s2] of a change slope (a0 - v0') of v'; slope 0: it stays */
     const double *now_velocity, *now_acceleration, *now_pseudo_acceleration;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* written */
     double *change; /* written where it does not stay: what the increment is more by */

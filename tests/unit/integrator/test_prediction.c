@@ -29,7 +29,7 @@ static void open_pendulum(rig *s, double radius)
     (void)rig_start(s, &options);
 }
 
-/* How far the accelerations that are predicted for the ends of steps are off, over what they change by in them. */
+/* Error of the accelerations that are predicted for the ends of steps, over their change in these steps. */
 static double part_off(double radius, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(radius);
@@ -116,36 +116,43 @@ static double iterations_of(const rig *s, double h, uint32_t steps, int constant
     return (double)(statistics_of(s).iterations - before.iterations) / steps;
 }
 
-/* A string with unbalance turns on the floor of its hole: smooth motion, which the linear prediction saves one of two
- * iterations of. */
-static void smooth_motion_is_predicted_linearly(void **state)
+/* A string with unbalance is brought to turn on the floor of its hole. */
+static void open_rubbing(rig *s)
 {
     dmb_wall_def wall = s1_hole();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_term term = dmb_term_default();
-    rig s;
-    (void)state;
     term.kind = DMB_TERM_STEP;
     term.x1 = 0.3;
     term.h1 = 6.0;
     wall.friction_law = DMB_FRICTION_COULOMB;
     wall.mu_static = wall.mu_dynamic = 0.3;
-    rig_open(&s, 0.0, 0.0, -9.81);
-    (void)add_wall(&s, &wall);
+    rig_open(s, 0.0, 0.0, -9.81);
+    (void)add_wall(s, &wall);
     string.start_free = DMB_FREE_RX;
     pipe.eccentricity = 1e-3;
     pipe.damping_time = 1e-4;
-    const dmb_id id = add_string(&s, &string);
-    (void)add_pipes(&s, &pipe, 8);
-    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_RX, add_programme(&s, &term, 1));
-    (void)rig_start(&s, NULL);
-    (void)find_equilibrium(&s, NULL);
-    take_steps(&s, 1e-3, 600);
-    const double linear = iterations_of(&s, 1e-3, 200, 0), constant = iterations_of(&s, 1e-3, 200, 1);
-    print_message("%.2f iterations a step, %.2f from accelerations that stay\n", linear, constant);
-    CHECK_BELOW(linear, constant - 0.3);
-    rig_close(&s);
+    const dmb_id id = add_string(s, &string);
+    (void)add_pipes(s, &pipe, 8);
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, id, DMB_RX, add_programme(s, &term, 1));
+    (void)rig_start(s, NULL);
+    (void)find_equilibrium(s, NULL);
+}
+
+/* Smooth motion: the linear prediction saves one of two iterations in most steps. */
+static void smooth_motion_is_predicted_linearly(void **state)
+{
+    double iterations[2];
+    (void)state;
+    for (int constant = 0; constant < 2; constant++) {
+        rig s;
+        open_rubbing(&s);
+        iterations[constant] = iterations_of(&s, 1e-3, 400, constant);
+        rig_close(&s);
+    }
+    print_message("%.2f iterations a step, %.2f from accelerations that stay\n", iterations[0], iterations[1]);
+    CHECK_BELOW(iterations[0], iterations[1] - 0.5);
 }
 
 /* Torsion waves that go to and fro take one correction from either; tries become rare. */
