@@ -164,9 +164,8 @@ static double excess_of_power(const powers *p)
     return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;
 }
 
-/* What an iteration takes for its start: the residual at hand, or what a linear prediction has saved, unless that
- * leaves more than it tells: then the motion is stiffer than its inertia, and the step begins from where the prediction
- * led. */
+/* A linear prediction begins with the residual that it has saved. Where it leaves more than that, the motion is stiffer
+ * than its inertia, and the residual at hand is the start. */
 static void note_start(const dmb_evaluation *evaluation, dmb_newton_course *course, dmb_residual_norm *norm,
                        const dmb_residual_bound *bound)
 {

@@ -287,7 +287,7 @@ typedef struct dmb_factor_reuse {
     uint32_t excess;      /* corrections beyond that, in all */
 } dmb_factor_reuse;
 
-/* How steps begin (integrator/prediction). */
+/* Choice of the prediction that a step begins with (integrator/prediction). */
 typedef struct dmb_prediction {
     uint32_t constant; /* iterations of the last step that began with accelerations that stay; 0: none yet */
     uint32_t pause;    /* steps to come that begin so too */

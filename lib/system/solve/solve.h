@@ -31,7 +31,7 @@ typedef struct dmb_residual_bound {
  * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
 dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound);
-/* What is in sim->residual is what chain_start says from now on. */
+/* chain_start tells the residual at hand from now on. */
 void dmb_residual_begins_at(dmb_sim *sim);
 /* Factors the iteration matrix in place, that of joints by DMB_METHOD_.... Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method);
