@@ -225,7 +225,8 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
     attempt->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
     status = solve_step(sim, &c, attempt);
-    if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
+    if ((attempt->tried || attempt->linear) && status < 0 && !dmb_is_final(status)) {
+        /* once more, with factors of its own, from accelerations that stay */
         attempt->astray = 1;
         attempt->iterations = 0;
         status = solve_step(sim, &c, attempt);

@@ -18,7 +18,7 @@ typedef struct dmb_attempt {
     int32_t whole;    /* 1: the step stands by itself, so it may use and leave reused factors */
     int32_t factored; /* DMB_FACTORS_...: what the last iteration was done with */
     int32_t tried;    /* 1: reused factors were tried */
-    int32_t astray;   /* 1: they led to nothing, and the step began again with factors of its own */
+    int32_t astray;   /* 1: they or a linear prediction led to nothing, and the step began again without both */
     int32_t released; /* 1: contacts opened, and the step was taken again without their force */
     int32_t deferred; /* 1: commit leaves the reused factors alone, for the step may still be taken back */
     int32_t linear;   /* 1: it began from accelerations that go on as they did */

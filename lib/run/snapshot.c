@@ -204,6 +204,7 @@ static int32_t check_prediction(const probe *p)
     memcpy(&kept, p->from, sizeof kept);
     if (kept.pause > DMB_PAUSE_MAX) return refuse(p, 1, kept.pause, "at most 31");
     if (kept.back_off > DMB_PAUSE_MAX) return refuse(p, 2, kept.back_off, "at most 31");
+    if (kept.reserved != 0) return refuse(p, 3, kept.reserved, "0");
     return DMB_OK;
 }
 

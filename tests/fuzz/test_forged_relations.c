@@ -167,6 +167,8 @@ static void settings_fit(void **state)
     refused(&s, "event_side");
     put_word(&s, "reuse", 2, 32);
     refused(&s, "reuse");
+    put_word(&s, "prediction", 2, 32);
+    refused(&s, "prediction");
     close_subject(&s);
 }
 
