@@ -201,6 +201,10 @@ static int32_t check_dropped(dmb_sim *sim)
     return DMB_ERR_SINGULAR;
 }
 
+/* Contacts close or open in a step that began with a linear prediction. Such a step may have more than one solution,
+ * and the one is taken that accelerations that stay lead to. */
+enum { DMB_CHANGES = 1000 };
+
 /* From the prediction to the end of the iteration, and over again where contacts open. */
 static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
@@ -212,6 +216,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_atte
     if (sim->scene->cluster_count) dmb_step_motion_keep_prescribed(sim);
     dmb_step_motion_place(sim);
     status = dmb_newton(sim, c, attempt);
+    if (status >= 0 && attempt->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
     return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
 }
 
@@ -225,6 +230,11 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
     attempt->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
     status = solve_step(sim, &c, attempt);
+    if (status == DMB_CHANGES) {
+        attempt->constant = 1;
+        attempt->iterations = 0;
+        status = solve_step(sim, &c, attempt);
+    }
     if ((attempt->tried || attempt->linear) && status < 0 && !dmb_is_final(status)) {
         /* once more, with factors of its own, from accelerations that stay */
         attempt->astray = 1;

@@ -90,7 +90,9 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
  * local errors do. So it may be DMB_NEWTON_PART of the local error, or 0.2 h w of it where that is less, w a frequency
  * of the motion. */
 
-#define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
+#define DMB_NEWTON_PART 0.01 /* [-] of the local error of the step */
+#define DMB_NEWTON_LINEAR \
+    0.5 /* [-] of that after a linear prediction, whose corrections are small and seldom too good */
 #define DMB_NEWTON_PACE 0.05  /* [-] h w from which on it is that part */
 #define DMB_NEWTON_MOST 1e-3  /* [-] relative residual that is never exceeded */
 #define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */
@@ -103,9 +105,14 @@ static double share_of(const dmb_sim *sim)
     return DMB_NEWTON_PART * fabs(c.error) * (1.0 - c.am) / (c.beta * (1.0 - c.af));
 }
 
-/* The bound of the residual; reused factors aim below the tolerance. */
+/* A linear prediction may be below the tolerance in step after step, and what it leaves would add up: without a
+ * correction it aims at this part of it. */
+#define DMB_LINEAR_AIM 0.01
+
+/* The bound of the residual; reused factors and linear predictions aim below the tolerance. */
 static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_newton_course *course, double aim)
 {
+    if (course->linear && course->corrections == 0) aim *= DMB_LINEAR_AIM;
     const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0, 0};
     const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST,
                                           course->corrections == 0 && !course->linear};
@@ -188,8 +195,10 @@ static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt,
     if (course->linear && course->corrections == 0) note_start(&attempt->evaluation, course, &norm, &bound);
     if (norm.converged != DMB_SMALL_PART) return norm;
     const powers p = powers_of(sim);
-    const double of_error = excess_of_error(sim, norm.relative, course) / pace_of(attempt, course, p.exchanged);
-    const double excess = fmax(of_error, excess_of_power(&p));
+    const double share = course->linear ? DMB_NEWTON_LINEAR : 1.0;
+    const double of_error =
+        excess_of_error(sim, norm.relative, course) / (share * pace_of(attempt, course, p.exchanged));
+    const double excess = fmax(of_error, excess_of_power(&p) / share);
     if (excess <= 1.0) return norm;
     norm.converged = 0;
     norm.bound = fmax(bound.tolerance, norm.relative / excess);

@@ -7,13 +7,18 @@
 /* [-] Smallest part of its change over a step by which a0 is apart from v0': near spectral radius 1 it is next to
  * nothing, and the slope would be that of what Newton has left. */
 #define DMB_APART_MIN 0.02
+/* [-] Most iterations of a step, from accelerations that stay, behind which they may go on: more tell of contacts. */
+#define DMB_SMOOTH_MOST 3
 
-/* Joints move their trial, and free rigid bodies their centres of mass, by rules of their own. */
+/* Joints move their trial, and free rigid bodies their centres of mass, by rules of their own; and a tolerance that is
+ * given leaves what it always left. */
 static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_attempt *attempt)
 {
     const dmb_scene *scene = sim->scene;
-    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || attempt->astray) return 0;
-    return c->af - c->am >= DMB_APART_MIN && sim->prediction->constant > 0 && sim->prediction->pause == 0;
+    if (sim->options.newton_tolerance > 0.0) return 0;
+    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || attempt->astray || attempt->constant) return 0;
+    return c->af - c->am >= DMB_APART_MIN && sim->prediction->constant > 0 &&
+           sim->prediction->constant <= DMB_SMOOTH_MOST && sim->prediction->pause == 0;
 }
 
 void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
@@ -33,12 +38,13 @@ double dmb_prediction_saved(dmb_sim *sim, const dmb_attempt *attempt)
 void dmb_prediction_note(dmb_sim *sim, const dmb_attempt *attempt)
 {
     dmb_prediction *p = sim->prediction;
-    if (!attempt->linear) {
-        p->constant = attempt->iterations;
+    if (!attempt->linear) p->constant = attempt->iterations;
+    if (!attempt->linear && !attempt->constant) {
         if (p->pause > 0) p->pause--;
         return;
     }
-    p->back_off = attempt->iterations < p->constant ? 0 : 2 * p->back_off + 1;
+    const int saves = attempt->linear && attempt->iterations < p->constant;
+    p->back_off = saves ? 0 : 2 * p->back_off + 1;
     if (p->back_off > DMB_PAUSE_MAX) p->back_off = DMB_PAUSE_MAX;
     p->pause = p->back_off;
 }
