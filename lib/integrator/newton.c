@@ -90,9 +90,8 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
  * local errors do. So it may be DMB_NEWTON_PART of the local error, or 0.2 h w of it where that is less, w a frequency
  * of the motion. */
 
-#define DMB_NEWTON_PART 0.01 /* [-] of the local error of the step */
-#define DMB_NEWTON_LINEAR \
-    0.5 /* [-] of that after a linear prediction, whose corrections are small and seldom too good */
+#define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
+#define DMB_NEWTON_LINEAR 0.7 /* [-] of that after a linear prediction: small corrections are seldom too good */
 #define DMB_NEWTON_PACE 0.05  /* [-] h w from which on it is that part */
 #define DMB_NEWTON_MOST 1e-3  /* [-] relative residual that is never exceeded */
 #define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */

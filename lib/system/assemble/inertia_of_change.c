@@ -28,6 +28,13 @@ static void add_node(uint32_t size, const lumped *mass, const double *z, double 
     for (uint32_t k = 0; k < 6; k++) force[k] += mass->row[k] * z[k];
 }
 
+/* Both ends of an element between FULL nodes, whose rows follow each other. */
+static void add_both(const lumped *half, const double *restrict z, double *restrict force)
+{
+    for (uint32_t k = 0; k < 6; k++) force[k] += half->row[k] * z[k];
+    for (uint32_t k = 0; k < 6; k++) force[6 + k] += half->row[k] * z[6 + k];
+}
+
 void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double factor, double *force)
 {
     lumped half = {{0.0}};
@@ -36,6 +43,10 @@ void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double 
         const uint32_t a = scene->element_node[e], row = scene->layout.row[a], next = scene->layout.row[a + 1];
         if (e == 0 || scene->element_type[e] != scene->element_type[e - 1])
             half = half_of(scene->types + scene->element_type[e], factor);
+        if (scene->layout.size[a] + scene->layout.size[a + 1] == 2 * DMB_NODE_FULL) {
+            add_both(&half, change + row, force + row);
+            continue;
+        }
         add_node(scene->layout.size[a], &half, change + row, force + row);
         add_node(scene->layout.size[a + 1], &half, change + next, force + next);
     }
