@@ -328,7 +328,10 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt,
 static void count_success(dmb_factor_reuse *reuse, uint32_t corrections)
 {
     if (reuse->corrections == 0 || corrections < reuse->corrections) reuse->corrections = corrections;
-    reuse->excess += corrections - reuse->corrections;
+    if (corrections > reuse->corrections)
+        reuse->excess += corrections - reuse->corrections;
+    else if (reuse->excess > 0)
+        reuse->excess--;
     reuse->back_off = 0;
     if (reuse->excess >= DMB_EXCESS_MAX) reuse->step = 0.0;
 }

@@ -34,7 +34,8 @@ int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attemp
  * first correction, which shows their rate. */
 int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course);
 /* After a successful step that reached this configuration: its factors are kept for the steps to come, until the
- * corrections that these have taken beyond the first such step have cost as much as new ones. Where reused factors did
+ * corrections that these have taken beyond the fewest, less one for each step that took these, have cost as much as new
+ * ones. Where reused factors did
  * not do within a step, the next try waits, longer each time. */
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached);
 /* Of a committed step that is taken back; `kept`: sim->reuse before. Factors that the step has kept are lost with it.
