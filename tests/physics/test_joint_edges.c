@@ -175,6 +175,55 @@ static void a_ball_with_a_drive_on_its_angles(void **state)
     rig_close(&a.s);
 }
 
+/* A gear between RX of a ball and a hinge needs the angles of the ball; a drive and a belt along the line that it is on
+ * need none of them. */
+static void a_ball_that_is_coupled_in_its_angles(void **state)
+{
+    (void)state;
+    arm a = describe_arm(0.0, 2.0, 0.0);
+    dmb_body_def other = dmb_body_def_default();
+    dmb_coupling_def gear = dmb_coupling_def_default();
+    const dmb_joint_def def = arm_joint(&a, DMB_JOINT_SPHERICAL);
+    gear.joint[0] = a.joint = add_joint(&a.s, &def);
+    other.position[1] = 3.0;
+    dmb_joint_def hinge = dmb_joint_def_default();
+    hinge.kind = DMB_JOINT_REVOLUTE;
+    hinge.match = 1;
+    hinge.place_b = dmb_station(add_body(&a.s, &other), 0, 0.0);
+    gear.joint[1] = add_joint(&a.s, &hinge);
+    must_model(&a.s, dmb_model_add_coupling(a.s.model, &gear, NULL));
+    (void)mechanism_start(&a.s, NULL);
+    (void)run_until_refused(&a, 1e-2);
+    rig_close(&a.s);
+}
+
+static void on_a_line_it_is_led_and_coupled_along(void **state)
+{
+    (void)state;
+    arm a = describe_arm(0.0, 2.0, 0.0);
+    dmb_body_def other = dmb_body_def_default();
+    dmb_coupling_def belt = dmb_coupling_def_default();
+    const dmb_joint_def def = arm_joint(&a, DMB_JOINT_POINT_ON_LINE);
+    belt.joint[0] = a.joint = add_joint(&a.s, &def);
+    other.position[1] = 3.0;
+    dmb_joint_def slider = dmb_joint_def_default();
+    slider.kind = DMB_JOINT_PRISMATIC;
+    slider.match = 1;
+    slider.place_b = dmb_station(add_body(&a.s, &other), 0, 0.0);
+    belt.joint[1] = add_joint(&a.s, &slider);
+    belt.component[0] = belt.component[1] = DMB_X;
+    must_model(&a.s, dmb_model_add_coupling(a.s.model, &belt, NULL));
+    (void)add_simple_drive(&a.s, DMB_DRIVE_LOAD, a.joint, DMB_X, add_constant(&a.s, 1.0));
+    const dmb_sim_options options = sharp_options(1.0, 1e-10);
+    (void)mechanism_start(&a.s, &options);
+    for (int k = 0; k < 200; k++) must(&a.s, dmb_sim_step(a.s.sim, 1e-2, NULL));
+    const dmb_joint_state end = joint_at(&a.s, a.joint), beside = joint_at(&a.s, belt.joint[1]);
+    check_below("a turn of 4 rad on the line", fabs(sin(end.position[DMB_RZ]) - sin(4.0)), 1e-4);
+    check_close("both go along alike [m]", end.position[DMB_X] - beside.position[DMB_X], 0.0, 1e-9);
+    check_close("pushed by 1 N for 2 s, 2 kg [m]", fabs(end.position[DMB_X]), 1.0, 1e-4); /* it turns by 0.02 rad a step */
+    rig_close(&a.s);
+}
+
 static void a_locked_joint_may_stand_there(void **state)
 {
     (void)state;
@@ -256,6 +305,8 @@ int main(void)
         cmocka_unit_test(statics_do_not_fold_it),
         cmocka_unit_test(balls_only_with_something_on_their_angles),
         cmocka_unit_test(a_ball_with_a_drive_on_its_angles),
+        cmocka_unit_test(a_ball_that_is_coupled_in_its_angles),
+        cmocka_unit_test(on_a_line_it_is_led_and_coupled_along),
         cmocka_unit_test(a_locked_joint_may_stand_there),
         cmocka_unit_test(a_rim_that_lies_flat),
     };
