@@ -45,10 +45,12 @@ static int32_t one(void *context, double time, double out[3])
 static int32_t hold(void *context, double time, uint32_t count, const double (*poses)[12],
                     const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
 {
-    (void)time, (void)potential;
+    (void)time;
     const subject *c = context;
+    const double away = poses[0][0] - c->home;
+    *potential = 0.5 * (1e5 * away * away + 10.0 * (poses[0][1] * poses[0][1] + poses[0][2] * poses[0][2]));
     for (int i = 0; i < 3; i++) forces[0][i] = -10.0 * poses[0][i] - velocities[0][i];
-    forces[0][0] = -1e5 * (poses[0][0] - c->home);
+    forces[0][0] = -1e5 * away;
     for (uint32_t i = 0; i < 3 * count && tangent != NULL; i++) { /* by displacements, then by velocities */
         tangent[7 * i] = i == 0 ? -1e5 : -10.0;
         tangent[36 * count * count + 7 * i] = i == 0 ? 0.0 : -1.0;
@@ -71,7 +73,7 @@ static void add_hold(subject *c)
     dmb_force_def force = dmb_force_def_default();
     force.place[0] = c->place;
     force.callback = hold;
-    if (c->input.index != 0) force.provides = DMB_PROVIDES_TANGENT; /* of the string; else by differences */
+    force.provides = c->input.index != 0 ? DMB_PROVIDES_TANGENT : DMB_PROVIDES_POTENTIAL; /* of string, of mechanism */
     force.callback_context = c;
     must_model(&c->r, dmb_model_add_force(c->r.model, &force, NULL));
 }

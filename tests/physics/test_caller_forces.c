@@ -138,6 +138,62 @@ static void a_spring_written_again_is_the_spring(void **state)
     rig_close(&given);
 }
 
+/* The same force in axes of the place: it turns, and is off the middle of the bar. */
+static int32_t spring_in_body_axes(void *context, double time, uint32_t count, const double (*poses)[12],
+                                   const double (*velocities)[6], double (*forces)[6], double *tangent,
+                                   double *potential)
+{
+    const double *R = poses[0] + 3, *v = velocities[0];
+    double speed[1][6] = {{0.0}}, force[1][6] = {{0.0}};
+    (void)tangent;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) speed[0][i] += R[3 * i + j] * v[j];
+    const int32_t status =
+        spring_force(context, time, count, poses, (const double(*)[6])speed, force, NULL, potential);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) forces[0][i] += R[3 * j + i] * force[0][j];
+    return status;
+}
+
+static rig bar_on_a_spring(line *o, int32_t frame)
+{
+    const dmb_sim_options options = sharp_options(0.9, 1e-11);
+    dmb_force_def def = dmb_force_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    body.position[0] = 1.0;
+    body.velocity[3] = 0.5, body.velocity[4] = -1.0, body.velocity[5] = 2.0;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.1 + 0.05 * i;
+    def.place[0] = dmb_station(add_body(&s, &body), 0, 0.0);
+    def.offset[1] = 0.2;
+    def.frame = frame;
+    def.callback = frame == DMB_FRAME_BODY ? spring_in_body_axes : spring_force;
+    def.callback_context = o;
+    def.provides = DMB_PROVIDES_POTENTIAL;
+    (void)add_force(&s, &def);
+    (void)mechanism_start(&s, &options);
+    return s;
+}
+
+/* Stored energy and loss are alike, and the balance closes. */
+static void a_potential_in_axes_of_the_place(void **state)
+{
+    line o = {80.0, 1.5, 1.2};
+    (void)state;
+    rig world = bar_on_a_spring(&o, DMB_FRAME_WORLD), place = bar_on_a_spring(&o, DMB_FRAME_BODY);
+    take_steps(&world, 2e-3, 200);
+    take_steps(&place, 2e-3, 200);
+    const dmb_energy a = energy_of(&world), b = energy_of(&place);
+    check_close("kinetic energy [J]", b.kinetic, a.kinetic, 1e-8);
+    check_close("stored energy [J]", b.strain, a.strain, 1e-8);
+    check_close("work of its damper [J]", b.loads, a.loads, 1e-8);
+    check_below("energy balance [J]", fabs(b.balance), 1e-3);
+    assert_true(a.loads < -0.1 && a.strain > 0.1);
+    rig_close(&world);
+    rig_close(&place);
+}
+
 /* ---- Followers --------------------------------------------------------------------------------------------------- */
 
 static int32_t push_along(void *context, double time, uint32_t count, const double (*poses)[12],
@@ -376,6 +432,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_spring_written_again_is_the_spring), cmocka_unit_test(a_column_flutters_under_a_follower),
         cmocka_unit_test(an_oscillator_finds_its_limit_cycle),  cmocka_unit_test(balls_circle_about_each_other),
+        cmocka_unit_test(a_potential_in_axes_of_the_place),
         cmocka_unit_test(wrong_tangents_are_refused),           cmocka_unit_test(a_failing_callback_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -193,9 +193,45 @@ static void layouts_are_refused(void **state)
     rig_close(&c.s);
 }
 
+/* The length of a string is a rounded sum: what is left of it behind its first run may be longer than the last run. */
+static void the_end_is_on_the_last_pipe(void **state)
+{
+    static const double first[4] = {0.7, 1.1, 1.3, 2.3};
+    static const int32_t asked[2] = {DMB_PROFILE_DISTANCE, DMB_PROFILE_X};
+    int beyond = 0;
+    (void)state;
+    for (int k = 0; k < 4; k++)
+        for (uint32_t count = 1; count < 7; count++) {
+            rig s;
+            dmb_string_def string = dmb_string_def_default();
+            dmb_pipe_def pipe = s1_pipe();
+            dmb_profile profile = dmb_profile_default();
+            double values[3][2];
+            rig_open(&s, 0.0, 0.0, 0.0);
+            string.follows_hole = 0;
+            profile.string = pipe.string = add_string(&s, &string);
+            for (int run = 0; run < 2; run++) {
+                pipe.length = run == 0 ? first[k] : 0.1;
+                (void)add_pipes(&s, &pipe, run == 0 ? count : 4);
+            }
+            (void)rig_start(&s, NULL);
+            profile.station_count = 3;
+            profile.quantities = asked;
+            profile.quantity_count = 2;
+            profile.values = &values[0][0];
+            must(&s, dmb_query_profile(s.sim, &profile));
+            CHECK_CLOSE(values[2][1], pose_at(&s, dmb_station(pipe.string, count + 3, 1.0)).position[0], 1e-14);
+            CHECK_CLOSE(values[2][0], values[2][1], 1e-14);
+            beyond += values[2][0] - count * first[k] > 4 * 0.1;
+            rig_close(&s);
+        }
+    assert_true(beyond > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(places_in_any_order), cmocka_unit_test(sites_of_stations),
-                                       cmocka_unit_test(layouts_are_refused)};
+                                       cmocka_unit_test(layouts_are_refused),
+                                       cmocka_unit_test(the_end_is_on_the_last_pipe)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
