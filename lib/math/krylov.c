@@ -259,7 +259,7 @@ static int32_t answer(const basis *b, uint32_t wanted, dmb_krylov *out)
 
 void dmb_krylov_release(dmb_krylov *krylov)
 {
-    if (krylov->block != NULL) dmb_release(&krylov->allocator, krylov->block, krylov->block_size);
+    dmb_release(&krylov->allocator, krylov->block, krylov->block_size);
     memset(krylov, 0, sizeof *krylov);
 }
 

@@ -36,8 +36,8 @@ static dmb_input_def of(const char *name, int32_t target, dmb_id part)
     return input;
 }
 
-/* Two drives of one body, each with one limit as input; a gain below the bounds of its input; one that is given; and the
- * factor of a load without a programme. */
+/* Two drives of one body, each with one limit as input; a gain below the bounds of its input; one that is given; and
+ * the factor of a load without a programme. */
 static subject open_drives(void)
 {
     subject s = {.sim = NULL};

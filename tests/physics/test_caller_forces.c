@@ -148,8 +148,7 @@ static int32_t spring_in_body_axes(void *context, double time, uint32_t count, c
     (void)tangent;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) speed[0][i] += R[3 * i + j] * v[j];
-    const int32_t status =
-        spring_force(context, time, count, poses, (const double(*)[6])speed, force, NULL, potential);
+    const int32_t status = spring_force(context, time, count, poses, (const double(*)[6])speed, force, NULL, potential);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) forces[0][i] += R[3 * j + i] * force[0][j];
     return status;
@@ -432,8 +431,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_spring_written_again_is_the_spring), cmocka_unit_test(a_column_flutters_under_a_follower),
         cmocka_unit_test(an_oscillator_finds_its_limit_cycle),  cmocka_unit_test(balls_circle_about_each_other),
-        cmocka_unit_test(a_potential_in_axes_of_the_place),
-        cmocka_unit_test(wrong_tangents_are_refused),           cmocka_unit_test(a_failing_callback_changes_nothing),
+        cmocka_unit_test(a_potential_in_axes_of_the_place),     cmocka_unit_test(wrong_tangents_are_refused),
+        cmocka_unit_test(a_failing_callback_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -220,7 +220,8 @@ static void on_a_line_it_is_led_and_coupled_along(void **state)
     const dmb_joint_state end = joint_at(&a.s, a.joint), beside = joint_at(&a.s, belt.joint[1]);
     check_below("a turn of 4 rad on the line", fabs(sin(end.position[DMB_RZ]) - sin(4.0)), 1e-4);
     check_close("both go along alike [m]", end.position[DMB_X] - beside.position[DMB_X], 0.0, 1e-9);
-    check_close("pushed by 1 N for 2 s, 2 kg [m]", fabs(end.position[DMB_X]), 1.0, 1e-4); /* it turns by 0.02 rad a step */
+    check_close("pushed by 1 N for 2 s, 2 kg [m]", fabs(end.position[DMB_X]), 1.0,
+                1e-4); /* it turns by 0.02 rad a step */
     rig_close(&a.s);
 }
 

@@ -1,5 +1,5 @@
-/* Torque and drag along a wall without friction, and measurements that tell nothing of friction, are out of reach, or that
- * a string which locks up bounds; beside another string. */
+/* Torque and drag along a wall without friction, and measurements that tell nothing of friction, are out of reach, or
+ * that a string which locks up bounds; beside another string. */
 #include <string.h>
 
 #include "drill_string.h"
@@ -92,8 +92,8 @@ static void torque_before_it_locks_up(void **state)
     destroy(&s);
 }
 
-/* Lower hook loads than without friction while it is picked up, and higher ones than by the most; slack-off the other way
- * round; one between is found. */
+/* Lower hook loads than without friction while it is picked up, and higher ones than by the most; slack-off the other
+ * way round; one between is found. */
 static void measurements_out_of_reach(void **state)
 {
     static const int32_t kinds[2] = {DMB_OPERATION_PICK_UP, DMB_OPERATION_SLACK_OFF};
@@ -162,10 +162,8 @@ static void another_string_does_not_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wall_without_friction),
-        cmocka_unit_test(measurement_without_friction),
-        cmocka_unit_test(torque_before_it_locks_up),
-        cmocka_unit_test(measurements_out_of_reach),
+        cmocka_unit_test(wall_without_friction),         cmocka_unit_test(measurement_without_friction),
+        cmocka_unit_test(torque_before_it_locks_up),     cmocka_unit_test(measurements_out_of_reach),
         cmocka_unit_test(another_string_does_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -75,8 +75,14 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
 double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *x);
 /* Whether what was found is a root 0 of rigid-body motions once more, y NULL: x is real. */
 int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y);
-/* [1/s] a real root s of shape x that is none of those: sharp where drag slows down what rounding of K hides. */
-double dmb_modes_drift(const dmb_mode_search *search, double s, const double *x);
+/* Whether y of a normalised shape x + i y, where x^T M y = 0 and x is the larger one, is a shape beside x. */
+int dmb_modes_are_two_shapes(const dmb_mode_search *search, const double *y);
+/* Whether a pair, d = x + i y, is two real roots of shapes x and y, which rounding alone has moved off the real axis; x
+ * and y change by a common phase. */
+int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, double *x, double *y);
+/* Adds a root of a general problem, im >= 0, that is a mode: a real one of shape x, a pair, or the two of such a
+ * pair. x and y may change. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, double *x, double *y);
 /* [1/s] |s| of mode i. */
 double dmb_modes_size(const dmb_modes *modes, uint32_t i);
 void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j);
@@ -106,10 +112,11 @@ int32_t dmb_modes_dense(dmb_mode_search *search);
 /* `wanted` modes nearest the shift, by Krylov subspaces, rigid-body motions that are pinned apart. */
 int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted);
 
-/* Likewise the roots nearest growth + i omega, omega >= 0, and to its conjugate; growth gives way a little where a root
- * stands. *least: smallest value of the operator among them, 0 if these are all; roots of larger dmb_shifted_value are
- * complete. */
-int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, uint32_t wanted, double *least);
+/* Likewise the roots nearest growth + i omega, omega >= 0, and to its conjugate; where a root stands, as those 0 of
+ * rigid-body motions do, growth gives way by `aside` [1/s], > 0. *least: smallest value of the operator among them, 0
+ * if these are all; roots of larger dmb_shifted_value are complete. */
+int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, double aside, uint32_t wanted,
+                          double *least);
 /* Value that the operator of a shift has at the root re + i im. */
 double dmb_shifted_value(double growth, double omega, double re, double im);
 /* All modes of low to high [Hz] and some at its edges, piece by piece: of symmetric problems, and of general ones.

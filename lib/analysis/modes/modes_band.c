@@ -24,6 +24,8 @@ enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
 /* Half a strip of roots, as a part of the band's upper edge. */
 #define DMB_STRIP_WIDEST 0.5
 #define DMB_STRIP_LEAST 1e-5
+/* A shift that hits a root steps aside by this part of its rectangle. */
+#define DMB_ASIDE 0.01
 /* Reach that is taken for granted. */
 #define DMB_SURE 0.98
 
@@ -90,13 +92,13 @@ static int32_t search_interval(dmb_mode_search *search, const interval *piece, u
 }
 
 /* Halves of the piece without eigenvalues are left out: from a shift among them they differ, from afar they are all
- * alike. The middle that is left, and how many are below it. */
-static int32_t shrink(const dmb_mode_search *search, interval *piece, double *middle, int64_t *below)
+ * alike. The middle that is left, and how many are below it; 0 where that cannot be counted. */
+static int shrink(const dmb_mode_search *search, interval *piece, double *middle, int64_t *below)
 {
     for (int i = 0; i < DMB_CUTS; i++) {
         *middle = piece->from + 0.4567 * (piece->to - piece->from);
         *below = count_below(search, middle, 1e-3 * (piece->to - piece->from));
-        if (*below < 0) return DMB_ERR_SINGULAR;
+        if (*below < 0) return 0;
         if (*below == piece->below_from && !is_narrow(piece))
             piece->from = *middle;
         else if (*below == piece->below_to && !is_narrow(piece))
@@ -104,7 +106,7 @@ static int32_t shrink(const dmb_mode_search *search, interval *piece, double *mi
         else
             break;
     }
-    return DMB_OK;
+    return 1;
 }
 
 static int32_t search_squares(dmb_mode_search *search, interval all)
@@ -113,7 +115,7 @@ static int32_t search_squares(dmb_mode_search *search, interval all)
     uint32_t count = 0;
     all.below_from = count_below(search, &all.from, -1e-9 * fabs(all.from));
     all.below_to = count_below(search, &all.to, 1e-9 * fabs(all.to));
-    if (all.below_from < 0 || all.below_to < 0) return DMB_ERR_SINGULAR;
+    if (all.below_from < 0 || all.below_to < 0) return DMB_ERR_NO_CONVERGENCE;
     waiting[count++] = all;
     while (count > 0) {
         interval piece = waiting[--count];
@@ -121,7 +123,7 @@ static int32_t search_squares(dmb_mode_search *search, interval all)
         double middle;
         int64_t below;
         if (there <= 0) continue;
-        if (shrink(search, &piece, &middle, &below) < 0) return DMB_ERR_SINGULAR;
+        if (!shrink(search, &piece, &middle, &below)) return DMB_ERR_NO_CONVERGENCE;
         if (there <= DMB_PIECE) {
             const int32_t status = search_interval(search, &piece, (uint32_t)there);
             if (status < 0) return status;
@@ -222,8 +224,9 @@ static int32_t search_rectangle(covering *c, const rectangle *r)
     dmb_modes *modes = c->search->modes;
     const uint32_t first = modes->count;
     reach w = {.growth = shift_growth(r), .omega = r->im[0] > 0.0 ? 0.5 * (r->im[0] + r->im[1]) : 0.0};
-    int32_t status = dmb_modes_shifted(c->search, &w.growth, w.omega, DMB_PIECE, &w.least);
-    if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far off all roots */
+    const double aside = DMB_ASIDE * fmax(r->re[1] - r->re[0], r->im[1] - r->im[0]);
+    int32_t status = dmb_modes_shifted(c->search, &w.growth, w.omega, aside, DMB_PIECE, &w.least);
+    if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far off all roots, or on one */
     if (status < 0) return status;
     for (uint32_t i = first; i < modes->count && w.count < 2 * DMB_PIECE; i++, w.count++)
         memcpy(w.root[w.count], modes->s + 2 * (size_t)i, 2 * sizeof(double));

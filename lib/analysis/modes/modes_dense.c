@@ -328,12 +328,13 @@ static void expand(const dmb_mode_search *search, const dmb_dense *d, const doub
  */
 static void root_of(const dmb_mode_search *search, const dmb_dense *d, size_t i, double s[2])
 {
-    const double re = d->re[i], im = d->im[i], size = hypot(re, im);
+    const double re = d->re[i], im = d->im[i];
     s[0] = re;
     s[1] = im;
     if (is_damped(search)) return;
-    s[0] = im > 0.0 || re < 0.0 ? sqrt(0.5 * fmax(size - re, 0.0)) : 0.0;
-    s[1] = sqrt(0.5 * fmax(size + re, 0.0));
+    const double larger = sqrt(0.5 * (hypot(re, im) + fabs(re))), smaller = im > 0.0 ? 0.5 * im / larger : 0.0;
+    s[0] = re < 0.0 ? larger : smaller;
+    s[1] = re < 0.0 ? smaller : larger;
 }
 
 /* Of two undamped modes that meet in flutter one grows and the other decays, in conjugate shapes. */
@@ -342,6 +343,13 @@ static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s
     const int32_t status = dmb_modes_add(search, -s[0], s[1], d->x, d->y);
     for (uint32_t i = 0; i < search->linear->rows; i++) d->y[i] = -d->y[i];
     return status < 0 ? status : dmb_modes_add(search, s[0], s[1], d->x, d->y);
+}
+
+/* A mode of each other pair; two of one that is a real root of two shapes. */
+static int32_t add_pair(dmb_mode_search *search, dmb_dense *d, const double s[2])
+{
+    const int flutters = !is_damped(search) && !dmb_modes_is_real_pair(search, s[0], s[1], d->x, d->y);
+    return flutters ? add_flutter(search, d, s) : dmb_modes_take_root(search, s[0], s[1], d->x, d->y);
 }
 
 /* A motion that nothing turns back has a column of zeros, which the balancing of dgeev sets aside: its root is 0
@@ -362,8 +370,7 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
         if (dmb_modes_is_rigid_root(search, s[0], s[1], d->x, paired ? d->y : NULL)) continue;
-        status = paired && !is_damped(search) ? add_flutter(search, d, s)
-                                              : dmb_modes_add(search, s[0], s[1], d->x, paired ? d->y : NULL);
+        status = paired ? add_pair(search, d, s) : dmb_modes_add(search, s[0], s[1], d->x, NULL);
     }
     return status;
 }

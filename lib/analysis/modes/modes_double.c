@@ -8,7 +8,8 @@
  *
  * Roots are therefore told as their mean where their shapes are parallel and the mean leaves no more of its equations
  * than they do: the equations do not tell them apart. Roots that are parted by more than rounding fail that test by
- * d^2. A pair that stands beside the real axis is two real roots. */
+ * d^2. A pair that stands beside the real axis is two real roots: of its shape, or, where x and y are not parallel, of
+ * these two, if each of them leaves no more of its equations than the pair does. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -140,6 +141,27 @@ static int32_t join_group(joining *g, uint32_t i, int real)
     return 0;
 }
 
+/* 1: the pair, no more than near the real axis, is two real roots of two shapes. */
+static int32_t part_pair(joining *g, uint32_t i)
+{
+    dmb_modes *modes = g->search->modes;
+    const size_t bytes = modes->rows * sizeof(double);
+    const uint32_t first = modes->count, second = first + 1;
+    const double root = modes->s[2 * (size_t)i], least = DMB_DOUBLE_RESIDUAL * g->residual[i] + DMB_DOUBLE_ROUNDING;
+    memcpy(g->x, modes->re + modes->rows * (size_t)i, bytes);
+    memcpy(g->y, modes->im + modes->rows * (size_t)i, bytes);
+    if (!dmb_modes_are_two_shapes(g->search, g->y)) return 0;
+    int32_t status = dmb_modes_add(g->search, root, 0.0, g->x, NULL);
+    if (status >= 0) status = dmb_modes_add(g->search, root, 0.0, g->y, NULL);
+    if (status < 0) return status;
+    const int apart =
+        dmb_modes_defect(g->search, first).value <= least && dmb_modes_defect(g->search, second).value <= least;
+    if (apart) dmb_modes_exchange(modes, i, second);
+    if (apart) g->member[i] = 2;
+    modes->count = apart ? second : first;
+    return apart;
+}
+
 static void measure(joining *g)
 {
     const dmb_modes *modes = g->search->modes;
@@ -167,7 +189,9 @@ int32_t dmb_modes_join(dmb_mode_search *search)
     measure(&g);
     for (uint32_t i = 0; i < count && status >= 0; i++) {
         if (modes->rigid[i] || g.member[i] != 0) continue;
-        if (damped && modes->s[2 * (size_t)i + 1] <= g.near[i]) status = join_group(&g, i, 1);
+        const double im = modes->s[2 * (size_t)i + 1];
+        if (damped && im > 0.0 && im <= g.near[i]) status = part_pair(&g, i);
+        if (status == 0 && damped && im <= g.near[i]) status = join_group(&g, i, 1);
         if (status == 0) status = join_group(&g, i, 0);
         status = status < 0 ? status : DMB_OK;
     }

@@ -137,8 +137,9 @@ int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im,
     return !(c > noise && hypot(re + c, im) < 0.5 * c);
 }
 
-/* By C alone: K x, which is 0 but for rounding, would count for more. */
-double dmb_modes_drift(const dmb_mode_search *search, double s, const double *x)
+/* [1/s] a real root s of shape x that is none of those: sharp where drag slows down what rounding of K hides. By C
+ * alone: K x, which is 0 but for rounding, would count for more. */
+static double drift(const dmb_mode_search *search, double s, const double *x)
 {
     const size_t n = search->linear->rows;
     double *r = search->work + 2 * n, whole = 0.0, kept = 0.0, noise;
@@ -203,6 +204,45 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
     if (status < 0) return status;
     dmb_modes_put_square(search, search->modes->count++, square, x);
     return DMB_OK;
+}
+
+/* A real root of two shapes, as of a column that diverges in two planes, may come as a pair that rounding has moved off
+ * the real axis by this part of it. Real and imaginary part are shapes of it then, unless one of them is this part of
+ * the other: that is a double root of one shape (dmb_modes_join). */
+#define DMB_REAL_PAIR 1e-9
+#define DMB_REAL_SHAPES 1e-4
+
+int dmb_modes_are_two_shapes(const dmb_mode_search *search, const double *y)
+{
+    double *My = search->work;
+    dmb_linear_multiply(search->linear, &search->linear->mass, y, My);
+    return dmb_dot(search->linear->rows, y, My) > DMB_REAL_SHAPES * DMB_REAL_SHAPES;
+}
+
+int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, double *x, double *y)
+{
+    if (!(fabs(im) <= DMB_REAL_PAIR * fabs(re))) return 0;
+    normalise(search, x, y);
+    return dmb_modes_are_two_shapes(search, y);
+}
+
+/* The half of a divergence pair (s, -s) that decays is no mode of its own. */
+static int32_t take_real(dmb_mode_search *search, double re, const double *x)
+{
+    if (search->options->kind == DMB_MODES_UNDAMPED && re < 0.0) return DMB_OK;
+    if (dmb_modes_is_rigid_root(search, re, 0.0, x, NULL)) return DMB_OK;
+    return dmb_modes_add(search, drift(search, re, x), 0.0, x, NULL);
+}
+
+int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, double *x, double *y)
+{
+    if (im == 0.0) return take_real(search, re, x);
+    if (dmb_modes_is_real_pair(search, re, im, x, y)) {
+        const int32_t status = take_real(search, re, x);
+        return status < 0 ? status : take_real(search, re, y);
+    }
+    if (dmb_modes_is_rigid_root(search, re, im, x, y)) return DMB_OK;
+    return dmb_modes_add(search, re, im, x, y);
 }
 
 /* The order of modes, and which of them are kept. */

@@ -156,7 +156,6 @@ static void general_draw(void *context, uint64_t *seed, double *x)
     }
 }
 
-/* The half of a divergence pair (s, -s) that decays is no mode of its own. */
 static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
 {
     const size_t rows = search->linear->rows;
@@ -166,12 +165,7 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
         const double re = search->shift + found->re[k] / size2, im = -found->im[k] / size2;
         double *x = found->x + 2 * rows * k, *y = found->y + 2 * rows * k;
         for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, of im > 0 */
-        const int decays = search->options->kind == DMB_MODES_UNDAMPED && im == 0.0 && re < 0.0;
-        if (decays || dmb_modes_is_rigid_root(search, re, im, x, im != 0.0 ? y : NULL)) continue;
-        if (im == 0.0)
-            status = dmb_modes_add(search, dmb_modes_drift(search, re, x), 0.0, x, NULL);
-        else
-            status = dmb_modes_add(search, re, fabs(im), x, y);
+        status = dmb_modes_take_root(search, re, fabs(im), x, y);
     }
     return status;
 }
@@ -375,14 +369,9 @@ static int32_t take(shifted *T, const dmb_krylov *found)
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < found->count && status >= 0; k++) {
         const number s = root_of(T, found, k);
-        double *x = found->x + 2 * n * k, *y = found->y + 2 * n * k, im = cimag(s);
-        const int real = !(found->im[k] > 0.0);
-        for (size_t i = 0; i < n && im < 0.0; i++) y[i] = -y[i]; /* its conjugate */
-        im = real ? 0.0 : fabs(im);
-        if (search->options->kind == DMB_MODES_UNDAMPED && real && creal(s) < 0.0) continue;
-        if (dmb_modes_is_rigid_root(search, creal(s), im, x, real ? NULL : y)) continue;
-        const double re = real ? dmb_modes_drift(search, creal(s), x) : creal(s);
-        status = dmb_modes_add(search, re, im, x, real ? NULL : y);
+        double *x = found->x + 2 * n * k, *y = found->y + 2 * n * k;
+        for (size_t i = 0; i < n && cimag(s) < 0.0; i++) y[i] = -y[i]; /* its conjugate */
+        status = dmb_modes_take_root(search, creal(s), found->im[k] > 0.0 ? fabs(cimag(s)) : 0.0, x, y);
     }
     return status;
 }
@@ -412,10 +401,11 @@ static int32_t find_about(shifted *T, uint32_t wanted, double *least)
     return status;
 }
 
-int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, uint32_t wanted, double *least)
+int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, double aside, uint32_t wanted,
+                          double *least)
 {
     const size_t n = search->linear->rows, bytes = 3 * n * sizeof(double);
-    shifted T = {.search = search, .omega = omega, .scale = fmax(hypot(*growth, omega), 1e-3)};
+    shifted T = {.search = search, .omega = omega, .scale = fmax(hypot(*growth, omega), aside)};
     double *block = dmb_allocate(&search->linear->allocator, bytes);
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     T.f = (dmb_complex_array){block, block + n};
@@ -423,11 +413,11 @@ int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega,
     int32_t status = dmb_dynamic_stiffness_make(search->linear, 0.0, &T.stiffness);
     int64_t bad = status < 0 ? -1 : 0;
     for (int i = 0; i < 3 && bad >= 0; i++) { /* a shift may hit a root */
-        T.growth = *growth + 1e-3 * i * T.scale;
+        T.growth = *growth + i * aside;
         bad = dmb_dynamic_stiffness_factor_at(&T.stiffness, T.growth, omega);
     }
     *growth = T.growth;
-    if (status >= 0) status = bad < 0 ? find_about(&T, wanted, least) : DMB_ERR_SINGULAR;
+    if (status >= 0) status = bad < 0 ? find_about(&T, wanted, least) : DMB_ERR_NO_CONVERGENCE;
     dmb_dynamic_stiffness_release(&T.stiffness);
     dmb_release(&search->linear->allocator, block, bytes);
     return status;

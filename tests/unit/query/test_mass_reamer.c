@@ -1,5 +1,5 @@
-/* Kinetic energy, part by part, of two strings: one with bit and head, one with a reamer on a ring of its, whose mass is
- * the ring's. */
+/* Kinetic energy, part by part, of two strings: one with bit and head, one with a reamer on a ring of its, whose mass
+ * is the ring's. */
 #include "close.h"
 #include "drillmbd/ring.h"
 #include "rig.h"
@@ -61,8 +61,8 @@ static double kinetic(const craft *c, dmb_id part, uint32_t pipe)
     return energy;
 }
 
-/* Every part once: pipes hold half of head and bits, so the other halves are added, and a ring in the middle of a pipe is
- * a part beside it. */
+/* Every part once: pipes hold half of head and bits, so the other halves are added, and a ring in the middle of a pipe
+ * is a part beside it. */
 static void pipes_of_both_strings_add_up(void **state)
 {
     (void)state;
