@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "contact_scene.h"
+#include "drillmbd/ring.h"
 
 static const double g = 9.81;
 
@@ -414,6 +415,57 @@ static void bad_values_are_refused(void **state)
     expect_refusal(&one, 1, AT_ONCE, DMB_ERR_NOT_FINITE, "depth");
 }
 
+/* A ring, a body, a pipe that does not follow the hole, in front of a narrow section; each is wider than it. */
+enum { RING, BODY, PIPE };
+
+static int32_t compile_wide(int part, int32_t normal_law, char message[256])
+{
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_hole_section narrow = section(3.0);
+    dmb_body_def body = dmb_body_def_default();
+    dmb_ring_def ring = dmb_ring_def_default();
+    rig scene;
+    scene_open(&scene, g);
+    wall.diameter = 0.1;
+    wall.normal_law = normal_law;
+    wall.friction_law = DMB_FRICTION_NONE;
+    add_wall(&scene, &wall);
+    narrow.diameter = part == PIPE ? 0.07 : 0.08;
+    add_sections(&scene, &narrow, 1);
+    string.follows_hole = part != PIPE;
+    ring.string = body.string = pipe.string = add_string(&scene, &string);
+    add_pipes(&scene, &pipe, 6);
+    body.attach = DMB_ATTACH_END;
+    body.contact_diameter = body.contact_length = 0.09;
+    if (part == BODY) (void)add_body(&scene, &body);
+    ring.pipe = 5;
+    ring.outer_diameter = 0.09;
+    if (part == RING) scene_must(&scene, dmb_model_add_ring(scene.model, &ring, NULL));
+    const int32_t status = dmb_model_compile(scene.model, NULL);
+    strncpy(message, dmb_model_message(scene.model), 255)[255] = '\0';
+    dmb_model_destroy(&scene.model);
+    return status;
+}
+
+/* Without a wall that presses anything fits. */
+static void what_is_too_wide_is_refused(void **state)
+{
+    static const char *const told[3] = {"ring 0: outer_diameter = 0.09 m, must be <= 0.08 m",
+                                        "body 0: contact_diameter = 0.09 m, must be <= 0.08 m",
+                                        "outer_diameter = 0.073 m, must be <= 0.07 m"};
+    char message[256];
+    (void)state;
+    for (int part = RING; part <= PIPE; part++) {
+        const int32_t status = compile_wide(part, DMB_NORMAL_HUNT_CROSSLEY, message);
+        print_message("    %s\n", message);
+        assert_int_equal(status, DMB_ERR_GEOMETRY);
+        assert_non_null(strstr(message, told[part]));
+        assert_int_equal(compile_wide(part, DMB_NORMAL_NONE, message), DMB_OK);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -427,6 +479,7 @@ int main(void)
         cmocka_unit_test(what_the_hole_tells),
         cmocka_unit_test(bad_tables_are_refused),
         cmocka_unit_test(bad_values_are_refused),
+        cmocka_unit_test(what_is_too_wide_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

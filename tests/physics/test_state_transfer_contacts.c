@@ -198,8 +198,37 @@ static void off_the_line(void **state)
     rig_close(&from.r);
 }
 
+/* Of two strings the first is off the line: nothing of either is taken. */
+static void the_first_of_two_off_the_line(void **state)
+{
+    rig s[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        rig_open(&s[i], 0.0, 0.0, 0.0);
+        for (int k = 0; k < 2; k++) {
+            dmb_string_def string = dmb_string_def_default();
+            dmb_pipe_def pipe = s1_pipe();
+            string.follows_hole = 0;
+            string.start_free = DMB_FREE_CYLINDRICAL;
+            string.position[1] = 3.0 * k + (i > 0 && k == 0 ? 1e-3 : 0.0);
+            string.velocity[0] = 1.0;
+            pipe.string = add_string(&s[i], &string);
+            pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+            (void)add_pipes(&s[i], &pipe, 3 + (uint32_t)i);
+        }
+        (void)rig_start(&s[i], NULL);
+    }
+    take_steps(&s[0], 1e-3, 5);
+    const uint64_t before = rig_hash(&s[1]);
+    assert_int_equal(dmb_sim_transfer_state(s[1].sim, s[0].sim), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s[1].sim), "axial-torsional pipes are described off the line"));
+    assert_true(rig_hash(&s[1]) == before);
+    for (int i = 0; i < 2; i++) rig_close(&s[i]);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(places_go_on), cmocka_unit_test(off_the_line)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(places_go_on), cmocka_unit_test(off_the_line),
+                                       cmocka_unit_test(the_first_of_two_off_the_line)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

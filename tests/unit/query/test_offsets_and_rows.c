@@ -183,9 +183,96 @@ static void actuators_in_modes(void **state)
     }
 }
 
+/* ---- Axes and arrays --------------------------------------------------------------------------------------------- */
+
+/* Rows of a body are in its own axes: gravity turned into them. */
+static void accelerations_as_an_array(void **state)
+{
+    (void)state;
+    dmb_body_def body = dmb_body_def_default();
+    rig s;
+    double rows[6];
+    uint64_t count = 6;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    for (int i = 0; i < 3; i++) body.rotation[i] = 0.4 - 0.3 * i;
+    const dmb_place place = dmb_station(add_body(&s, &body), 0, 0.0);
+    rig_start(&s, NULL);
+    must(&s, dmb_analysis_array(s.sim, DMB_ARRAY_ACCELERATION, rows, &count));
+    const dmb_pose pose = pose_at(&s, place);
+    assert_int_equal(count, 6);
+    for (int i = 0; i < 3; i++) {
+        CHECK_CLOSE(rows[i], -9.81 * pose.rotation[6 + i], 1e-12);
+        CHECK_CLOSE(rows[3 + i], 0.0, 1e-12);
+    }
+    rig_close(&s);
+}
+
+/* The same motion in axes of the world and of the place, which is tilted. */
+static void shapes_in_axes_of_the_place(void **state)
+{
+    (void)state;
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_modes_options options = dmb_modes_options_default();
+    dmb_modes *modes = NULL;
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    string.follows_hole = 0;
+    string.start_free = DMB_FREE_NONE;
+    for (int i = 0; i < 3; i++) string.rotation[i] = 0.5 - 0.2 * i;
+    pipe.string = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 2);
+    rig_start(&s, NULL);
+    options.count = 3;
+    must(&s, dmb_analysis_modes(s.sim, &options, &modes));
+    const dmb_place end = dmb_station(pipe.string, 1, 1.0);
+    const dmb_pose pose = pose_at(&s, end);
+    for (uint32_t k = 0; k < 3; k++) {
+        dmb_mode_shape world = dmb_mode_shape_default(), own = dmb_mode_shape_default();
+        own.frame = DMB_FRAME_BODY;
+        assert_int_equal(dmb_modes_shape(modes, k, end, &world), DMB_OK);
+        assert_int_equal(dmb_modes_shape(modes, k, end, &own), DMB_OK);
+        for (int i = 0; i < 6; i++) {
+            const double *of_part = own.re + i / 3 * 3, *row = pose.rotation + 3 * (i % 3);
+            CHECK_CLOSE(world.re[i], row[0] * of_part[0] + row[1] * of_part[1] + row[2] * of_part[2], 1e-12);
+        }
+        CHECK_CLOSE(own.re[0], 0.0, 1e-6); /* it bends, and does not stretch */
+    }
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
+/* Down a vertical hole, and where there is none. */
+static void the_hole_now(void **state)
+{
+    (void)state;
+    for (int with = 0; with < 2; with++) {
+        dmb_wall_def wall = s1_hole();
+        dmb_hole_point point = dmb_hole_point_default(), now = dmb_hole_point_default();
+        dmb_pipe_def pipe = s1_pipe();
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        wall.direction[0] = 0.0;
+        wall.direction[2] = -1.0;
+        if (with) (void)add_wall(&s, &wall);
+        (void)add_pipes(&s, &pipe, 1);
+        rig_start(&s, NULL);
+        assert_int_equal(dmb_query_hole_now(s.sim, 7.0, &now), with ? DMB_OK : DMB_ERR_UNSUPPORTED);
+        assert_int_equal(dmb_query_hole(s.model, 7.0, &point), with ? DMB_OK : DMB_ERR_UNSUPPORTED);
+        CHECK_CLOSE(now.azimuth, 0.0, 0.0);
+        CHECK_CLOSE(now.inclination, 0.0, 0.0);
+        CHECK_CLOSE(now.position[2], with ? -7.0 : 0.0, 1e-14);
+        CHECK_CLOSE(now.diameter, with ? 0.094 : 0.0, 1e-16);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(accelerations_as_an_array),
+        cmocka_unit_test(shapes_in_axes_of_the_place),
+        cmocka_unit_test(the_hole_now),
         cmocka_unit_test(motions_off_a_place),   cmocka_unit_test(offsets_are_refused),
         cmocka_unit_test(rows_of_the_equations), cmocka_unit_test(redundant_drives_by_name),
         cmocka_unit_test(actuators_in_modes),
