@@ -163,9 +163,12 @@ static void nonsense_is_refused(void **state)
     scene s = make(&turning);
     dmb_static_options options = dmb_static_options_default();
     options.steady = DMB_STEADY_SLIDING;
-    options.slip_axial = 0.1;
-    assert_int_equal(dmb_analysis_static(s.sim, &options, NULL), DMB_ERR_VALUE);
-    assert_non_null(strstr(dmb_sim_message(s.sim), "slip_axial"));
+    for (int k = 0; k < 2; k++) {
+        options.slip_axial = k == 0 ? 0.1 : 0.0;
+        options.slip_rotation = k == 0 ? 0.0 : 2.0;
+        assert_int_equal(dmb_analysis_static(s.sim, &options, NULL), DMB_ERR_VALUE);
+        assert_non_null(strstr(dmb_sim_message(s.sim), "slip_axial"));
+    }
     end(&s);
 }
 

@@ -112,6 +112,31 @@ static void twisted_cantilever(void **state)
     }
 }
 
+/* With friction that is assumed to slip, which is no motion, nothing is judged. */
+static void slip_is_no_motion(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        column c;
+        dmb_buckling *found = NULL;
+        dmb_buckling_info info = dmb_buckling_info_default();
+        dmb_buckling_options options = dmb_buckling_options_default();
+        options.slip_axial = k == 0 ? 1.0 : 0.0;
+        options.slip_rotation = k == 0 ? 0.0 : 1.0;
+        options.follow = 0;
+        open_column(&c, 8, 0, 0.0);
+        add_end_load(&c, DMB_FRAME_WORLD, 1, 1.0, 0.0, EI / LENGTH);
+        (void)rig_start(&c.s, NULL);
+        must(&c.s, dmb_analysis_static(c.s.sim, NULL, NULL));
+        must(&c.s, dmb_analysis_buckling(c.s.sim, &options, &found));
+        assert_int_equal(dmb_buckling_get_info(found, &info), DMB_OK);
+        assert_int_equal(info.stiffness, DMB_STIFFNESS_UNSYMMETRIC);
+        assert_int_equal(info.flutter, DMB_FLUTTER_NOT_JUDGED);
+        dmb_buckling_destroy(&found);
+        rig_close(&c.s);
+    }
+}
+
 /* Its eigenvalues stay real although K is unsymmetric: nothing grows before 2 pi EI/L. */
 static void greenhills_shaft(void **state)
 {
@@ -181,20 +206,22 @@ static void push_link(rig *s, dmb_id link, int32_t frame, double force)
 
 /* Ziegler's double pendulum, masses 2 m and m, follower push P: w = m l^2 |s|^2 from 2 w^2 - (7 k - 2 P l) w + k^2 = 0,
  * flutter from P l/k = 7/2 - sqrt 2 on (Ziegler 1952); beside it a pendulum that a dead push tips over. */
-static dmb_buckling_info zieglers_pendulum(double push, double dead, int32_t wanted, double *factor)
+static dmb_buckling_info zieglers_pendulum(double push, double dead, double factor_max, int32_t wanted, double *factor)
 {
     rig s;
     dmb_buckling *found = NULL;
     dmb_buckling_info info = dmb_buckling_info_default();
+    dmb_buckling_options options = dmb_buckling_options_default();
+    options.factor_max = factor_max;
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id first = add_link(&s, ground_id, LINK, 0.0, 6.0), second = add_link(&s, first, 2.0 * LINK, 0.0, 3.0);
     push_link(&s, second, DMB_FRAME_BODY, push * HINGE / LINK);
     push_link(&s, add_link(&s, ground_id, LINK, 5.0, 1.0), DMB_FRAME_WORLD, dead * HINGE / LINK);
     (void)rig_start(&s, NULL);
-    assert_int_equal(dmb_analysis_buckling(s.sim, NULL, &found), wanted);
+    assert_int_equal(dmb_analysis_buckling(s.sim, &options, &found), wanted);
     assert_int_equal(dmb_buckling_get_info(found, &info), DMB_OK);
     assert_int_equal(info.stiffness, DMB_STIFFNESS_UNSYMMETRIC);
-    assert_int_equal(dmb_buckling_factor(found, 0, factor), DMB_OK);
+    if (dmb_buckling_count(found) > 0) assert_int_equal(dmb_buckling_factor(found, 0, factor), DMB_OK);
     dmb_buckling_destroy(&found);
     rig_close(&s);
     return info;
@@ -205,22 +232,47 @@ static void links_that_flutter_before_one_tips(void **state)
     const double flutter = 3.5 - sqrt(2.0);
     double factor;
     (void)state;
-    dmb_buckling_info info = zieglers_pendulum(1.0, 1.0 / 3.0, DMB_NOTE_FLUTTER, &factor);
+    dmb_buckling_info info = zieglers_pendulum(1.0, 1.0 / 3.0, 1e12, DMB_NOTE_FLUTTER, &factor);
     check_relative("flutter", 1.0 + info.flutter_factor, flutter, 1e-5);
     check_relative("divergence of the other", factor, 2.0, 1e-9);
-    info = zieglers_pendulum(0.5, 1.0 / 3.0, DMB_OK, &factor);
+    info = zieglers_pendulum(0.5, 1.0 / 3.0, 1e12, DMB_OK, &factor);
     assert_int_equal(info.flutter, DMB_FLUTTER_NONE);
     check_relative("divergence before flutter", factor, 2.0, 1e-9);
-    info = zieglers_pendulum(flutter * 1.01, 1.0 / 3.0, DMB_NOTE_FLUTTER, &factor);
+    info = zieglers_pendulum(flutter * 1.01, 1.0 / 3.0, 1e12, DMB_NOTE_FLUTTER, &factor);
+    assert_true(info.flutter_factor == 0.0);
+}
+
+/* Nothing tips: without end nobody looks beyond the present state, else up to factor_max, the last stretch included. */
+static void links_that_flutter_where_none_tips(void **state)
+{
+    const double flutter = 3.5 - sqrt(2.0), above[3] = {flutter - 1.0 + 0.01, 1.5, 3.0};
+    double factor;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const dmb_buckling_info info = zieglers_pendulum(1.0, 0.0, above[i], DMB_NOTE_FLUTTER, &factor);
+        assert_int_equal(info.count, 0);
+        check_relative("flutter below factor_max", 1.0 + info.flutter_factor, flutter, 1e-5);
+    }
+    dmb_buckling_info info = zieglers_pendulum(1.0, 0.0, flutter - 1.0 - 0.01, DMB_NOTE_STOPPED, &factor);
+    assert_int_equal(info.flutter, DMB_FLUTTER_NONE);
+    info = zieglers_pendulum(1.0, 0.0, 1e12, DMB_NOTE_STOPPED, &factor);
+    assert_int_equal(info.flutter, DMB_FLUTTER_NOT_JUDGED);
+    assert_int_equal(info.end, DMB_BUCKLING_EXTRAPOLATED);
+    info = zieglers_pendulum(flutter * 1.01, 0.0, 1e12, DMB_NOTE_FLUTTER, &factor);
     assert_true(info.flutter_factor == 0.0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(becks_column),       cmocka_unit_test(damping_destabilises),
-        cmocka_unit_test(twisted_cantilever), cmocka_unit_test(greenhills_shaft),
-        cmocka_unit_test(dead_push),          cmocka_unit_test(links_that_flutter_before_one_tips),
+        cmocka_unit_test(becks_column),
+        cmocka_unit_test(damping_destabilises),
+        cmocka_unit_test(twisted_cantilever),
+        cmocka_unit_test(greenhills_shaft),
+        cmocka_unit_test(dead_push),
+        cmocka_unit_test(slip_is_no_motion),
+        cmocka_unit_test(links_that_flutter_before_one_tips),
+        cmocka_unit_test(links_that_flutter_where_none_tips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

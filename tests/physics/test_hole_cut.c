@@ -87,7 +87,7 @@ static void add_event(const reaming *d)
     must_model(&d->s, dmb_model_add_event(d->s.model, &event, NULL));
 }
 
-static void begin(reaming *d)
+static void begin_with(reaming *d, const dmb_sim_options *options)
 {
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def string = dmb_string_def_default();
@@ -112,7 +112,12 @@ static void begin(reaming *d)
     (void)add_simple_drive(&d->s, DMB_DRIVE_MOTION, d->string, DMB_X, add_feed(&d->s, d->speed));
     (void)add_simple_drive(&d->s, DMB_DRIVE_MOTION, d->string, DMB_RX, add_programme(&d->s, &turn, 1));
     if (d->event > 0.0) add_event(d);
-    (void)rig_start(&d->s, NULL);
+    (void)rig_start(&d->s, options);
+}
+
+static void begin(reaming *d)
+{
+    begin_with(d, NULL);
 }
 
 static double diameter_at(const rig *s, double depth)
@@ -216,6 +221,32 @@ static void energy_is_accounted_for(void **state)
     }
     check_below("balance over what went in", open[0], 1e-2);
     check_below("the same with half the step, over that", open[1] / open[0], 0.5);
+}
+
+/* It counts, and changes nothing. */
+static void the_ledger_moves_nothing(void **state)
+{
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_energy energy = dmb_energy_default();
+    dmb_pose pose[2];
+    double diameter[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        reaming d = usual();
+        d.speed = 0.5;
+        d.ahead = 1;
+        options.energy_ledger = i;
+        begin_with(&d, &options);
+        take_divided_steps(&d.s, 1e-3, 1500);
+        assert_int_equal(dmb_query_energy(d.s.sim, &energy), i ? DMB_OK : DMB_ERR_UNSUPPORTED);
+        pose[i] = pose_at(&d.s, dmb_station(d.string, 2, 1.0));
+        diameter[i] = diameter_at(&d.s, 5.0);
+        rig_close(&d.s);
+    }
+    for (int k = 0; k < 3; k++)
+        check_close("pose without the ledger [m]", pose[0].position[k], pose[1].position[k], 0.0);
+    check_close("the hole [m]", diameter[0], diameter[1], 0.0);
+    check_close("it was cut [m]", diameter[1], wide, 1e-15);
 }
 
 /* ---- The wall under a ring ----------------------------------------------------------------------------------------
@@ -522,6 +553,7 @@ int main(void)
         cmocka_unit_test(stabiliser_rests_as_in_a_hole_described_so),
         cmocka_unit_test(end_of_the_wide_hole_is_at_the_face),
         cmocka_unit_test(energy_is_accounted_for),
+        cmocka_unit_test(the_ledger_moves_nothing),
         cmocka_unit_test(wall_gives_what_it_stored_to_the_rock),
         cmocka_unit_test(events_take_the_cut_back),
         cmocka_unit_test(error_control_cuts_where_it_comes),

@@ -180,16 +180,16 @@ static int moves(const dmb_buckling *buckling)
     return 0;
 }
 
-/* Loads that grow in the present pose, which may not be where they lead. */
+/* Loads that grow in the present pose, which may not be where they lead, up to a factor; `through`: at it too. */
 static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, double to,
-                          int32_t status)
+                          int through, int32_t status)
 {
     dmb_flutter flutter;
     memset(&flutter, 0, sizeof flutter);
     flutter.pattern = &buckling->pattern;
     flutter.info = &buckling->info;
     flutter.off = options->slip_axial != 0.0 || options->slip_rotation != 0.0;
-    const int32_t judged = flutter.off ? DMB_OK : dmb_flutter_of_pose(&flutter, buckling->work, to);
+    const int32_t judged = flutter.off ? DMB_OK : dmb_flutter_of_pose(&flutter, buckling->work, to, through);
     dmb_flutter_conclude(&flutter);
     dmb_flutter_close(&flutter);
     return judged < 0 ? judged : dmb_buckling_tell_flutter(buckling, sim, &flutter.message, status);
@@ -199,20 +199,23 @@ static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckli
 static int32_t judge_present(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, int32_t status)
 {
     const dmb_message before = sim->message;
-    const int32_t judged = judge_pose(buckling, sim, options, 0.0, status);
+    const int32_t judged = judge_pose(buckling, sim, options, 0.0, 0, status);
     if (judged < 0 || buckling->info.flutter == DMB_FLUTTER_FOUND) return judged;
     buckling->info.flutter = DMB_FLUTTER_NOT_JUDGED;
     sim->message = before;
     return status;
 }
 
+/* Up to the first factor, where it diverges, or to the last one that is asked for. */
 static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
+    const int none = buckling->count == 0;
     const int32_t status = buckling->count < options->count ? DMB_NOTE_STOPPED : DMB_OK;
     buckling->info.confirmed = buckling->count;
-    buckling->info.end = DMB_BUCKLING_BIFURCATION;
+    buckling->info.end = none ? DMB_BUCKLING_EXTRAPOLATED : DMB_BUCKLING_BIFURCATION;
     if (buckling->info.stiffness != DMB_STIFFNESS_UNSYMMETRIC) return status;
-    return judge_pose(buckling, sim, options, buckling->count > 0 ? buckling->factor[0] : 0.0, status);
+    if (none && options->factor_max >= DMB_FACTOR_MAX) return judge_present(buckling, sim, options, status);
+    return judge_pose(buckling, sim, options, none ? options->factor_max : buckling->factor[0], none, status);
 }
 
 /* About the present state, and then along the equilibria. */

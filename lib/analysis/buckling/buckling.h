@@ -137,8 +137,8 @@ int32_t dmb_flutter_begin(dmb_flutter *flutter, const dmb_path *path);
 /* The way from the last point to the one `arc` beyond, which is judged; the next point of the path is gone then. Errors
  * of dmb_path_correct too. */
 int32_t dmb_flutter_look(dmb_flutter *flutter, dmb_path *path, double arc);
-/* A pose that the loads do not move, from the factor 0 to `to`: in equal parts. */
-int32_t dmb_flutter_of_pose(dmb_flutter *flutter, dmb_sim *at, double to);
+/* A pose that the loads do not move, from the factor 0 to `to`: in equal parts; `through`: at the last one too. */
+int32_t dmb_flutter_of_pose(dmb_flutter *flutter, dmb_sim *at, double to, int through);
 /* At the end of the way: nothing found where some state was passed by is not judged. */
 void dmb_flutter_conclude(dmb_flutter *flutter);
 void dmb_flutter_close(dmb_flutter *flutter);

@@ -119,12 +119,13 @@ static int32_t judge_pose(dmb_flutter *flutter, double factor)
     return judge(flutter, factor);
 }
 
-int32_t dmb_flutter_of_pose(dmb_flutter *flutter, dmb_sim *at, double to)
+int32_t dmb_flutter_of_pose(dmb_flutter *flutter, dmb_sim *at, double to, int through)
 {
     double low = 0.0, high = 0.0;
     flutter->state = dmb_state_copy(at);
     int32_t status = flutter->state != NULL ? judge_pose(flutter, 0.0) : DMB_ERR_NO_MEMORY;
-    for (int k = 1; status >= 0 && k < DMB_FLUTTER_PARTS && to > 0.0 && dmb_flutter_goes_on(flutter); k++) {
+    const int last = to > 0.0 ? DMB_FLUTTER_PARTS - !through : 0;
+    for (int k = 1; status >= 0 && k <= last && dmb_flutter_goes_on(flutter); k++) {
         low = high;
         high = to * k / DMB_FLUTTER_PARTS;
         status = judge_pose(flutter, high);
