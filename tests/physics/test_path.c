@@ -52,28 +52,35 @@ static dmb_path_options path_of(dmb_id load, dmb_place place, int32_t component,
 /* Half of S1, 10 m pinned: pinned at the rig end, the middle moves but does not turn. Pushed straight up to Euler's
  * load, then along the branch to an end slope of 60 degrees: P/Pcr 1.1517196205, v_mid/L .2966038231, shortening
  * .2589803939 (elastica). */
-static void check_elastica(uint32_t elements, double tolerance)
+static rig half_column(uint32_t elements, dmb_load_def *load, dmb_id *push)
 {
     rig s;
-    tale t = {.points = 0};
-    const double EI = s1_values().EI, euler = PI * PI * EI / 100.0;
+    const double EI = s1_values().EI;
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def beam = beam_pipe(5.0, elements, 1e7 * EI, 1e7 * EI, EI, EI);
-    dmb_load_def load = dmb_load_def_default();
-    dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
     def.start_free = DMB_FREE_SPHERICAL;
     def.end_free = FREE_TO_MOVE;
     beam.string = add_string(&s, &def);
-    const dmb_id string = add_pipes(&s, &beam, 1);
-    load.place = dmb_station(string, 0, 1.0);
-    load.force[0] = -euler;
-    load.programme = add_constant(&s, 0.0);
-    const dmb_id push = add_load(&s, &load);
+    load->place = dmb_station(add_pipes(&s, &beam, 1), 0, 1.0);
+    load->force[0] = -PI * PI * EI / 100.0;
+    load->programme = add_constant(&s, 0.0);
+    *push = add_load(&s, load);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
-    t.place = dmb_station(string, 0, 0.0);
+    return s;
+}
+
+static void check_elastica(uint32_t elements, double tolerance)
+{
+    tale t = {.points = 0};
+    dmb_load_def load = dmb_load_def_default();
+    dmb_path_report report = dmb_path_report_default();
+    dmb_id push;
+    rig s = half_column(elements, &load, &push);
+    t.place = load.place;
+    t.place.fraction = 0.0;
     dmb_path_options options = path_of(push, load.place, DMB_X, &t);
     options.branch = 1;
     options.branch_size = 0.05;
@@ -100,6 +107,46 @@ static void elastica_by_its_branch(void **state)
     check_elastica(8, 1e-4);
     check_elastica(16, 1e-5);
     check_elastica(32, 1e-6);
+}
+
+/* [-] P/Pcr of the elastica with an end slope: (2 K(sin(slope/2))/pi)^2, K by the arithmetic-geometric mean. */
+static double elastica(double slope)
+{
+    double a = 1.0, b = cos(0.5 * slope);
+    for (int i = 0; i < 20; i++) {
+        const double mean = 0.5 * (a + b);
+        b = sqrt(a * b);
+        a = mean;
+    }
+    return 1.0 / (a * a);
+}
+
+/* Steps off the straight column that are too long for the elastica are halved until one comes onto it. */
+static void onto_the_branch_by_too_long_a_step(void **state)
+{
+    static const double size[4] = {3.0, 15.0, 80.0, 260.0}; /* [m] of 5 m */
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        tale t = {.points = 0};
+        dmb_load_def load = dmb_load_def_default();
+        dmb_path_report report = dmb_path_report_default();
+        dmb_id push;
+        rig s = half_column(16, &load, &push);
+        t.place = load.place;
+        t.place.fraction = 0.0;
+        dmb_path_options options = path_of(push, load.place, DMB_X, &t);
+        options.branch = 1;
+        options.branch_size = size[i];
+        options.factor_end = 1e4;
+        options.max_points = 2;
+        must(&s, dmb_analysis_path(s.sim, &options, &report));
+        const dmb_path_point *end = t.point + t.points - 1;
+        print_message("    %g m: %u cuts, slope %g rad\n", size[i], report.cuts, t.slope[t.points - 1]);
+        assert_int_equal(end->kind, DMB_PATH_BRANCH);
+        assert_true(t.slope[t.points - 1] > 0.5 && (i == 0 || report.cuts > 0));
+        check_relative("    P/Pcr by the slope", end->factor, elastica(t.slope[t.points - 1]), 1e-5);
+        rig_close(&s);
+    }
 }
 
 /* The whole column, its far end on a line by a joint, buckles in its plane under the same load. */
@@ -438,9 +485,13 @@ static void rings_let_go_one_by_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastica_by_its_branch),  cmocka_unit_test(pinned_column_with_a_joint),
-        cmocka_unit_test(truss_snaps_through),     cmocka_unit_test(deep_arch_falls),
-        cmocka_unit_test(frame_snaps_back),        cmocka_unit_test(string_snakes_up_the_wall),
+        cmocka_unit_test(elastica_by_its_branch),
+        cmocka_unit_test(onto_the_branch_by_too_long_a_step),
+        cmocka_unit_test(pinned_column_with_a_joint),
+        cmocka_unit_test(truss_snaps_through),
+        cmocka_unit_test(deep_arch_falls),
+        cmocka_unit_test(frame_snaps_back),
+        cmocka_unit_test(string_snakes_up_the_wall),
         cmocka_unit_test(rings_let_go_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
