@@ -273,8 +273,10 @@ int main(void)
         cmocka_unit_test(accelerations_as_an_array),
         cmocka_unit_test(shapes_in_axes_of_the_place),
         cmocka_unit_test(the_hole_now),
-        cmocka_unit_test(motions_off_a_place),   cmocka_unit_test(offsets_are_refused),
-        cmocka_unit_test(rows_of_the_equations), cmocka_unit_test(redundant_drives_by_name),
+        cmocka_unit_test(motions_off_a_place),
+        cmocka_unit_test(offsets_are_refused),
+        cmocka_unit_test(rows_of_the_equations),
+        cmocka_unit_test(redundant_drives_by_name),
         cmocka_unit_test(actuators_in_modes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
