@@ -152,7 +152,8 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 #if defined(DRILLMBD_EXCEPTIONS)
 // A function object as a callback: it takes what the C function takes, without the context, and returns its number or
 // nothing. The caller keeps it alive as long as models and sims that call it. An exception does not get into C: the
-// call fails with DMB_ERR_CALLBACK. Not for threads: sims on several threads call one object at once.
+// call fails with DMB_ERR_CALLBACK; paths, which have no such failure, have sim::path with a visit. Not for threads:
+// sims on several threads call one object at once.
 template <typename Function, typename Result, typename... Arguments>
 struct guarded {
     // The C function, whose context is the function object.
@@ -191,10 +192,11 @@ void bind(Result (*&slot)(void *, Arguments...), void *&context, Function &funct
     context = const_cast<void *>(static_cast<const void *>(&function));
 }
 
-// Of dmb_constraint_def, dmb_force_def, dmb_path_options.
+// Of dmb_constraint_def, dmb_force_def.
 template <typename Def, typename Function>
 void set_callback(Def &def, Function &function) noexcept
 {
+    static_assert(!std::is_same<Def, dmb_path_options>::value, "a path would take an exception for its end: sim::path");
     bind(def.callback, def.callback_context, function);
 }
 // A term that is function(time, out): out[0] its value, out[1] and out[2] what `provides` says.
@@ -1011,6 +1013,21 @@ public:
         done(dmb_analysis_path(handle_, options, &report));
         return report;
     }
+    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, stands there and may be asked until visit
+    // returns; what is true ends the path. An exception of visit ends it too and comes out of here.
+    template <typename Visit>
+    dmb_path_report path(const dmb_path_options &options, Visit visit)
+    {
+        dmb_path_report report = dmb_path_report_default();
+        visitor<Visit> visited = {visit, std::exception_ptr()};
+        dmb_path_options used = options;
+        used.callback = &visitor<Visit>::call;
+        used.callback_context = &visited;
+        const std::int32_t status = dmb_analysis_path(handle_, &used, &report);
+        if (visited.thrown) std::rethrow_exception(visited.thrown);
+        done(status);
+        return report;
+    }
 
     DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_input> inputs, span<const dmb_output> outputs,
                                                    const dmb_response_options *options = nullptr)
@@ -1281,6 +1298,22 @@ private:
         }
         Told &told;
         sim &owner;
+        std::exception_ptr thrown;
+    };
+    // Of the points of a path.
+    template <typename Visit>
+    struct visitor {
+        static std::int32_t call(void *context, const dmb_sim *at, const dmb_path_point *point) noexcept
+        {
+            visitor *self = static_cast<visitor *>(context);
+            try {
+                return self->visit(at, *point) ? 1 : 0;
+            } catch (...) {
+                self->thrown = std::current_exception();
+                return 1;
+            }
+        }
+        Visit &visit;
         std::exception_ptr thrown;
     };
     // The model says why a create failed.

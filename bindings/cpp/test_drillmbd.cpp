@@ -418,6 +418,29 @@ void speeds_of_a_body()
 }
 
 // ---- Buckling -------------------------------------------------------------------------------------------------------
+// Each point can be asked; a visit ends the path, by its answer or by an exception, which comes out.
+void paths_are_visited(drillmbd::sim &sim, const dmb_path_options &along, const dmb_place &tip, std::uint32_t points)
+{
+    std::uint32_t visited = 0;
+    double pushed = 0.0;
+    const auto look = [&](const dmb_sim *at, const dmb_path_point &point) {
+        dmb_pose pose = dmb_pose_default();
+        EXPECT(dmb_query_pose(at, tip, &pose) == DMB_OK && point.number == visited);
+        pushed = pose.position[0];
+        return ++visited > points;
+    };
+    EXPECT(sim.path(along, look).points == points && visited == points + 1 && pushed < 10.0);
+    visited = points - 2;
+    EXPECT(sim.path(along, [&](const dmb_sim *, const dmb_path_point &) { return ++visited >= points; }).points == 1);
+    std::string text;
+    try {
+        sim.path(along, [](const dmb_sim *, const dmb_path_point &) -> bool { throw std::logic_error("far enough"); });
+    } catch (const std::logic_error &error) {
+        text = error.what();
+    }
+    EXPECT(text == "far enough");
+}
+
 void buckling_of_a_column()
 {
     drillmbd::model model;
@@ -452,8 +475,11 @@ void buckling_of_a_column()
     along.factor_end = 2.0 * euler;
     const dmb_path_report report = sim.path(&along);
     EXPECT(report.bifurcations == 1 && std::abs(report.first_bifurcation + 1.0 - euler) < 1e-4 * euler);
+    paths_are_visited(sim, along, push.place, report.points);
     along.factor_end = 0.0;
     EXPECT(thrown_by([&] { sim.path(&along); }) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { sim.path(along, [](const dmb_sim *, const dmb_path_point &) { return 0; }); }) ==
+           DMB_ERR_VALUE);
 }
 
 // ---- Progress -------------------------------------------------------------------------------------------------------

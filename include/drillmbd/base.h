@@ -126,7 +126,7 @@ static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
     static inline T T##_default(void)                \
     {                                                \
         T out;                                       \
-        (void)T##_init(&out, (uint32_t)sizeof(T));   \
+        (void)T##_init(&out, sizeof(T));             \
         return out;                                  \
     }
 
