@@ -11,15 +11,15 @@
 #include <stdint.h>
 
 /* The kernels must be folded for constant sizes even where the compiler finds them long. They stand once for
- * tests/coverage, which counts their branches. */
-#if defined(__GNUC__) && !defined(DMB_COUNTED)
+ * tests/coverage, which counts their branches, and where it is told to make the program small (-Os). */
+#if defined(__GNUC__) && !defined(DMB_COUNTED) && !defined(__OPTIMIZE_SIZE__)
 #define DMB_BLOCK_KERNEL static inline __attribute__((always_inline))
 #else
 #define DMB_BLOCK_KERNEL static inline
 #endif
 
 /* Triangles are too irregular for gcc to unroll of its own accord. */
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
 #define DMB_BLOCK_UNROLL _Pragma("GCC unroll 6")
 #else
 #define DMB_BLOCK_UNROLL
