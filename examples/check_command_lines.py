@@ -17,6 +17,8 @@ OPTIONS = {
     "reference_study": ["--output", "--threads", "--step", "--short"],
     "safe_speeds": ["--output", "--threads", "--depth", "--order"],
     "turning_string": ["--threads"],
+    "two_cores": ["--threads"],
+    "control_loop": ["--seconds", "--jam", "--pipes", "--real-time"],
     "failure_probability": ["--samples", "--threads", "--seed"],
 }
 NONSENSE = {
@@ -32,6 +34,9 @@ NONSENSE = {
     "turning_string": [["--threads", "0"], ["--threads", "-2"], ["--threads", "2x"], ["--threads", "65"],
                        ["--threads", "99999999999999999999"], ["--threads"], ["--threads", ""], ["--bogus", "7"],
                        ["--threads", "2", "more"]],
+    "two_cores": [["--threads", "0"], ["--threads", "65"], ["--threads", "1.5"], ["--threads"]],
+    "control_loop": [["--seconds", "0"], ["--seconds", "3601"], ["--seconds", "nan"], ["--jam", "-1"], ["--jam", "6s"],
+                     ["--pipes", "1"], ["--pipes", "401"], ["--pipes", "2.5"], ["--seconds"], ["--real-time", "7"]],
     "failure_probability": [["--samples", "0"], ["--samples", "2.5"], ["--threads=x"], ["--seed", "-1"], ["--seed"]],
 }
 COMMON = [["--nonsense"], ["nonsense"], ["--output"]]
