@@ -51,8 +51,15 @@ typedef struct unit {
 /* folder: where scene.bin is. NULL where it is refused, the log knows why. */
 unit *unit_create(const char *folder, const char *token, unit_log_fn log, void *log_context, int logs);
 void unit_destroy(unit *u);
+#if defined(__MINGW32__) && !defined(__clang__) /* there "printf" is the one of the system, which has no %zu */
+#define UNIT_PRINTF_LIKE __attribute__((format(gnu_printf, 3, 4)))
+#elif defined(__GNUC__)
+#define UNIT_PRINTF_LIKE __attribute__((format(printf, 3, 4)))
+#else
+#define UNIT_PRINTF_LIKE
+#endif
 /* Tells the log; gives `status` back. */
-unit_status unit_tell(const unit *u, unit_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+unit_status unit_tell(const unit *u, unit_status status, const char *format, ...) UNIT_PRINTF_LIKE;
 /* UNIT_OK in one of the modes (mask of 1 << unit_mode). */
 unit_status unit_require(const unit *u, unsigned modes, const char *call);
 

@@ -13,7 +13,9 @@ typedef struct dmb_message {
     char text[256];
 } dmb_message;
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__) && !defined(__clang__) /* printf of that system has no %zu; the formatter has */
+#define DMB_PRINTF_LIKE __attribute__((format(gnu_printf, 2, 3)))
+#elif defined(__GNUC__)
 #define DMB_PRINTF_LIKE __attribute__((format(printf, 2, 3)))
 #else
 #define DMB_PRINTF_LIKE
