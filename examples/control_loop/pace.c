@@ -16,11 +16,20 @@ static int64_t now(void)
     return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
+#if defined(__APPLE__) /* has no clock_nanosleep: a signal ends the wait early */
+static void wait_until(int64_t time)
+{
+    const int64_t left = time - now();
+    const struct timespec t = {(time_t)(left / 1000000000), (long)(left % 1000000000)};
+    if (left > 0) (void)nanosleep(&t, NULL);
+}
+#else
 static void wait_until(int64_t time)
 {
     const struct timespec t = {(time_t)(time / 1000000000), (long)(time % 1000000000)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) == EINTR) continue;
 }
+#endif
 
 void pace_begin(pace *p)
 {
