@@ -51,7 +51,7 @@ size_t fwrite(const void *from, size_t size, size_t count, FILE *file)
     return count > 0 && fails() ? 0 : real(from, size, count, file);
 }
 
-/* What was buffered went nowhere, and what followed was written. */
+/* The stream lost something that it had buffered. */
 int ferror(FILE *file)
 {
     int (*real)(FILE *);
