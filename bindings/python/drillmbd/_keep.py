@@ -7,8 +7,9 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ._functions import FUNCTION_DOCS
-from ._record import Record, flat, numbers
+from ._record import Record
 from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, PROGRAMME_FN, Id, Place
+from ._values import flat, real, reals, refuse_type
 from .enums import PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
 from .errors import Error
 
@@ -24,22 +25,28 @@ def station(part: Id, pipe: int = 0, fraction: float = 0.0) -> Place:
 
 def as_id(part: Id | None) -> Id:
     """The id, or the id of nothing for None."""
-    return Id() if part is None else part
+    if part is None:
+        return Id()
+    return part if isinstance(part, Id) else refuse_type("call", "part", part, "be the id of a part")
 
 
 def as_place(place: Place | Id | None) -> Place:
     """The place; a part stands for its reference point, None for no place."""
-    return place if isinstance(place, Place) else station(as_id(place))
+    if isinstance(place, Place):
+        return place
+    if place is not None and not isinstance(place, Id):
+        refuse_type("call", "place", place, "be a place, station(string, pipe, fraction), or a part")
+    return station(as_id(place))
 
 
 def struct(cls: type[S], given: S | None, fields: dict[str, Any]) -> S:
     """The caller's struct, or one made of keywords."""
     if given is None:
         return cls(**fields)
+    if not isinstance(given, cls):
+        refuse_type("call", "definition", given, f"be a {cls.__name__}, or its fields by name as diameter=0.1")
     if fields:
         raise TypeError(f"give a {cls.__name__} or its fields, not both")
-    if not isinstance(given, cls):
-        raise TypeError(f"a {cls.__name__} is needed, {type(given).__name__} given")
     return given
 
 
@@ -72,8 +79,10 @@ class Keep:
         def call(_context: Any, time: float, out: Any) -> int:
             try:
                 answer = function(time)
-                answer = tuple(answer) if wanted > 1 else (answer,)
-                for i, value in enumerate(numbers(answer, wanted)):
+                if wanted == 1:
+                    out[0] = real(answer, "programme", "answer of the function")
+                    return 0
+                for i, value in enumerate(reals(answer, "programme", "answer of the function", wanted)):
                     out[i] = value
                 return 0
             except BaseException as error:  # must not unwind through C
@@ -90,10 +99,10 @@ class Keep:
             try:
                 answer = function(time, [list(poses[i]) for i in range(count)])
                 values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
-                for i, number in enumerate(numbers(flat(values), rows)):
+                for i, number in enumerate(reals(flat(values), "constraint", "values of the function", rows)):
                     value[i] = number
                 if derivatives is not None:
-                    for i, number in enumerate(numbers(flat(derivatives), 6 * rows * count)):
+                    for i, number in enumerate(reals(flat(derivatives), "constraint", "jacobian", 6 * rows * count)):
                         jacobian[i] = number
                 return 0
             except BaseException as error:  # must not unwind through C
@@ -111,10 +120,10 @@ class Keep:
             try:
                 answer = function(time, [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)])
                 parts = list(answer) if provides else [answer]
-                for i, number in enumerate(numbers(flat(parts.pop(0)), 6 * count)):
+                for i, number in enumerate(reals(flat(parts.pop(0)), "force", "answer of the function", 6 * count)):
                     forces[i // 6][i % 6] = number
                 if provides & PROVIDES_TANGENT:
-                    entries = [*numbers(flat(parts.pop(0)), 36 * count * count), *numbers(flat(parts.pop(0)), 36 * count * count)]
+                    entries = [one for _ in range(2) for one in reals(flat(parts.pop(0)), "force", "tangent", 36 * count * count)]
                     for i, number in enumerate(entries if tangent else ()):
                         tangent[i] = number
                 if provides & PROVIDES_POTENTIAL:

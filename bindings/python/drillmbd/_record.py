@@ -3,28 +3,18 @@ in plain Python that it can be made from again, and so copies and pickles."""
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Iterable, Sequence
+import difflib
+import enum
+import re
+from collections.abc import Callable, Sequence
 from ctypes import c_double
 from typing import Any, ClassVar
 
+from ._values import ERR_VALUE, points, real, reals, refuse_type, refuse_value, text, whole
+
 _FUNCTION: Any = ctypes.CFUNCTYPE(None).__mro__[1]
-
-
-def numbers(values: Iterable[Any], count: int) -> list[Any]:
-    """The values as a list of `count`. Raises ValueError if they are more or fewer."""
-    values = list(values)
-    if len(values) != count:
-        raise ValueError(f"{count} numbers are needed, {len(values)} given")
-    return values
-
-
-def flat(values: Any) -> list[float]:
-    """A number, a sequence, or a sequence of sequences as one list."""
-    try:
-        values = list(values)
-    except TypeError:
-        return [float(values)]
-    return [number for value in values for number in flat(value)]
+_WHOLE = {ctypes.c_int32: (-2 ** 31, 2 ** 31 - 1), ctypes.c_uint32: (0, 2 ** 32 - 1), ctypes.c_int64: (-2 ** 63, 2 ** 63 - 1),
+          ctypes.c_uint64: (0, 2 ** 64 - 1), ctypes.c_size_t: (0, 2 ** 64 - 1)}
 
 
 def _plain(value: Any) -> Any:
@@ -46,9 +36,15 @@ class Record(ctypes.Structure):
     about: ClassVar[str] = ""
     field_docs: ClassVar[dict[str, tuple[str, str]]] = {}  # field -> (unit, meaning)
 
+    _kinds: ClassVar[dict[str, Any]] = {}  # field -> its type
+    _constants: ClassVar[dict[str, set[str]]] = {}  # field -> prefixes of the constants that it takes
+
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)
         if cls.c_name:
+            cls._kinds = dict(cls.__dict__["_fields_"])
+            cls._constants = {name: {"X"} if text.startswith("X (") else set(re.findall(r"\b([A-Z][A-Z_]*)_\.\.\.", text))
+                              for name, (_, text) in cls.field_docs.items()}
             own = cls.__doc__ if "__doc__" in cls.__dict__ else None
             mixed = cls.__mro__[1].__doc__ if cls.__mro__[1].__name__.endswith("Part") else None
             parts = [f"{cls.c_name} of the headers.", mixed or own or "", cls.about]
@@ -57,17 +53,48 @@ class Record(ctypes.Structure):
             cls.__doc__ = "\n\n".join(part for part in [*parts, fields] if part)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if not name.startswith("_"):
-            if not hasattr(type(self), name):
-                raise AttributeError(f"{type(self).__name__} has no field '{name}'")
-            present = getattr(self, name)
-            if isinstance(present, ctypes.Array):
-                value = type(present)(*numbers(value, len(present)))
-            elif isinstance(present, bytes) and isinstance(value, str):
-                value = value.encode()
-            elif type(present).__name__ == "Place" and type(value).__name__ != "Place":
-                value = type(present)(type(present)().part if value is None else value)
+        kind = self._kinds.get(name)
+        if kind is not None:
+            value = self._fit(name, kind, value)
+        elif not name.startswith("_") and not hasattr(type(self), name):
+            from .errors import WrongName
+            close = difflib.get_close_matches(name, self._kinds, 1)
+            raise WrongName(ERR_VALUE, f"{type(self).__name__} has no field '{name}'" + (f"; '{close[0]}'?" if close else ""))
         super().__setattr__(name, value)
+
+    def _fit(self, name: str, kind: Any, value: Any) -> Any:
+        """The value as ctypes takes it for a field of a kind; what does not fit is refused."""
+        part = type(self).__name__
+        if kind is c_double:
+            return real(value, part, name, self.field_docs.get(name, ("",))[0])
+        if kind in _WHOLE:
+            self._is_constant_of(name, value)
+            return whole(value, part, name, *_WHOLE[kind])
+        if isinstance(kind, type) and issubclass(kind, ctypes.Array):
+            return self._fit_array(name, kind, value)
+        if isinstance(kind, type) and issubclass(kind, Record):
+            return _fit_record(part, name, kind, value)
+        return value
+
+    def _fit_array(self, name: str, kind: Any, value: Any) -> Any:
+        part = type(self).__name__
+        if kind._type_ is ctypes.c_char:
+            return text(value, part, name, kind._length_)
+        if kind._type_ is c_double:
+            return kind(*reals(value, part, name, kind._length_))
+        values = list(value)
+        if len(values) != kind._length_:
+            refuse_value(part, name, value, f"be {kind._length_} values: {len(values)} are given")
+        return kind(*values)
+
+    def _is_constant_of(self, name: str, value: Any) -> None:
+        """Refuses a constant of another enumeration, as JOINT_FIXED for the kind of a pipe."""
+        prefixes = self._constants.get(name)
+        if prefixes and isinstance(value, enum.Enum):
+            own = re.search(r"DMB_(\w*?)_?\.\.\.", type(value).__doc__ or "")
+            if own and own[1] and not any(f"{one}_".startswith(f"{own[1]}_") for one in prefixes):
+                bound = " or ".join(sorted(one + "_..." for one in prefixes)) if prefixes != {"X"} else "X .. RZ"
+                refuse_type(type(self).__name__, name, value, f"be {bound}")
 
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={value!r}" for name, value in self.describe(every=True).items())
@@ -106,6 +133,23 @@ class Record(ctypes.Structure):
 
 def _make(cls: type[Record], fields: dict[str, Any]) -> Record:
     return cls(**fields)
+
+
+def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
+    """A struct of the kind: a part or None for a place, None for no part, a pair (place, quantity) for a channel."""
+    if isinstance(value, kind):
+        return value
+    word = kind.__name__
+    if value is None and word in ("Place", "Id"):
+        return kind()
+    if word == "Place" and type(value).__name__ == "Id":
+        return kind(value)
+    if word == "Channel" and isinstance(value, tuple) and len(value) == 2:
+        from .channels import channel_quantity
+        return kind(place=value[0], quantity=channel_quantity(value[1]))
+    bound = {"Place": "be a place, station(string, pipe, fraction), or a part", "Id": "be the id of a part",
+             "Channel": 'be a Channel or a pair (place, "bit_speed")'}
+    refuse_type(part, name, value, bound.get(word, f"be a {word}"))
 
 
 class Sized(Record):
@@ -161,8 +205,10 @@ class TermPart:
         self._function = function
         self._table: list[tuple[float, float]] = []
         if table is not None:
-            self._set_table(*_columns(table))
+            self._set_table(*points(table, "Term"))
         if function is not None:
+            if not callable(function):
+                refuse_type("Term", "function", function, "be a function of time")
             self.kind = 5
 
     def _set_table(self, times: Sequence[float], values: Sequence[float]) -> None:
@@ -182,20 +228,6 @@ class TermPart:
         return found
 
 
-def _columns(table: Any) -> tuple[list[float], list[float]]:
-    """The times and values of a table given as pairs or as two sequences. Two pairs are pairs, unless arrays."""
-    table = table if hasattr(table, "__len__") else list(table)
-    columns = isinstance(table, tuple) and len(table) == 2 and all(hasattr(one, "__len__") for one in table)
-    if columns and not all(isinstance(one, tuple) and len(one) == 2 for one in table):
-        times, values = table
-    else:
-        times, values = zip(*table) if len(table) else ((), ())
-    times, values = [float(t) for t in times], [float(v) for v in values]
-    if len(times) != len(values):
-        raise ValueError(f"a table needs as many values as times: {len(values)} and {len(times)} given")
-    return times, values
-
-
 class WallPart:
     """The hole. `stations` takes triples (measured depth [m], inclination [rad], azimuth [rad])."""
 
@@ -203,7 +235,11 @@ class WallPart:
         super().__init__(**fields)
         self._stations: list[list[float]] = []
         if stations is not None:
-            self._stations = [[float(number) for number in numbers(triple, 3)] for triple in stations]
+            if isinstance(stations, (str, bytes, dict)) or not hasattr(stations, "__iter__"):
+                refuse_type("WallDef", "stations", stations, "be triples (depth [m], inclination [rad], azimuth [rad])")
+            self._stations = [reals(triple, "WallDef", f"stations[{i}]", 3) for i, triple in enumerate(stations)]
+            if not self._stations:
+                refuse_value("WallDef", "stations", stations, "be at least 2 triples; leave it out for a straight hole")
             values = [number for triple in self._stations for number in triple]
             self.survey_count, self.survey = len(self._stations), (c_double * len(values))(*values)
 
@@ -223,7 +259,7 @@ class SpringPart:
         super().__init__(**fields)
         self._table: list[tuple[float, float]] = []
         if table is not None:
-            lengths, forces = _columns(table)
+            lengths, forces = points(table, "SpringDef")
             self.table_count, self._table = len(lengths), list(zip(lengths, forces))
             self.table_elongation, self.table_force = (c_double * len(lengths))(*lengths), (c_double * len(forces))(*forces)
 
@@ -247,10 +283,10 @@ class PairsPart:
             if pairs is None:
                 continue
             count, *names = self.PAIRS[key]
-            columns = _columns(pairs)
+            columns = points(pairs, type(self).__name__, key)
             room = len(getattr(self, names[0]))
             if len(columns[0]) > room:
-                raise ValueError(f"{key} has {len(columns[0])} points, must have at most {room}")
+                refuse_value(type(self).__name__, key, pairs, f"have at most {room} points: {len(columns[0])} are given")
             setattr(self, count, len(columns[0]))
             for name, column in zip(names, columns):
                 setattr(self, name, (column + [0.0] * room)[:room])
@@ -286,9 +322,13 @@ class PlacesPart:
     def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
         super().__init__(**fields)
         self._function = function
+        if function is not None and not callable(function):
+            refuse_type(type(self).__name__, "function", function, "be a function")
         if places is not None:
-            kind = type(self.place[0])
-            given = [place if isinstance(place, kind) else kind(place) for place in places]
+            kind, part = type(self.place[0]), type(self).__name__
+            if isinstance(places, str) or not hasattr(places, "__iter__"):
+                refuse_type(part, "places", places, "be a list of places or parts")
+            given = [_fit_record(part, f"places[{i}]", kind, place) for i, place in enumerate(places)]
             self.place_count = len(given)
             self.place = (given + [kind()] * 4)[:4]
 

@@ -12,10 +12,10 @@ from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._optional import need, numpy
 from ._progress import Teller
-from ._record import numbers
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
                        ModesOptions, Operation, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, SpeedsReport, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
+from ._values import real, reals, refuse_type, refuse_value, whole
 from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, OUTPUT_DISPLACEMENT,
                     Component, OperationKind)
 from .errors import check
@@ -110,9 +110,9 @@ class Analyses:
         grid that the ResponseOptions describe."""
         options = struct(ResponseOptions, options, fields)
         if frequencies is not None:
-            frequencies = [float(f) for f in frequencies]
+            frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
             options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-        given, asked, handle = (Input * len(inputs))(*inputs), (Output * len(outputs))(*outputs), c_void_p()
+        given, asked, handle = row_of(Input, inputs, "inputs"), row_of(Output, outputs, "outputs"), c_void_p()
         self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(inputs), asked, len(outputs),
                                                byref(handle)))
         return Response(handle)
@@ -124,7 +124,8 @@ class Analyses:
         then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
         options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
         report: Any = STRUCTS["dmb_stepped_sine_report"]()
-        asked, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
+        asked, width = row_of(Output, outputs, "outputs"), 1 + options.harmonics
+        frequency = real(frequency, "stepped sine", "frequency", "Hz")
         values = (c_double * (2 * width * len(outputs)))()
         report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
                                                len(outputs), values, byref(report)))
@@ -147,8 +148,9 @@ class Analyses:
         Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
         answer lacks excitation, damping or range (NOTE_INCOMPLETE)."""
         options = struct(SpeedsOptions, options, fields)
-        allowed = (c_double * len(outputs))(*numbers(limits, len(outputs)))
-        shakes, asked = (Order * len(orders))(*orders), (Output * len(outputs))(*outputs)
+        room = whole(room, "speeds", "room", 1, 2 ** 20)
+        allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
+        shakes, asked = row_of(Order, orders, "orders"), row_of(Output, outputs, "outputs")
         bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
         severity = (c_double * options.points)()
         found = SpeedBands()
@@ -165,11 +167,13 @@ class Analyses:
         """Hook load and torque of the rig by depth [m] and operation: Operation structs, or OPERATION_... for usual
         ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
         options = struct(TorqueDragOptions, options, fields)
-        asked = [usual_operation(one) if isinstance(one, int) else one
-                 for one in (OPERATIONS if operations is None else operations)]
+        asked = [as_operation(one) for one in (OPERATIONS if operations is None else operations)]
+        if not asked:
+            refuse_value("torque and drag", "operations", operations, "be one at least")
         if depths is not None:
-            options.depth_count = len(depths)
-            options.depths = (c_double * len(depths))(*depths)
+            below = reals(depths, "torque and drag", "depths", unit="m")
+            options.depth_count = len(below)
+            options.depths = (c_double * len(below))(*below)
         count = max(1, options.depth_count) * len(asked)
         rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
         status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options), (Operation * len(asked))(*asked),
@@ -183,7 +187,7 @@ class Analyses:
         """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
         torque [N m], wall force per metre [N/m], as lists by name."""
         options = struct(TorqueDragOptions, options, fields)
-        given = usual_operation(operation) if isinstance(operation, int) else operation
+        given, stations = as_operation(operation), whole(stations, "torque and drag profile", "stations", 2, 2 ** 20)
         values = [(c_double * stations)() for _ in range(4)]
         self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
         return dict(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
@@ -195,22 +199,43 @@ class Analyses:
         if (hook_load is None) == (torque is None):
             raise ValueError("give hook_load or torque, one of them")
         options = struct(TorqueDragOptions, options, fields)
-        given = usual_operation(operation) if isinstance(operation, int) else operation
-        found = c_double()
+        given, found = as_operation(operation), c_double()
         measured = MEASURED_HOOK_LOAD if torque is None else MEASURED_TORQUE
         self._check(_lib.dmb_analysis_friction_factor(self._handle, byref(options), byref(given), measured,
-                                                      hook_load if torque is None else torque, byref(found)))
+                                                      real(hook_load if torque is None else torque, "friction factor",
+                                                           "measured value", "N or N m"), byref(found)))
         return found.value
+
+
+def row_of(cls: Any, given: Any, field: str) -> Any:
+    """The C array of the structs."""
+    if isinstance(given, cls):
+        refuse_type("call", field, given, f"be a list of {cls.__name__}, [{cls.__name__}(...)]")
+    given = list(given)
+    for i, one in enumerate(given):
+        if not isinstance(one, cls):
+            refuse_type("call", f"{field}[{i}]", one, f"be an {cls.__name__}")
+    return (cls * len(given))(*given)
 
 
 # ---- Torque and drag -------------------------------------------------------------------------------------------------
 OPERATIONS = [kind for kind in OperationKind if kind < OPERATION_COUNT]
 
 
-def usual_operation(kind: int, **fields: Any) -> Operation:
-    """The Operation OPERATION_... at usual speeds, with further fields such as weight_on_bit [N]."""
-    operation = Operation()
-    check(_lib.dmb_operation_usual(kind, byref(operation)))
+def as_operation(one: Any) -> Operation:
+    """The Operation; OPERATION_... or a name as "pick-up" stands for the usual one."""
+    return one if isinstance(one, Operation) else usual_operation(one)
+
+
+def usual_operation(kind: int | str, **fields: Any) -> Operation:
+    """The Operation OPERATION_..., or of a name as "pick-up", at usual speeds, with further fields such as weight_on_bit
+    [N]."""
+    operation, names = Operation(), [operation_name(one) for one in OPERATIONS]
+    if isinstance(kind, str):
+        if kind not in names:
+            refuse_value("operation", "kind", kind, f"be one of {' '.join(names)}")
+        kind = names.index(kind)
+    check(_lib.dmb_operation_usual(whole(kind, "operation", "kind", 0, OPERATION_COUNT - 1), byref(operation)))
     for name, value in fields.items():
         setattr(operation, name, value)
     return operation
@@ -218,7 +243,7 @@ def usual_operation(kind: int, **fields: Any) -> Operation:
 
 def operation_name(kind: int) -> str:
     """ "pick-up", "slack-off", ..."""
-    return (_lib.dmb_operation_name(kind) or b"").decode()
+    return (_lib.dmb_operation_name(whole(kind, "operation", "kind", 0, OPERATION_COUNT - 1)) or b"").decode()
 
 
 class TorqueDrag:
@@ -325,9 +350,10 @@ class Modes(Handle):
         return self.info.count
 
     def __getitem__(self, index: int) -> Mode:
-        if not 0 <= index < len(self):
-            raise IndexError(index)
-        mode = Mode()
+        index = whole(index, "modes", "index", -2 ** 31, 2 ** 31)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"mode {index} of {len(self)}")
+        mode, index = Mode(), index % len(self)
         check(_lib.dmb_modes_get(self._handle, index, byref(mode)))
         return mode
 

@@ -56,6 +56,18 @@ class Error(Exception):
         return type(self), (int(self.status), self.message)
 
 
+class WrongType(Error, TypeError):
+    """A value of the wrong type, found in Python: a text or an array where one number belongs, a part where a place does."""
+
+
+class WrongValue(Error, ValueError):
+    """A value that is not allowed, found in Python: a whole number out of its range, a table of no pairs."""
+
+
+class WrongName(Error, AttributeError):
+    """A field that the struct does not have."""
+
+
 class Usage(ValueError):
     """A command line or a scene that does not fit the question."""
 
