@@ -5,6 +5,8 @@ from ctypes import byref, c_void_p
 from typing import Any, TypeVar
 
 from ._library import lib as _lib
+from ._parts import closed, is_closed
+from .errors import check
 
 H = TypeVar("H", bound="Handle")
 
@@ -18,6 +20,12 @@ class Handle:
         """Gives the memory back; later questions are an Error. Sims of a model go on."""
         if getattr(self, "_handle", None) is not None and _lib is not None:
             getattr(_lib, f"dmb_{self._kind}_destroy")(byref(self._handle))
+
+    def _sure(self, status: int) -> int:
+        """The status of a call, or its Error."""
+        if is_closed(self._handle, status):
+            raise closed(self._kind.replace("_", " "))
+        return check(status)
 
     def __enter__(self: H) -> H:
         return self

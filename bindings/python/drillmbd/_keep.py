@@ -7,11 +7,12 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ._functions import FUNCTION_DOCS
+from ._parts import closed, is_closed
 from ._record import Record
 from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, PROGRAMME_FN, Id, Place
-from ._values import flat, real, reals, refuse_type
-from .enums import PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
-from .errors import Error
+from ._values import flat, real, reals, refuse_type, shown
+from .enums import ERR_IO, PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
+from .errors import Error, check
 
 S = TypeVar("S", bound=Record)
 F = TypeVar("F", bound=Callable[..., Any])
@@ -53,6 +54,15 @@ def struct(cls: type[S], given: S | None, fields: dict[str, Any]) -> S:
 def path_of(path: Any) -> bytes:
     """The path as the C library takes it."""
     return os.fsencode(path)
+
+
+def written(path: Any, handle: Any, status: int) -> int:
+    """The status of a call that writes a file; an Error that names the file where it could not."""
+    if is_closed(handle, status):
+        raise closed("writer")
+    if status == ERR_IO:
+        raise Error(status, f"file: path = {shown(os.fspath(path))}, must be one that can be written")
+    return check(status)
 
 
 def mirrors(name: str) -> Callable[[F], F]:

@@ -8,8 +8,9 @@ from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, pointer
 from typing import TYPE_CHECKING, Any, List
 
 from ._handle import Handle
-from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
+from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
 from ._library import lib as _lib
+from ._parts import Parts, index_of, is_closed
 from ._optional import need, numpy
 from ._progress import Teller
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
@@ -18,7 +19,7 @@ from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckRep
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, OUTPUT_DISPLACEMENT,
                     Component, OperationKind)
-from .errors import check
+from .errors import Error, check
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -90,17 +91,16 @@ class Analyses:
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
         status = self._long(_lib.dmb_analysis_check, byref(report))
-        self._teller.rethrow()
-        report.status = self._scene.check(status, b"")
+        report.status = self._check(status)
         return report
 
     @mirrors("dmb_analysis_check_text")
     def check_text(self) -> str:
         """The model check as a sheet of text, redundant equations and warnings by name."""
         size = c_size_t()
-        self._scene.check(_lib.dmb_analysis_check_text(self._handle, None, 0, byref(size)), b"")
+        self._check(_lib.dmb_analysis_check_text(self._handle, None, 0, byref(size)))
         text = ctypes.create_string_buffer(size.value)
-        self._scene.check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None), b"")
+        self._check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None))
         return text.value.decode()
 
     @mirrors("dmb_analysis_response")
@@ -139,7 +139,7 @@ class Analyses:
         """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
         options, handle = struct(ModesOptions, options, fields), c_void_p()
         self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
-        return Modes(handle, self._scene)
+        return Modes(handle, self)
 
     @mirrors("dmb_analysis_speeds")
     def speeds(self, orders: Sequence[Order], outputs: Sequence[Output], limits: Sequence[float], room: int = 64,
@@ -280,14 +280,17 @@ class Response(Handle):
     def frequencies(self) -> Any:
         """[Hz] ascending: a numpy array, or a list; shape (points)."""
         values = (c_double * self.shape[0])()
-        check(_lib.dmb_response_frequencies(self._handle, values))
+        self._sure(_lib.dmb_response_frequencies(self._handle, values))
         return numpy.array(values) if numpy is not None else list(values)
 
     def transfer(self, input: int = COMBINED, output: int = 0) -> Any:
         """The output per unit of the input, or for all inputs with their amplitudes and phases (COMBINED): complex
         numbers, one for each frequency; shape (points)."""
         values = (c_double * (2 * self.shape[0]))()
-        check(_lib.dmb_response_transfer(self._handle, input, output, values))
+        if input != COMBINED:
+            input = index_of("response", "input", input, self.shape[1])
+        output = index_of("response", "output", output, self.shape[2])
+        self._sure(_lib.dmb_response_transfer(self._handle, input, output, values))
         if numpy is not None:
             return numpy.array(values).view(complex)
         return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
@@ -303,32 +306,44 @@ class Response(Handle):
     @mirrors("dmb_response_write_csv")
     def write_csv(self, path: Any) -> None:
         """Writes amplitudes and phases as CSV."""
-        check(_lib.dmb_response_write_csv(self._handle, path_of(path)))
+        written(path, self._handle, _lib.dmb_response_write_csv(self._handle, path_of(path)))
+
+
+class Shaped(Handle):
+    """An answer with a shape at each place."""
+    _parts: Parts
+
+    def _answered(self, place: Place, status: int) -> int:
+        """The status of a question about a place, or an Error that tells what is wrong with the place."""
+        if status < 0 and not is_closed(self._handle, status):
+            raise Error(status, self._parts.why(status, "shape", (place,)))
+        return self._sure(status)
 
 
 # ---- Buckling --------------------------------------------------------------------------------------------------------
-class Buckling(Handle):
+class Buckling(Shaped):
     """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for,
     NOTE_EXTRAPOLATED where info.confirmed is less than their number."""
     _kind = "buckling"
 
     def __init__(self, sim: Any, options: BucklingOptions) -> None:
         self._handle = c_void_p()
-        self._scene = sim._scene  # the model's callbacks
+        self._scene, self._parts = sim._scene, sim._parts  # the model's callbacks
         self.status = sim._check(sim._long(_lib.dmb_analysis_buckling, byref(options), byref(self._handle)))
         self.info = BucklingInfo()
-        check(_lib.dmb_buckling_get_info(self._handle, byref(self.info)))
+        self._sure(_lib.dmb_buckling_get_info(self._handle, byref(self.info)))
         value = c_double()
         self.factors: list[float] = []
         for mode in range(_lib.dmb_buckling_count(self._handle)):
-            check(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
+            self._sure(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
             self.factors.append(value.value)
 
     @mirrors("dmb_buckling_shape")
-    def shape(self, mode: int, place: Place) -> list[float]:
+    def shape(self, mode: int, place: Place | Id) -> list[float]:
         """[m, rad] displacement and rotation of a section, world frame; six numbers"""
-        values = (c_double * 6)()
-        check(_lib.dmb_buckling_shape(self._handle, mode, place, values))
+        values, place = (c_double * 6)(), as_place(place)
+        mode = index_of("buckling", "mode", mode, len(self.factors))
+        self._answered(place, _lib.dmb_buckling_shape(self._handle, mode, place, values))
         return list(values)
 
     def shapes(self, mode: int, places: Sequence[Place]) -> Any:
@@ -337,12 +352,12 @@ class Buckling(Handle):
 
 
 # ---- Modes -----------------------------------------------------------------------------------------------------------
-class Modes(Handle):
+class Modes(Shaped):
     """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
     _kind = "modes"
 
-    def __init__(self, handle: c_void_p, scene: Keep) -> None:
-        self._handle, self._scene = handle, scene
+    def __init__(self, handle: c_void_p, sim: Any) -> None:
+        self._handle, self._scene, self._parts = handle, sim._scene, sim._parts
         self.info = ModesInfo()
         check(_lib.dmb_modes_get_info(handle, byref(self.info)))
 
@@ -354,7 +369,7 @@ class Modes(Handle):
         if not -len(self) <= index < len(self):
             raise IndexError(f"mode {index} of {len(self)}")
         mode, index = Mode(), index % len(self)
-        check(_lib.dmb_modes_get(self._handle, index, byref(mode)))
+        self._sure(_lib.dmb_modes_get(self._handle, index, byref(mode)))
         return mode
 
     def __iter__(self) -> Iterator[Mode]:
@@ -366,10 +381,11 @@ class Modes(Handle):
         return _array([mode.frequency for mode in self])
 
     @mirrors("dmb_modes_shape")
-    def shape(self, index: int, place: Place, frame: int = FRAME_WORLD) -> ModeShape:
+    def shape(self, index: int, place: Place | Id, frame: int = FRAME_WORLD) -> ModeShape:
         """Displacement and rotation at a place [m, rad], real and imaginary part: re, im"""
-        shape = ModeShape(frame=frame)
-        check(_lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
+        shape, place = ModeShape(frame=frame), as_place(place)
+        index = index_of("modes", "index", index, len(self))
+        self._answered(place, _lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
         return shape
 
     def shapes(self, index: int, places: Sequence[Place], frame: int = FRAME_WORLD) -> Any:
@@ -381,7 +397,8 @@ class Modes(Handle):
     def part(self, index: int, part: Id, pipe: int = 0xFFFFFFFF) -> tuple[float, float]:
         """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
         kinetic, strain = c_double(), c_double()
-        check(_lib.dmb_modes_part(self._handle, index, as_id(part), pipe, byref(kinetic), byref(strain)))
+        index = index_of("modes", "index", index, len(self))
+        self._sure(_lib.dmb_modes_part(self._handle, index, as_id(part), pipe, byref(kinetic), byref(strain)))
         return kinetic.value, strain.value
 
     def frame(self) -> Any:
@@ -394,7 +411,10 @@ class Modes(Handle):
     @mirrors("dmb_write_vtk_mode")
     def write_vtk(self, index: int, path: Any, scale: float = 1.0, phase: float = 0.0, per_element: int = 8) -> None:
         """A frame of the mode's animation."""
-        check(_lib.dmb_write_vtk_mode(self._handle, index, scale, phase, per_element, path_of(path)))
+        index = index_of("modes", "index", index, len(self))
+        written(path, self._handle, _lib.dmb_write_vtk_mode(
+            self._handle, index, real(scale, "mode", "scale"), real(phase, "mode", "phase"),
+            whole(per_element, "mode", "per_element", 1), path_of(path)))
 
 
 def output(place: Any, component: int = 0, kind: int = OUTPUT_DISPLACEMENT, frame: int = FRAME_WORLD) -> Output:

@@ -1,14 +1,16 @@
 """Channels by their names: numbers that a recorder, a window or a response is asked for."""
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterator
 from ctypes import byref, c_char_p, c_int32
 from enum import IntEnum
 from typing import Any
 
 from ._library import lib as _lib
-from .enums import CHANNEL_WINDOW_MINIMUM
-from .errors import check
+from ._values import refuse_value, shown, whole
+from .enums import CHANNEL_WINDOW_MINIMUM, ERR_VALUE
+from .errors import WrongValue
 
 
 def channel_numbers() -> Iterator[int]:
@@ -23,7 +25,7 @@ def channel_name(quantity: int) -> str:
     """Name of a channel, as "bit_speed"."""
     found = _lib.dmb_channel_name(int(quantity), None)
     if found is None:
-        raise ValueError(f"{quantity} is the number of no channel")
+        refuse_value("channel", "quantity", quantity, "be the number of a channel, CHANNEL_...")
     return str(found.decode())
 
 
@@ -31,19 +33,21 @@ def channel_unit(quantity: int) -> str:
     """Unit of a channel, as "rad/s"."""
     unit = c_char_p()
     if _lib.dmb_channel_name(int(quantity), byref(unit)) is None:
-        raise ValueError(f"{quantity} is the number of no channel")
+        refuse_value("channel", "quantity", quantity, "be the number of a channel, CHANNEL_...")
     return (unit.value or b"").decode()
 
 
 def channel_quantity(name: str | int) -> int:
     """The number of a channel by its name, as "bit_speed"; a number stays what it is."""
     if not isinstance(name, str):
-        return int(name)
+        number_given = whole(name, "channel", "quantity", 0, 2 ** 31 - 1)
+        channel_name(number_given)
+        return number_given
     number = c_int32()
-    try:
-        check(_lib.dmb_channel_quantity(name.encode(), byref(number)))
-    except Exception:
-        raise ValueError(f"{name!r} is no channel; drillmbd.channel_names() lists them") from None
+    if _lib.dmb_channel_quantity(name.encode(), byref(number)) < 0:
+        close = difflib.get_close_matches(name, channel_names(), 1)
+        raise WrongValue(ERR_VALUE, f"channel: quantity = {shown(name)}, must be one of drillmbd.channel_names()"
+                         + (f"; '{close[0]}'?" if close else ""))
     return number.value
 
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from ._handle import Handle
 from ._keep import as_place, mirrors, station
 from ._library import lib as _lib
+from ._parts import index_of
 from ._structs import FatigueOptions, FatigueResult, Place
-from .errors import check
+from ._values import whole
 
 if TYPE_CHECKING:
     from ._structs import Id
@@ -30,27 +31,30 @@ class Fatigue(Handle):
     _kind = "fatigue"
 
     def __init__(self, sim: Sim, places: Sequence[Any], options: FatigueOptions) -> None:
-        self._sim, self._handle, self._options = sim, c_void_p(), options
+        self.sim, self._handle, self._options = sim, c_void_p(), options
+        self._count = len(places)
         asked = (Place * len(places))(*[as_place(place) for place in places])
         sim._check(_lib.dmb_fatigue_create(sim._handle, byref(options), asked, len(places), byref(self._handle)))
 
     @mirrors("dmb_fatigue_take")
     def take(self) -> int:
         """Takes a sample; returns the status."""
-        return check(_lib.dmb_fatigue_take(self._handle, self._sim._handle))
+        return self._sure(_lib.dmb_fatigue_take(self._handle, self.sim._handle))
 
     @mirrors("dmb_fatigue_get")
     def result(self, place: int = 0) -> FatigueResult:
         """Damage, cycles, largest range [Pa] and life [s] of a place, by its number."""
         answer: FatigueResult = FatigueResult.blank()
-        check(_lib.dmb_fatigue_get(self._handle, place, byref(answer)))
+        place = index_of("fatigue", "place", place, self._count)
+        self._sure(_lib.dmb_fatigue_get(self._handle, place, byref(answer)))
         return answer
 
     @mirrors("dmb_fatigue_histogram")
     def histogram(self, place: int = 0) -> tuple[list[float], list[float]]:
         """Ranges [Pa] and how many cycles have them, at the worst point of a place."""
         cycles = (c_double * self._options.classes)()
-        check(_lib.dmb_fatigue_histogram(self._handle, place, cycles))
+        place = index_of("fatigue", "place", place, self._count)
+        self._sure(_lib.dmb_fatigue_histogram(self._handle, place, cycles))
         width = 2.0 * self._options.stress_range / self._options.classes
         return [i * width for i in range(len(cycles))], list(cycles)
 
@@ -59,8 +63,9 @@ class StringFatigue:
     """Counts along a whole string, in the middle of each pipe; made by Sim.string_fatigue."""
 
     def __init__(self, sim: Sim, string: Id, pipes: int, **fields: Any) -> None:
+        pipes = whole(pipes, "string fatigue", "pipes", 1)
         self.pipes, places = middles(string, pipes)  #: numbers of the pipes, from the rig end
-        self.counter = sim.fatigue(places, **fields)
+        self.sim, self.counter = sim, sim.fatigue(places, **fields)
 
     def take(self) -> int:
         """A sample; returns the status."""

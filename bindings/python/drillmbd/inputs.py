@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._keep import mirrors
 from ._library import lib as _lib
+from ._values import real, whole
 from ._structs import Id, InputInfo, InputRecord, InputState
 
 if TYPE_CHECKING:
@@ -56,7 +57,8 @@ class Inputs(MutableMapping[str, float]):
     def set(self, values: Mapping[str, float]) -> int:
         """Sets several at once, all or none; returns the status, NOTE_CLAMPED where a bound was taken instead."""
         ids = (Id * len(values))(*(self._id(name) for name in values))
-        numbers = (c_double * len(values))(*values.values())
+        numbers = (c_double * len(values))(*(real(value, f"input {name}", "value", self.info[name].unit.decode())
+                                             for name, value in values.items()))
         return self._sim._check(_lib.dmb_sim_set_inputs(self._sim._handle, ids, numbers, len(values)))
 
     @mirrors("dmb_sim_record_inputs")
@@ -78,9 +80,10 @@ class InputLog:
     """Records of what was set when, written by the library while the sim lives."""
 
     def __init__(self, sim: Sim, capacity: int) -> None:
-        self._sim, self._records = sim, (InputRecord * max(capacity, 1))()
+        capacity = whole(capacity, "input log", "capacity", 1)
+        self._sim, self._records = sim, (InputRecord * capacity)()
         sim._log = self  # the memory lives as long as the sim may write to it
-        sim._check(_lib.dmb_sim_record_inputs(sim._handle, self._records, max(capacity, 1)))
+        sim._check(_lib.dmb_sim_record_inputs(sim._handle, self._records, capacity))
 
     def take(self) -> list[InputRecord]:
         """The records so far, copied."""

@@ -6,15 +6,17 @@ from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, create_string_
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
-from ._keep import Keep, as_id, mirrors, path_of, struct
+from ._keep import Keep, as_id, mirrors, path_of, struct, written
 from ._library import lib as _lib
+from ._parts import Parts, closed, is_closed
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, Motor, PipeDef, Place, RingDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
                        SubDef, Term, WallDef)
-from .enums import NAME_SIZE, PartKind, Status
-from .errors import check
+from ._values import real, refuse_type, refuse_value, whole
+from .enums import ERR_ORDER, NAME_SIZE, PartKind, Status
+from .errors import Error, check, status_text
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -32,6 +34,7 @@ class Model(Handle):
         self._handle = c_void_p()
         self.calls: list[tuple[str, tuple[Any, ...]]] = []
         self.ids: list[Id] = []  # given out so far, in the order of their calls
+        self._parts, self._compiled = Parts(), False
         options = ModelOptions()
         if log is not None:
             options.log = self._keep.log(log)
@@ -68,7 +71,19 @@ class Model(Handle):
         return str(_lib.dmb_model_message(self._handle).decode())
 
     def _check(self, status: int) -> int:
+        if status >= 0:
+            return self._keep.check(status, b"")
+        if is_closed(self._handle, status):
+            raise closed("model")
+        if self._compiled:  # its message is that of the compilation
+            raise Error(status, "model: state = compiled, must be one that is still described; add parts before compile()"
+                        if status == ERR_ORDER else status_text(status))
         return self._keep.check(status, _lib.dmb_model_message(self._handle))
+
+    def _given(self, part: Id, pipes: int = 0) -> Id:
+        self.ids.append(part)
+        self._parts.add(part, pipes)
+        return part
 
     def _note(self, name: str, *arguments: Any) -> None:
         self.calls.append((name, tuple(one.describe() if isinstance(one, Record) and not isinstance(one, Id) else one
@@ -78,8 +93,7 @@ class Model(Handle):
         part, definition = Id(), struct(cls, given, fields)
         self._check(getattr(_lib, "dmb_model_add_" + kind)(self._handle, byref(definition), byref(part)))
         self._note("add_" + kind, definition)
-        self.ids.append(part)
-        return part
+        return self._given(part)
 
     @mirrors("dmb_model_set_environment")
     def set_environment(self, definition: EnvironmentDef | None = None, **fields: Any) -> None:
@@ -91,18 +105,17 @@ class Model(Handle):
     @mirrors("dmb_model_add_programme")
     def add_programme(self, *terms: Any) -> Id:
         """A programme of one or more terms. A number stands for a constant term, a function of time for a callback."""
-        made = [self._term(term) for term in terms]
+        made = [self._term(number, term) for number, term in enumerate(terms)]
         array, part = (Term * len(terms))(*made), Id()
         self._check(_lib.dmb_model_add_programme(self._handle, array, len(terms), byref(part)))
         self._note("add_programme", *made)
-        self.ids.append(part)
-        return part
+        return self._given(part)
 
-    def _term(self, term: Any) -> Any:
+    def _term(self, number: int, term: Any) -> Any:
         if callable(term):
             term = Term(function=term)
         elif not isinstance(term, Term):
-            term = Term(h0=float(term))
+            term = Term(h0=real(term, f"term {number} of a programme", "value"))
         if term._function is not None:
             term.callback = self._keep.programme(term._function, term.provides)
         return term
@@ -128,10 +141,10 @@ class Model(Handle):
     def add_pipes(self, count: int = 1, definition: PipeDef | None = None, **fields: Any) -> Id:
         """Appends `count` equal pipes, by a PipeDef or its fields; returns the string they belong to."""
         string, definition = Id(), struct(PipeDef, definition, fields)
+        count = whole(count, "pipes", "count")
         self._check(_lib.dmb_model_add_pipes(self._handle, byref(definition), count, byref(string)))
         self._note("add_pipes", count, definition)
-        self.ids.append(string)
-        return string
+        return self._given(string, count)
 
     def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
         """Adds a rigid body, by a BodyDef or its fields; returns its id."""
@@ -166,7 +179,7 @@ class Model(Handle):
         for kind, definition, part in (("body", body, made.body), ("string", section, made.section),
                                        ("joint", joints[0], made.before), ("joint", joints[1], made.after)):
             self._note("add_" + kind, definition)
-            self.ids.append(part)
+            self._given(part)
         return made
 
     def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
@@ -239,6 +252,7 @@ class Model(Handle):
         """Checks and freezes the scene; returns the status."""
         options = struct(CompileOptions, options, fields)
         status = self._check(_lib.dmb_model_compile(self._handle, byref(options)))
+        self._parts.sites, self._compiled = self.info().contact_sites, True
         self._note("compile", options)
         return status
 
@@ -260,7 +274,7 @@ class Model(Handle):
         """The part of that name, of a kind or of all; model["rotary head"] is the same. Raises KeyError where there is
         none, and where parts of several kinds have it and no kind is given."""
         part = Id()
-        status = _lib.dmb_model_find(self._handle, kind, name.encode(), byref(part))
+        status = self._find(name, kind, part)
         if status == Status.ERR_ID:
             raise KeyError(f"no part is named {name!r}")
         if status == Status.ERR_VALUE:
@@ -271,8 +285,16 @@ class Model(Handle):
     def __getitem__(self, name: str) -> Id:
         return self.find(name)
 
+    def _find(self, name: str, kind: int, part: Id) -> int:
+        if not isinstance(name, str):
+            refuse_type("model", "name", name, "be a text")
+        status = int(_lib.dmb_model_find(self._handle, whole(kind, "model", "kind", 0), name.encode(), byref(part)))
+        if is_closed(self._handle, status):
+            raise closed("model")
+        return status
+
     def __contains__(self, name: str) -> bool:
-        return bool(_lib.dmb_model_find(self._handle, PartKind.ANY, name.encode(), byref(Id())) != Status.ERR_ID)
+        return self._find(name, PartKind.ANY, Id()) != Status.ERR_ID
 
     @mirrors("dmb_model_find_pipes")
     def find_pipes(self, name: str) -> tuple[Id, range]:
@@ -311,6 +333,9 @@ class Model(Handle):
     def hole(self, depth: float) -> HolePoint:
         """The hole's axis at a measured depth [m]."""
         point: HolePoint = HolePoint.blank()
+        depth = real(depth, "hole", "depth", "m")
+        if not abs(depth) < float("inf"):
+            refuse_value("hole", "depth", depth, "be finite")
         self._check(_lib.dmb_query_hole(self._handle, depth, byref(point)))
         return point
 
@@ -329,7 +354,12 @@ class Model(Handle):
     @mirrors("dmb_write_vtk_hole")
     def write_vtk_hole(self, path: Any, depth0: float, depth1: float, spacing: float = 1.0, around: int = 24) -> None:
         """Writes the hole from depth0 to depth1 [m] as a tube for ParaView."""
-        self._check(_lib.dmb_write_vtk_hole(self._handle, depth0, depth1, spacing, around, path_of(path)))
+        if not depth0 < depth1 < float("inf"):
+            refuse_value("hole", "depth1", depth1, f"be > depth0 ({depth0} m)")
+        if not spacing > 0.0:
+            refuse_value("hole", "spacing", spacing, "be > 0")
+        written(path, self._handle, _lib.dmb_write_vtk_hole(self._handle, depth0, depth1, spacing,
+                                                            whole(around, "hole", "around", 3, 10 ** 6), path_of(path)))
 
 
 def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDef, float]:

@@ -10,8 +10,9 @@ from ._keep import station
 from ._library import lib
 from ._optional import need
 from ._structs import Id, ProfileStruct
+from ._values import whole
 from .enums import PROFILE_COUNT, ProfileQuantity
-from .errors import Error, check
+from .errors import Error
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -108,15 +109,14 @@ def values_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = N
                             values=cast(values.ctypes.data, POINTER(c_double)))
     if places is not None:
         request.distance = cast(places.ctypes.data, POINTER(c_double))
-    check(lib.dmb_query_profile(sim._handle, byref(request)))
+    sim._told(lib.dmb_query_profile(sim._handle, byref(request)), lib.dmb_query_profile, request.string)
     return values
 
 
 def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
     """The profile of a string of `pipes` pipes at its rig end and `per_pipe` stations a pipe, spread evenly."""
     numpy = need("numpy")
-    if per_pipe < 1:
-        raise ValueError(f"per_pipe = {per_pipe}, must be >= 1")
+    pipes, per_pipe = whole(pipes, "profile", "pipes", 1), whole(per_pipe, "profile", "per_pipe", 1, 10 ** 6)
     table = values_of(sim, string, QUANTITIES, count=pipes * per_pipe + 1)
     contacts = _contacts(sim, string)
     return Profile({one.name.lower(): table[:, i] for i, one in enumerate(QUANTITIES)},

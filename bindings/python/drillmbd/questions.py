@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -14,7 +13,8 @@ from .enums import Status
 from .errors import Usage
 from .scene import Scene
 from .scene.units import UnitError, parse
-from .sim import Progress, Sim
+from .running import Bar
+from .sim import Sim
 
 MOST_ROWS = 50_000_000
 
@@ -101,32 +101,6 @@ def _time(text: str | None, known: float | None, what: str) -> float | None:
     return found
 
 
-class Bar:
-    """Progress: tqdm where it is there and somebody looks, else nothing."""
-
-    def __init__(self, end: float, begin: float, quiet: bool) -> None:
-        self.bar: Any = None
-        self.begin, self.done = begin, begin
-        if not quiet and sys.stderr.isatty():
-            try:
-                self.bar = need("tqdm").tqdm(total=end - begin, unit="s", unit_scale=False,
-                                             bar_format="{percentage:3.0f} %|{bar}| {n:.2f}/{total:.2f} s, left "
-                                                        "{remaining}{postfix}")
-            except ImportError:
-                pass
-
-    def __call__(self, at: Progress) -> None:
-        if self.bar is not None:
-            self.bar.set_postfix_str(f"{at.real_time_factor:.1f} times real time", refresh=False)
-            self.bar.update(at.time - self.done)
-        self.done = at.time
-
-    def close(self) -> None:
-        """Leaves the line."""
-        if self.bar is not None:
-            self.bar.close()
-
-
 def run(scene: Scene, output: Output, options: Any) -> int:
     """The scene in time."""
     end = _time(options.until, scene.run.get("end"), "until")
@@ -156,7 +130,7 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
     every = scene.output.get("vtk_interval") if output.folder is not None else None
     if every and step:
         every = max(1, round(every / step)) * step  # whole steps: files change no step
-    bar, frame, steps, elapsed, begin = Bar(end, sim.time, output.quiet), 0, 0, 0.0, sim.time
+    bar, frame, steps, elapsed, begin = None if output.quiet else Bar(sim.time, end), 0, 0, 0.0, sim.time
     stopped = False
     try:
         while end - sim.time > (1e-6 * step if step else 0.0):
@@ -169,7 +143,8 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
     except KeyboardInterrupt:
         stopped = True
         output.summary["notes"].append(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
-    bar.close()
+    if bar is not None:
+        bar.close()
     if every:
         sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
     output.summary["run"] = {"time_s": sim.time, "end_s": end, "steps": sim.statistics().steps,

@@ -6,19 +6,39 @@ from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double
 from typing import TYPE_CHECKING, Any
 
-from ._keep import as_id, as_place, mirrors, path_of, station
+from ._keep import as_id, as_place, mirrors, path_of, station, written
 from ._library import lib as _lib
 from ._optional import need, numpy
-from ._structs import Channel, Id, ProfileRecorderStruct, ProfileStruct, RecorderStruct
+from ._structs import Channel, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
+from ._values import real, reals, refuse_type, refuse_value, whole
 from .channels import channel_name, channel_quantity, channel_unit
-from .enums import CHANNEL_PROFILE
-from .errors import check
+from .enums import CHANNEL_PROFILE, PROFILE_COUNT
 
 from .profile import unit_of
 
 if TYPE_CHECKING:
     from .sim import Sim
     from .window import Window
+
+def _channel(number: int, given: Any) -> tuple[Any, ...]:
+    """(place, number of the quantity, perhaps a name) of a pair or triple."""
+    part = f"recorder channel {number}"
+    if not isinstance(given, (tuple, list)) or len(given) not in (2, 3):
+        refuse_type(part, "channel", given, 'be a pair (place, "bit_speed") or a triple with a name')
+    place, quantity, *name = given
+    if isinstance(place, str) or isinstance(quantity, (Place, Id)):
+        refuse_type(part, "channel", given, 'have the place first: (place, "bit_speed")')
+    if name and not isinstance(name[0], str):
+        refuse_type(part, "name", name[0], "be a text")
+    return (station(Id(), place) if isinstance(place, int) else place, channel_quantity(quantity), *name)
+
+
+def _interval(value: Any) -> float:
+    interval = real(value, "recorder", "interval", "s")
+    if not 0.0 <= interval < float("inf"):
+        refuse_value("recorder", "interval", interval, "be >= 0 and finite")
+    return interval
+
 
 class Recorder:
     """A table of rows (time, channels...). channels are pairs (place, "bit_speed") or (place, CHANNEL_...), or triples
@@ -27,13 +47,15 @@ class Recorder:
 
     def __init__(self, sim: Sim, channels: Sequence[Any], capacity: int, interval: float = 0.0,
                  window: Window | None = None) -> None:
-        self._sim, self._window = sim, window
-        channels = [(station(Id(), place) if isinstance(place, int) else place, channel_quantity(quantity), *name)
-                    for place, quantity, *name in channels]
+        self.sim, self._window = sim, window
+        capacity, interval = whole(capacity, "recorder", "capacity", 1, 2 ** 40), _interval(interval)
+        channels = [_channel(number, one) for number, one in enumerate(channels)]
         self._names = [self._name(*channel) for channel in channels]
         self._channels = (Channel * len(channels))(*[Channel(as_place(place), quantity, 0)
                                                      for place, quantity, *_ in channels])
         self._width = 1 + len(channels)
+        if window is None:
+            sim._check(_lib.dmb_channel_check(sim._handle, self._channels, len(channels)))
         if numpy is not None:
             self._memory: Any = numpy.zeros((capacity, self._width))
             table = self._memory.ctypes.data_as(POINTER(c_double))
@@ -58,7 +80,7 @@ class Recorder:
     @mirrors("dmb_recorder_take")
     def take(self) -> int:
         """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
-        return check(_lib.dmb_recorder_take(byref(self._struct), self._sim._handle))
+        return self.sim._told(_lib.dmb_recorder_take(byref(self._struct), self.sim._handle), _lib.dmb_recorder_take)
 
     def __len__(self) -> int:
         return int(self._struct.row_count)
@@ -84,7 +106,7 @@ class Recorder:
     @mirrors("dmb_recorder_write_csv")
     def write_csv(self, path: Any) -> None:
         """Writes the table as CSV."""
-        check(_lib.dmb_recorder_write_csv(byref(self._struct), path_of(path)))
+        written(path, self._struct, _lib.dmb_recorder_write_csv(byref(self._struct), path_of(path)))
 
 
 class ProfileRecorder:
@@ -93,8 +115,11 @@ class ProfileRecorder:
 
     def __init__(self, sim: Sim, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
                  interval: float = 0.0, string: Id | None = None) -> None:
-        self._sim, self._quantities = sim, [int(quantity) for quantity in quantities]
-        count = stations if isinstance(stations, int) else len(stations)
+        self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, PROFILE_COUNT - 1) for one in quantities]
+        capacity, interval = whole(capacity, "profile recorder", "capacity", 1, 2 ** 40), _interval(interval)
+        if not isinstance(stations, int):
+            stations = reals(stations, "profile recorder", "stations", unit="m")
+        count = whole(stations, "profile recorder", "stations", 1) if isinstance(stations, int) else len(stations)
         self._shape = (count, len(self._quantities))
         self._width = 1 + count * len(self._quantities)
         self._asked = (ctypes.c_int32 * len(self._quantities))(*self._quantities)
@@ -111,7 +136,7 @@ class ProfileRecorder:
     @mirrors("dmb_profile_recorder_take")
     def take(self) -> int:
         """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
-        return self._sim._check(_lib.dmb_profile_recorder_take(byref(self._struct), self._sim._handle))
+        return self.sim._check(_lib.dmb_profile_recorder_take(byref(self._struct), self.sim._handle))
 
     def __len__(self) -> int:
         return int(self._struct.row_count)
@@ -135,4 +160,4 @@ class ProfileRecorder:
     @mirrors("dmb_profile_recorder_write_csv")
     def write_csv(self, path: Any) -> None:
         """Writes a line for each row and station."""
-        check(_lib.dmb_profile_recorder_write_csv(byref(self._struct), path_of(path)))
+        written(path, self._struct, _lib.dmb_profile_recorder_write_csv(byref(self._struct), path_of(path)))

@@ -4,25 +4,28 @@ from __future__ import annotations
 import ctypes
 import math
 import time as clock
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from . import analysis
 from ._handle import Handle
-from ._keep import Keep, as_place, mirrors, path_of, struct
+from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
 from ._library import lib as _lib
+from ._parts import closed, index_of, is_closed
 from ._progress import Teller
 from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Input, JointState,
                        Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
+from ._values import real, reals, refuse_type, refuse_value, whole
 from .channels import channel_quantity
-from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
-from .errors import check
+from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_FULL, NOTE_STOPPED, OK
+from .errors import Error, check
 from .inputs import InputLog, Inputs
 from .recorder import ProfileRecorder, Recorder
+from .running import Bar, Lengths, Progress, Taker
 
 if TYPE_CHECKING:
     from .model import Model
@@ -36,54 +39,13 @@ _advance_to_event = _lib.dmb_sim_advance_to_event
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
 
 
-class Taker(Protocol):
-    """Takes a sample after each step: Fatigue, StringFatigue, Window."""
-
-    def take(self) -> int:
-        """A sample; returns the status."""
+def _word(function: Any) -> str:
+    """ "pose" of dmb_query_pose, "recorder take" of dmb_recorder_take"""
+    return str(function.__name__).replace("dmb_query_", "").replace("dmb_", "").replace("_", " ")
 
 
-@dataclass
-class Progress:
-    """Progress of Sim.run, for its progress function."""
-    time: float       #: [s] of the sim
-    end: float        #: [s] where the run ends
-    steps: int        #: [-] accepted so far in this run
-    elapsed: float    #: [s] by the clock since the run began
-    begin: float = 0.0  #: [s] of the sim, where the run began
-
-    @property
-    def fraction(self) -> float:
-        """[-] done, 0 .. 1"""
-        return (self.time - self.begin) / (self.end - self.begin) if self.end > self.begin else 1.0
-
-    @property
-    def real_time_factor(self) -> float:
-        """[-] simulated time over time by the clock"""
-        return (self.time - self.begin) / self.elapsed if self.elapsed > 0.0 else 0.0
-
-
-class _Lengths:
-    """The calls that a run is divided into: equal steps and a shorter last one, or hundredths."""
-
-    def __init__(self, begin: float, end: float, step: float | None) -> None:
-        self.begin, self.end, self.length, self.rest = begin, end, step, 0.0
-        self.count = 100 if end > begin else 0
-        if step is not None and not step > 0.0:
-            raise ValueError(f"step = {step} s, must be > 0")
-        if step:
-            self.count = max(0, math.floor((end - begin) / step + 1e-6))
-            rest = end - begin - self.count * step
-            if rest > 1e-6 * step:
-                self.rest, self.count = rest, self.count + 1
-
-    def step(self, number: int) -> float:
-        """[s] length of step `number`, from 1."""
-        return self.rest if self.rest and number == self.count else self.length or 0.0
-
-    def target(self, number: int) -> float:
-        """[s] where call `number` ends, from 1."""
-        return self.end if number == self.count else self.begin + (self.end - self.begin) * number / self.count
+def _offset(offset: Any) -> Any:
+    return (c_double * 3)(*reals(offset, "place", "offset", 3, "m"))
 
 
 class Sim(Handle, analysis.Analyses):
@@ -97,12 +59,14 @@ class Sim(Handle, analysis.Analyses):
         self._keep = Keep()  # its own log
         self._inputs, self._events = model.inputs(), model.events()
         self._log: InputLog | None = None
-        self._scene = model._keep  # callbacks live as long as the last sim
+        self._scene, self._parts = model._keep, model._parts  # callbacks live as long as the last sim
         self._teller = Teller()
         options = struct(SimOptions, options, fields)
         if log is not None:
             options.log = self._keep.log(log)
         status = _lib.dmb_sim_create(model._handle, byref(options), byref(self._handle))
+        if is_closed(model._handle, status):
+            raise closed("model")
         message = _lib.dmb_model_message(model._handle)
         self._keep.check(OK, b"")
         self.status = self._scene.check(status, message)
@@ -118,6 +82,8 @@ class Sim(Handle, analysis.Analyses):
     @property
     def time(self) -> float:
         """[s] of the last accepted state"""
+        if not self._handle:
+            raise closed("sim")
         return float(_lib.dmb_sim_time(self._handle))
 
     @property
@@ -133,7 +99,9 @@ class Sim(Handle, analysis.Analyses):
         check(self._teller.set(self._handle, function))
 
     def _check(self, status: int) -> int:
-        self._teller.rethrow()
+        self._teller.rethrow()  # what the progress function raised
+        if is_closed(self._handle, status):
+            raise closed("sim")
         return self._scene.check(status, _lib.dmb_sim_message(self._handle) if status < 0 else b"")
 
     # ---- Running ----------------------------------------------------------------------------------------------------
@@ -141,13 +109,18 @@ class Sim(Handle, analysis.Analyses):
     def step(self, duration: float) -> StepReport:
         """Advances by duration [s]; returns the report, whose status may be a note."""
         report: StepReport = StepReport.blank()
-        _set_status(report, "status", self._check(_step(self._handle, duration, byref(report))))
+        try:
+            status = _step(self._handle, duration, byref(report))
+        except ctypes.ArgumentError:
+            status = _step(self._handle, real(duration, "step", "duration", "s"), byref(report))
+        _set_status(report, "status", self._check(status))
         return report
 
     @mirrors("dmb_sim_advance")
     def advance(self, time: float) -> StepReport:
         """Advances to time [s] with steps of its own choice."""
         report: StepReport = StepReport.blank()
+        time = real(time, "advance", "time", "s")
         _set_status(report, "status", self._check(self._teller.long_call(self._handle, _advance, time, byref(report))))
         return report
 
@@ -156,48 +129,76 @@ class Sim(Handle, analysis.Analyses):
         """Advances to the first event on the way to time [s]: the names of those told there, at sim.time. None: [], and
         the sim is at `time`, or where its max_steps or the progress function ended it."""
         report: EventReport = EventReport.blank()
-        self._check(self._teller.long_call(self._handle, _advance_to_event, time, byref(report), None))
+        self._check(self._teller.long_call(self._handle, _advance_to_event, real(time, "advance", "time", "s"),
+                                           byref(report), None))
         return [name for i, name in enumerate(self._events) if report.events >> i & 1]
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
-            progress: Callable[[Progress], Any] | None = None, every: float = 0.2, counters: Sequence[Taker] = ()) -> Progress:
+            progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,
+            counters: Sequence[Taker] = ()) -> Progress:
         """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
         a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
-        recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows. progress(Progress) is called each `every` seconds by the clock and at the
-        end; what it returns, if true, stops the run there. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can
-        go on, and the recorder has all rows so far."""
-        begin, started, steps = self.time, clock.monotonic(), 0
-        told, number = started, 0
-        lengths = _Lengths(begin, end, step)
+        recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows.
+        progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true, stops the
+        run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on,
+        and the recorder has all rows so far. A full recorder warns, and status of the answer is NOTE_FULL."""
+        begin, started, end = self.time, clock.monotonic(), real(end, "run", "end", "s")
+        lengths = Lengths(begin, end, None if step is None else real(step, "run", "step", "s"))
+        takers = self._own_takers(recorder, counters)
+        if progress is not None and progress is not True and not callable(progress):
+            refuse_type("run", "progress", progress, "be a function of a Progress, or True for a bar")
+        bar = Bar(begin, end) if progress is True else None
+        tell: Any = bar if bar is not None else progress
         if recorder is not None and len(recorder) == 0:
             recorder.take()
-        while number < lengths.count:
-            number += 1
-            if step:
-                report = self.step(lengths.step(number))
-            else:
-                report = self.advance(lengths.target(number))
+        at, told, number = Progress(begin, end, 0, 0.0, begin), started, 0
+        try:
+            while number < lengths.count:
+                number += 1
+                report = self.step(lengths.step(number)) if lengths.length else self.advance(lengths.target(number))
+                at.steps += report.steps
                 if report.status == NOTE_CANCELLED:
-                    steps += report.steps
                     break
                 if report.status == NOTE_STOPPED:  # max_steps of one call; go on
                     number -= 1
-            steps += report.steps
-            if recorder is not None:
-                recorder.take()
-            for one in counters:
-                one.take()
-            now = clock.monotonic()
-            if progress is not None and (now - told >= every or number == lengths.count):
-                told = now
-                if progress(Progress(self.time, end, steps, now - started, begin)):
-                    break
-        return Progress(self.time, end, steps, clock.monotonic() - started, begin)
+                self._take(takers, at)
+                now = clock.monotonic()
+                at.time, at.elapsed = self.time, now - started
+                if tell and (now - told >= every or number == lengths.count):
+                    told = now
+                    if tell(at.copy()):
+                        break
+        finally:
+            if bar is not None:
+                bar.close()
+        at.time, at.elapsed = self.time, clock.monotonic() - started
+        return at
+
+    def _own_takers(self, recorder: Recorder | None, counters: Sequence[Taker]) -> list[Taker]:
+        """Recorder and counters, which must be of this sim: of another they would take its state again and again."""
+        takers = [*([] if recorder is None else [recorder]), *counters]
+        for one in takers:
+            if not hasattr(one, "take"):
+                refuse_type("run", "recorder" if one is recorder else "counters", one, "have a take()")
+            if getattr(one, "sim", self) is not self:
+                refuse_value("run", "recorder" if one is recorder else "counters", one, "be of this sim")
+        return takers
+
+    @staticmethod
+    def _take(takers: list[Taker], at: Progress) -> None:
+        for one in takers:
+            if one.take() == NOTE_FULL and at.status != NOTE_FULL:
+                at.status = NOTE_FULL
+                warnings.warn("the recorder of a run is full: later rows are lost; give it more capacity, or an interval",
+                              RuntimeWarning, stacklevel=4)
 
     @mirrors("dmb_sim_set_drive")
     def set_drive(self, drive: Id, value: float | None) -> None:
         """The drive's programme is the constant value [its unit] from now on; None: its programme again."""
-        self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
+        setting = float("nan") if value is None else real(value, "drive", "value")
+        if value is not None and not math.isfinite(setting):
+            refuse_value("drive", "value", setting, "be finite, or None for its programme")
+        self._check(_lib.dmb_sim_set_drive(self._handle, as_id(drive), setting))
 
     @property
     def inputs(self) -> Inputs:
@@ -208,11 +209,13 @@ class Sim(Handle, analysis.Analyses):
     def set_joint(self, joint: Id, state: int) -> int:
         """The joint is JOINT_ACTIVE, JOINT_LOCKED or JOINT_OPEN from now on; returns the status, NOTE_PROJECTED if
         speeds changed."""
-        return self._check(_lib.dmb_sim_set_joint(self._handle, joint, state))
+        return self._check(_lib.dmb_sim_set_joint(self._handle, as_id(joint), whole(state, "joint", "state", 0, 2)))
 
     @mirrors("dmb_sim_transfer_state")
     def transfer_state(self, other: Sim) -> int:
         """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
+        if not isinstance(other, Sim):
+            refuse_type("state transfer", "other", other, "be a Sim")
         return self._check(_lib.dmb_sim_transfer_state(self._handle, other._handle))
 
     carry_over = transfer_state  # its name before
@@ -229,6 +232,8 @@ class Sim(Handle, analysis.Analyses):
     @mirrors("dmb_sim_restore")
     def restore(self, snapshot: Any) -> None:
         """Goes back, or on, to a snapshot of a sim of the same model and options."""
+        if isinstance(snapshot, (str, int)) or not hasattr(snapshot, "__len__"):
+            refuse_type("snapshot", "snapshot", snapshot, "be bytes of Sim.snapshot")
         snapshot = bytes(snapshot)
         self._check(_lib.dmb_sim_restore(self._handle, snapshot, len(snapshot)))
 
@@ -241,46 +246,58 @@ class Sim(Handle, analysis.Analyses):
 
     # ---- Questions --------------------------------------------------------------------------------------------------
     def _ask(self, function: Any, answer: Any, *arguments: Any) -> Any:
-        _set_status(answer, "status", check(function(self._handle, *arguments, byref(answer))))  # no message
+        status = function(self._handle, *arguments, byref(answer))
+        if status < 0:
+            self._told(status, function, *arguments)
+        _set_status(answer, "status", status)
         return answer
+
+    def _told(self, status: int, function: Any, *arguments: Any) -> int:
+        """The status, or an Error for a part or place that does not fit: questions have no message of their own."""
+        if is_closed(self._handle, status):
+            raise closed("sim")
+        if status < 0:
+            raise Error(status, self._parts.why(status, _word(function), arguments))
+        return status
 
     def _ask_number(self, function: Any, *arguments: Any) -> float:
         value = c_double()
-        check(function(self._handle, *arguments, byref(value)))
+        self._told(function(self._handle, *arguments, byref(value)), function, *arguments)
         return value.value
 
-    def pose(self, place: Place) -> Pose:
+    def pose(self, place: Place | Id) -> Pose:
         """Position [m], rotation matrix, displacement [m] and measured depth [m] of a place."""
-        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), place)
+        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), as_place(place))
         return answer
 
-    def motion(self, place: Place, frame: int = FRAME_WORLD) -> Motion:
+    def motion(self, place: Place | Id, frame: int = FRAME_WORLD) -> Motion:
         """Velocity [m/s, rad/s] and acceleration [m/s2, rad/s2] of a place, each six numbers, in `frame`."""
-        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), place)
+        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), as_place(place))
         return answer
 
-    def pose_at(self, place: Place, offset: Sequence[float]) -> Pose:
+    def pose_at(self, place: Place | Id, offset: Sequence[float]) -> Pose:
         """The pose of a point `offset` [m] away from a place, in its axes."""
-        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), place, (c_double * 3)(*offset))
+        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), as_place(place), _offset(offset))
         return answer
 
-    def motion_at(self, place: Place, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
+    def motion_at(self, place: Place | Id, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
         """The motion of a point `offset` [m] away from a place, in its axes."""
-        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), place, (c_double * 3)(*offset))
+        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place), _offset(offset))
         return answer
 
-    def rotation(self, place: Place) -> float:
+    def rotation(self, place: Place | Id) -> float:
         """[rad] about the pipe's own axis since time 0, revolutions counted"""
-        return self._ask_number(_lib.dmb_query_rotation, place)
+        return self._ask_number(_lib.dmb_query_rotation, as_place(place))
 
     @mirrors("dmb_query_section")
-    def section(self, place: Place) -> Section:
+    def section(self, place: Place | Id) -> Section:
         """Forces [N, N m] and strains of a section, six numbers each."""
-        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), place)
+        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), as_place(place))
         return answer
 
     def contact(self, site: int) -> Contact:
         """Gap [m], forces [N] and slip [m/s] at contact site number `site`, of info().contact_sites."""
+        site = index_of("contact", "site", site, self._parts.sites)
         answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), site)
         return answer
 
@@ -294,12 +311,15 @@ class Sim(Handle, analysis.Analyses):
     def hole(self, depth: float) -> HolePoint:
         """The hole at a measured depth [m] as its cutters have left it up to now."""
         point: HolePoint = HolePoint.blank()
+        depth = real(depth, "hole", "depth", "m")
+        if not math.isfinite(depth):
+            refuse_value("hole", "depth", depth, "be finite")
         self._check(_lib.dmb_query_hole_now(self._handle, depth, byref(point)))
         return point
 
     def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""
-        return self._ask_number(_lib.dmb_query_kinetic_energy, part, pipe)
+        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part), whole(pipe, "kinetic energy", "pipe"))
 
     @mirrors("dmb_query_energy")
     def energy(self) -> Energy:
@@ -314,34 +334,35 @@ class Sim(Handle, analysis.Analyses):
 
     def drive(self, drive: Id) -> DriveState:
         """Target, position, speed, force, power [W] and work [J] of a drive."""
-        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), drive)
+        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), as_id(drive))
         return answer
 
     def reaction(self, part: Id) -> list[float]:
         """[N, N m] of guide and motion drives on the rig end of a string or a body, body frame, six numbers"""
         values = (c_double * 6)()
-        check(_lib.dmb_query_reaction(self._handle, part, values))
+        self._told(_lib.dmb_query_reaction(self._handle, as_id(part), values), _lib.dmb_query_reaction, part)
         return list(values)
 
     def joint(self, joint: Id, frame: int = FRAME_WORLD) -> JointState:
         """Coordinates, rates, reaction [N, N m] and action of a joint, six numbers each."""
-        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), joint)
+        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), as_id(joint))
         return answer
 
     def multipliers(self, part: Id) -> list[float]:
         """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
         values, count = (c_double * 6)(), c_uint32()
-        check(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)))
+        self._told(_lib.dmb_query_multipliers(self._handle, as_id(part), values, byref(count)), _lib.dmb_query_multipliers,
+                   part)
         return list(values)[:count.value]
 
     def spring(self, spring: Id) -> SpringState:
         """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
-        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), spring)
+        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), as_id(spring))
         return answer
 
     def stuck(self, stuck: Id) -> StuckState:
         """Whether a place is stuck; offset, force that holds it, share of what frees it."""
-        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), stuck)
+        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck))
         return answer
 
     def flow(self) -> FlowState:
@@ -351,7 +372,7 @@ class Sim(Handle, analysis.Analyses):
 
     def bit(self, bit: Id) -> BitState:
         """Advance [m], depth of cut [m], weight [N] and torque [N m] of a bit."""
-        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), bit)
+        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), as_id(bit))
         return answer
 
     def statistics(self) -> Statistics:
@@ -370,7 +391,7 @@ class Sim(Handle, analysis.Analyses):
         """The value of a channel by its name or number at a place, or of a part; None: the first string, or none."""
         asked, value = Channel(as_place(place), channel_quantity(quantity), 0), c_double()
         self._check(_lib.dmb_channel_check(self._handle, byref(asked), 1))
-        check(_lib.dmb_query_channel(self._handle, byref(asked), byref(value)))
+        self._told(_lib.dmb_query_channel(self._handle, byref(asked), byref(value)), _lib.dmb_query_channel)
         return value.value
 
     @mirrors("dmb_window_create")
@@ -425,14 +446,15 @@ class Sim(Handle, analysis.Analyses):
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:
         """Writes the strings as lines with fields for ParaView."""
-        check(_lib.dmb_write_vtk_strings(self._handle, per_element, path_of(path)))
+        written(path, self._handle, _lib.dmb_write_vtk_strings(self._handle, whole(per_element, "strings", "per_element", 1),
+                                                               path_of(path)))
 
 
 class SimAt(Sim):
     """A sim that the library lends to a callback."""
 
     def __init__(self, of: Sim, handle: Any) -> None:
-        self._handle, self._keep, self._scene = c_void_p(handle), of._keep, of._scene
+        self._handle, self._keep, self._scene, self._parts = c_void_p(handle), of._keep, of._scene, of._parts
 
     def close(self) -> None:
         """Nothing is given back: it is not ours."""

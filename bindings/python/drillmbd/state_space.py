@@ -6,14 +6,14 @@ from ctypes import POINTER, byref, c_double, c_int32, c_uint32, c_uint64, c_void
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
-from ._keep import as_place, mirrors
+from ._keep import as_id, as_place, mirrors
 from ._library import lib as _lib
 from ._optional import need
 from ._structs import Input, Output, Row, StateSpaceInfo, StateSpaceOptions
 from .enums import (ARRAY_ACCELERATION, ARRAY_MULTIPLIER, ARRAY_POSITION, ARRAY_QUATERNION, ARRAY_RESIDUAL, ARRAY_VELOCITY,
                     FRAME_WORLD, MATRIX_A, MATRIX_COORDINATES, MATRIX_DAMPING, MATRIX_JACOBIAN, MATRIX_MASS,
                     MATRIX_STIFFNESS, STATE_REDUCED)
-from .errors import check
+from ._values import whole
 
 if TYPE_CHECKING:
     from .analysis import Modes
@@ -36,11 +36,11 @@ class StateSpace(Handle):
         sim._check(sim._long(_lib.dmb_analysis_state_space, byref(options), given, len(inputs), asked, len(outputs),
                              byref(self._handle)))
         self.info: StateSpaceInfo = StateSpaceInfo.blank()
-        check(_lib.dmb_state_space_get_info(self._handle, byref(self.info)))
+        self._sure(_lib.dmb_state_space_get_info(self._handle, byref(self.info)))
 
     def _dense(self, which: int, rows: int, columns: int) -> Any:
         values = need("numpy").zeros((rows, columns))
-        check(_lib.dmb_state_space_dense(self._handle, which, values.ctypes.data_as(POINTER(c_double))))
+        self._sure(_lib.dmb_state_space_dense(self._handle, which, values.ctypes.data_as(POINTER(c_double))))
         return values
 
     @property
@@ -72,7 +72,7 @@ class StateSpace(Handle):
     def shapes(self) -> Any:
         """Motions of the coordinates of A by rows, shape (coordinates, rows)"""
         values = need("numpy").zeros((self.info.coordinates, self.info.rows))
-        check(_lib.dmb_state_space_shapes(self._handle, values.ctypes.data_as(POINTER(c_double))))
+        self._sure(_lib.dmb_state_space_shapes(self._handle, values.ctypes.data_as(POINTER(c_double))))
         return values
 
     @mirrors("dmb_state_space_sparse")
@@ -80,11 +80,11 @@ class StateSpace(Handle):
         """One of MATRIX_MASS .. MATRIX_COORDINATES as scipy.sparse.csr_matrix."""
         numpy = need("numpy")
         count, info = c_uint64(), self.info
-        check(_lib.dmb_state_space_sparse(self._handle, which, None, None, None, byref(count)))
+        self._sure(_lib.dmb_state_space_sparse(self._handle, which, None, None, None, byref(count)))
         rows, columns = (numpy.zeros(count.value, dtype=numpy.uint32) for _ in range(2))
         values = numpy.zeros(count.value)
         if count.value > 0:
-            check(_lib.dmb_state_space_sparse(self._handle, which, rows.ctypes.data_as(POINTER(c_uint32)),
+            self._sure(_lib.dmb_state_space_sparse(self._handle, which, rows.ctypes.data_as(POINTER(c_uint32)),
                                               columns.ctypes.data_as(POINTER(c_uint32)),
                                               values.ctypes.data_as(POINTER(c_double)), byref(count)))
         height = info.constraint_rows if which == MATRIX_JACOBIAN else info.rows
@@ -168,7 +168,7 @@ class Arrays:
     def row(self, row: int) -> Row:
         """The part or node that a row belongs to."""
         answer: Row = Row.blank()
-        check(_lib.dmb_query_row(self._sim._handle, row, byref(answer)))
+        self._sim._told(_lib.dmb_query_row(self._sim._handle, whole(row, "row", "row"), byref(answer)), _lib.dmb_query_row)
         return answer
 
     @mirrors("dmb_analysis_place_rows")
@@ -183,5 +183,6 @@ class Arrays:
     def constraint(self, part: Any) -> range:
         """Rows of the Jacobian of a joint, coupling, constraint or joint drive."""
         first, count = c_uint32(), c_uint32()
-        check(_lib.dmb_query_constraint_rows(self._sim._handle, part, byref(first), byref(count)))
+        self._sim._told(_lib.dmb_query_constraint_rows(self._sim._handle, as_id(part), byref(first), byref(count)),
+                        _lib.dmb_query_constraint_rows)
         return range(first.value, first.value + count.value)

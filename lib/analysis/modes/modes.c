@@ -67,7 +67,8 @@ static int32_t check_balance(const dmb_mode_search *search)
     if (linear->relative_residual <= allowed || (linear->balanced && allowed >= DMB_LINEAR_BALANCED)) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
     dmb_message_set(search->message,
-                    "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s",
+                    "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s, "
+                    "call dmb_analysis_static first",
                     linear->relative_residual, allowed, linear->largest_force, owner.text.text);
     return DMB_ERR_VALUE;
 }

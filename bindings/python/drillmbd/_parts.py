@@ -1,0 +1,95 @@
+"""The parts of a model as messages need them: C queries answer a wrong part or place with a status alone."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ._structs import Id, Place
+from ._values import shown
+from .enums import ERR_HANDLE, ERR_NULL, PartKind
+from .errors import Error, WrongValue, status_text
+
+WHOLE_STRING = 0xFFFFFFFF
+
+
+class Parts:
+    """Stamp of the model, pipes of its strings by their id's index, contact sites."""
+
+    def __init__(self) -> None:
+        self.stamp = 0
+        self.pipes: dict[int, int] = {}
+        self.sites = 0
+
+    def add(self, part: Id, pipes: int = 0) -> None:
+        """A part of the model, with as many further pipes."""
+        self.stamp = part.generation
+        if part.index >> 24 == PartKind.STRING:
+            self.pipes[part.index] = self.pipes.get(part.index, 0) + pipes
+
+    def why_part(self, word: str, part: Id, wanted: str) -> str:
+        """What is wrong with a part where one of the kinds `wanted` is needed; "" where nothing is."""
+        if not part:
+            return f"{word}: part = none, must be {wanted} of this model"
+        if part.generation != self.stamp:
+            return (f"{word}: part = {named(part)} of another model, must be {wanted} of this model; "
+                    "model.own(part) finds that of a copy")
+        kind = named(part).split()[0]
+        return "" if kind in wanted else f"{word}: part = {named(part)}, must be {wanted} of this model"
+
+    def why_place(self, word: str, place: Place) -> str:
+        """What is wrong with a place; "" where nothing is."""
+        wrong = self.why_part(word, place.part, "a string, body, bit or ring")
+        if wrong or place.part.index not in self.pipes:
+            return wrong
+        count = self.pipes[place.part.index]
+        if place.pipe >= count:
+            return f"{word} at {named(place.part)}: pipe = {place.pipe}, must be 0 .. {count - 1}"
+        if not 0.0 <= place.fraction <= 1.0 or math.isnan(place.fraction):
+            return f"{word} at {named(place.part)}: fraction = {place.fraction:g}, must be 0 .. 1"
+        return ""
+
+    def why(self, status: int, word: str, arguments: tuple[Any, ...]) -> str:
+        """The message of a question that failed for its part or place; the text of the status where it did not."""
+        for one in arguments:
+            wrong = ""
+            if isinstance(one, Place):
+                wrong = self.why_place(word, one)
+            elif isinstance(one, Id):
+                wrong = self.why_part(word, one, _WANTED.get(word, "a part"))
+            if wrong:
+                return wrong
+        return f"{word}: {status_text(status)}"
+
+
+_WANTED = {"drive": "a drive", "joint": "a joint", "bit": "a bit", "spring": "a spring", "stuck": "a stuck place",
+           "reaction": "a string or body", "multipliers": "a joint, coupling, constraint or drive",
+           "kinetic energy": "a string or body", "profile": "a string"}
+
+
+def named(part: Id) -> str:
+    """ "string 0", "drive 2" """
+    try:
+        kind = PartKind(part.index >> 24).name.lower()
+    except ValueError:
+        kind = "part"
+    return f"{kind} {part.index & 0xFFFFFF}"
+
+
+def closed(kind: str) -> Error:
+    """The Error of a question to an object that was given back."""
+    return Error(ERR_HANDLE, f"{kind}: handle = closed, must be open; close() or the end of its with block gave it back")
+
+
+def is_closed(handle: Any, status: int) -> bool:
+    """Whether a status tells that an object of the library was given back."""
+    return status == ERR_NULL and not handle
+
+
+def index_of(word: str, field: str, value: Any, count: int) -> int:
+    """The number of one of `count` things."""
+    from ._values import whole
+    number = whole(value, word, field, -2 ** 31, 2 ** 32 - 1)
+    if not 0 <= number < count:
+        bound = f"be 0 .. {count - 1}" if count else "not be asked: there are none"
+        raise WrongValue(-5, f"{word}: {field} = {shown(value)}, must {bound}")
+    return number
