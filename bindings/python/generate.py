@@ -166,6 +166,12 @@ class Reader:
                 found.append((enum_class(group[0][0], group), group))
         return found
 
+    def users(self, name):
+        """A sentence of the functions that a struct is for."""
+        found = [function for function, signature, _ in self.prototypes()
+                 if f"POINTER({name})" in signature and not function.endswith("_init")]
+        return f"For {', '.join(found[:4])}." if found else ""
+
     def prototypes(self):
         """[(name, signature, text)]"""
         found = []
@@ -208,16 +214,17 @@ def enum_lines(name, members):
     if name == "Status":
         prefix = ""
     yield f"class {name}({kind}):"
-    yield f'    """{"Bits" if kind == "IntFlag" else "Values"} DMB_{prefix}... of the headers."""'
-    for member, value, text in members:
-        short = member[len(prefix):]
-        short = short if not short[0].isdigit() else "_" + short
-        yield f"    {short} = {value}" + (f"  #: {text}" if text else "")
+    shorts = [short if not short[0].isdigit() else "_" + short for short in (member[len(prefix):] for member, _, _ in members)]
+    told = [f"    {short}: {text}" for short, (_, _, text) in zip(shorts, members) if text]
+    yield f'    """{"Bits" if kind == "IntFlag" else "Values"} DMB_{prefix}... of the headers.' + ('' if told else '"""')
+    if told:
+        yield from ["", *(line.replace('"', "'") for line in told), '    """']
+    for short, (_, value, _) in zip(shorts, members):
+        yield f"    {short} = {value}"
     yield ""
     yield ""
-    for member, _, _ in members:
-        short = member[len(prefix):]
-        yield f"{member} = {name}.{short if not short[0].isdigit() else '_' + short}"
+    for short, (member, _, _) in zip(shorts, members):
+        yield f"{member} = {name}.{short}"
     yield ""
     yield ""
 
@@ -237,8 +244,8 @@ def struct_lines(reader, c_name, fields, text):
     name = class_name(c_name)
     bases = ([MIXINS[name]] if name in MIXINS else []) + ["Sized" if c_name in reader.sized else "Record"]
     yield f"class {name}({', '.join(bases)}):"
-    shown = [field for field in fields if field[0] != "struct_size" and not field[0].endswith("reserved")]
-    yield f"    c_name, about = {quoted(c_name)}, {quoted(text)}"
+    shown = [field for field in fields if field[0] != "struct_size" and not re.search(r"reserved\d*$", field[0])]
+    yield f"    c_name, about = {quoted(c_name)}, {quoted(text if len(text.split()) > 2 else reader.users(name))}"
     for field, kind, _, _ in fields:
         yield f"    {field}: {python_type(kind)}"
     yield "    _fields_: ClassVar[Any] = ["
@@ -304,7 +311,10 @@ def enums_text(reader):
         lines += enum_lines(name, members)
     lines += [f"{name} = 0xFFFFFFFF" for name in re.findall(r"^#define DMB_(\w+) UINT32_MAX", reader.text, re.M)]
     lines += ["", "ENUMS = ("] + [f"    {name}," for name, _ in enums] + [")"]
-    return lines
+    return lines + ["", "for _enum in ENUMS:  # help(drillmbd.PIPE_RIGID) tells its own line",
+                    '    for _line in (_enum.__doc__ or "").splitlines()[2:-1]:',
+                    '        _name, _text = _line.strip().split(": ", 1)',
+                    "        _enum[_name].__doc__ = _text"]
 
 
 def structs_text(reader):
@@ -313,7 +323,10 @@ def structs_text(reader):
         if kind == "struct":
             lines += struct_lines(reader, *content)
         else:
-            lines += [f"{function_type(content[1])} = CFUNCTYPE({reader.signature(content[0], content[2])})", "", ""]
+            name, place = function_type(content[1]), re.search(rf"^typedef \w+ \(\*{content[1]}\)", reader.text, re.M).start()
+            lines += [f"{name} = CFUNCTYPE({reader.signature(content[0], content[2])})",
+                      f"{name}.__doc__ = {quoted(reader.comment_before(place) or f'The function {content[1]} of the headers.')}",
+                      "", ""]
     lines.append("STRUCTS: dict[str, Any] = {}  # name in C -> class")
     return lines + [f"STRUCTS[{quoted(name)}] = {class_name(name)}" for name, _, _ in reader.structs()]
 

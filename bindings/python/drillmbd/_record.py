@@ -48,7 +48,9 @@ class Record(ctypes.Structure):
             own = cls.__doc__ if "__doc__" in cls.__dict__ else None
             mixed = cls.__mro__[1].__doc__ if cls.__mro__[1].__name__.endswith("Part") else None
             parts = [f"{cls.c_name} of the headers.", mixed or own or "", cls.about]
-            fields = "\n".join(f"{name}: " + (f"[{unit}] " if unit else "") + text
+            named = {name: f" ({cls._kinds[name].__name__})" for name in cls._kinds
+                     if getattr(cls._kinds[name], "__name__", "") in ("Place", "Id", "Channel")}
+            fields = "\n".join(f"{name}{named.get(name, '')}: " + (f"[{unit}] " if unit else "") + text
                                for name, (unit, text) in cls.field_docs.items())
             cls.__doc__ = "\n\n".join(part for part in [*parts, fields] if part)
 
@@ -106,7 +108,7 @@ class Record(ctypes.Structure):
         default = None if every else type(self)()
         found = {}
         for name, kind in self._fields_:
-            if name == "struct_size" or name.endswith("reserved") or _is_pointer(kind):
+            if name == "struct_size" or name.rstrip("0123456789").endswith("reserved") or _is_pointer(kind):
                 continue
             value = _plain(getattr(self, name))
             usual = _plain(getattr(default, name)) if default is not None else None

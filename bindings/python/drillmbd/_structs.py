@@ -45,7 +45,7 @@ class Allocator(Sized):
 
 
 class EnvironmentDef(Sized):
-    c_name, about = "dmb_environment_def", "Surroundings"
+    c_name, about = "dmb_environment_def", "For dmb_model_set_environment."
     struct_size: int
     reserved: int
     gravity: 'Array[c_double]'
@@ -93,7 +93,7 @@ class EnvironmentDef(Sized):
 
 
 class WallDef(WallPart, Sized):
-    c_name, about = "dmb_wall_def", ""
+    c_name, about = "dmb_wall_def", "For dmb_model_add_wall."
     struct_size: int
     survey_count: int
     survey: Any
@@ -212,7 +212,7 @@ class StringDef(Sized):
 
 
 class CompileOptions(Sized):
-    c_name, about = "dmb_compile_options", ""
+    c_name, about = "dmb_compile_options", "For dmb_model_compile."
     struct_size: int
     features: int
     pipe_kind: int
@@ -230,7 +230,7 @@ class CompileOptions(Sized):
 
 
 class ModelInfo(Sized):
-    c_name, about = "dmb_model_info", ""
+    c_name, about = "dmb_model_info", "For dmb_model_get_info."
     struct_size: int
     strings: int
     pipes: int
@@ -291,7 +291,7 @@ class ModelInfo(Sized):
 
 
 class StepReport(Sized):
-    c_name, about = "dmb_step_report", ""
+    c_name, about = "dmb_step_report", "For dmb_sim_step, dmb_sim_advance, dmb_sim_advance_to_event, dmb_sensitivity_step."
     struct_size: int
     steps: int
     iterations: int
@@ -324,7 +324,7 @@ class StepReport(Sized):
 
 
 class Pose(Sized):
-    c_name, about = "dmb_pose", ""
+    c_name, about = "dmb_pose", "For dmb_query_pose, dmb_query_pose_at."
     struct_size: int
     reserved: int
     position: 'Array[c_double]'
@@ -348,7 +348,7 @@ class Pose(Sized):
 
 
 class Motion(Sized):
-    c_name, about = "dmb_motion", ""
+    c_name, about = "dmb_motion", "For dmb_query_motion, dmb_query_motion_at."
     struct_size: int
     frame: int
     velocity: 'Array[c_double]'
@@ -367,7 +367,7 @@ class Motion(Sized):
 
 
 class Section(Sized):
-    c_name, about = "dmb_section", ""
+    c_name, about = "dmb_section", "For dmb_query_section."
     struct_size: int
     reserved: int
     force: 'Array[c_double]'
@@ -385,7 +385,7 @@ class Section(Sized):
 
 
 class ContactTotal(Sized):
-    c_name, about = "dmb_contact_total", ""
+    c_name, about = "dmb_contact_total", "For dmb_query_contact_total."
     struct_size: int
     closed: int
     normal_force: float
@@ -407,7 +407,7 @@ class ContactTotal(Sized):
 
 
 class Energy(Sized):
-    c_name, about = "dmb_energy", ""
+    c_name, about = "dmb_energy", "For dmb_query_energy."
     struct_size: int
     reserved: int
     kinetic: float
@@ -464,7 +464,7 @@ class Energy(Sized):
 
 
 class Momentum(Sized):
-    c_name, about = "dmb_momentum", ""
+    c_name, about = "dmb_momentum", "For dmb_query_momentum."
     struct_size: int
     reserved: int
     linear: 'Array[c_double]'
@@ -488,7 +488,7 @@ class Momentum(Sized):
 
 
 class DriveState(Sized):
-    c_name, about = "dmb_drive_state", ""
+    c_name, about = "dmb_drive_state", "For dmb_query_drive."
     struct_size: int
     reserved: int
     target: float
@@ -524,7 +524,7 @@ class DriveState(Sized):
 
 
 class JointState(Sized):
-    c_name, about = "dmb_joint_state", ""
+    c_name, about = "dmb_joint_state", "For dmb_query_joint."
     struct_size: int
     frame: int
     state: int
@@ -566,7 +566,7 @@ class JointState(Sized):
 
 
 class BitState(Sized):
-    c_name, about = "dmb_bit_state", ""
+    c_name, about = "dmb_bit_state", "For dmb_query_bit."
     struct_size: int
     on_bottom: int
     advance: float
@@ -603,7 +603,7 @@ class BitState(Sized):
 
 
 class Statistics(Sized):
-    c_name, about = "dmb_statistics", ""
+    c_name, about = "dmb_statistics", "For dmb_query_statistics."
     struct_size: int
     most_iterations: int
     steps: int
@@ -652,7 +652,7 @@ class Statistics(Sized):
 
 
 class HolePoint(Sized):
-    c_name, about = "dmb_hole_point", ""
+    c_name, about = "dmb_hole_point", "For dmb_query_hole, dmb_query_hole_now."
     struct_size: int
     beyond: int
     position: 'Array[c_double]'
@@ -763,7 +763,7 @@ class FlowState(Sized):
 
 
 class StaticOptions(Sized):
-    c_name, about = "dmb_static_options", ""
+    c_name, about = "dmb_static_options", "For dmb_analysis_static."
     struct_size: int
     max_iterations: int
     tolerance: float
@@ -796,7 +796,7 @@ class StaticOptions(Sized):
 
 
 class StaticReport(Sized):
-    c_name, about = "dmb_static_report", ""
+    c_name, about = "dmb_static_report", "For dmb_analysis_static."
     struct_size: int
     iterations: int
     load_steps: int
@@ -841,7 +841,7 @@ class StaticReport(Sized):
 
 
 class BucklingInfo(Sized):
-    c_name, about = "dmb_buckling_info", ""
+    c_name, about = "dmb_buckling_info", "For dmb_buckling_get_info."
     struct_size: int
     count: int
     confirmed: int
@@ -924,7 +924,7 @@ class PathPoint(Sized):
 
 
 class PathReport(Sized):
-    c_name, about = "dmb_path_report", ""
+    c_name, about = "dmb_path_report", "For dmb_analysis_path."
     struct_size: int
     points: int
     limits: int
@@ -1077,7 +1077,7 @@ class WindowOptions(Sized):
 
 
 class WindowResult(Sized):
-    c_name, about = "dmb_window_result", ""
+    c_name, about = "dmb_window_result", "For dmb_window_get."
     struct_size: int
     reserved: int
     samples: int
@@ -1113,7 +1113,7 @@ class WindowResult(Sized):
 
 
 class InputState(Sized):
-    c_name, about = "dmb_input_state", ""
+    c_name, about = "dmb_input_state", "For dmb_sim_get_input."
     struct_size: int
     is_set: int
     value: float
@@ -1158,7 +1158,7 @@ class InputRecord(Record):
 
 
 class EventReport(Sized):
-    c_name, about = "dmb_event_report", ""
+    c_name, about = "dmb_event_report", "For dmb_sim_advance_to_event."
     struct_size: int
     count: int
     events: int
@@ -1180,7 +1180,7 @@ class EventReport(Sized):
 
 
 class StuckState(Sized):
-    c_name, about = "dmb_stuck_state", ""
+    c_name, about = "dmb_stuck_state", "For dmb_query_stuck."
     struct_size: int
     stuck: int
     offset: 'Array[c_double]'
@@ -1250,7 +1250,7 @@ class Motor(MotorPart, Sized):
 
 
 class Operation(Sized):
-    c_name, about = "dmb_operation", ""
+    c_name, about = "dmb_operation", "For dmb_operation_usual, dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
     struct_size: int
     reserved: int
     axial_speed: float
@@ -1274,7 +1274,7 @@ class Operation(Sized):
 
 
 class TorqueDragRow(Sized):
-    c_name, about = "dmb_torque_drag_row", ""
+    c_name, about = "dmb_torque_drag_row", "For dmb_analysis_torque_drag."
     struct_size: int
     locked: int
     depth: float
@@ -1332,7 +1332,7 @@ class TorqueDragRow(Sized):
 
 
 class FatigueOptions(Sized):
-    c_name, about = "dmb_fatigue_options", ""
+    c_name, about = "dmb_fatigue_options", "For dmb_fatigue_create."
     struct_size: int
     classes: int
     points: int
@@ -1371,7 +1371,7 @@ class FatigueOptions(Sized):
 
 
 class FatigueResult(Sized):
-    c_name, about = "dmb_fatigue_result", ""
+    c_name, about = "dmb_fatigue_result", "For dmb_fatigue_get."
     struct_size: int
     point: int
     samples: int
@@ -1411,7 +1411,7 @@ class FatigueResult(Sized):
 
 
 class SpringState(Sized):
-    c_name, about = "dmb_spring_state", ""
+    c_name, about = "dmb_spring_state", "For dmb_query_spring."
     struct_size: int
     reserved: int
     length: float
@@ -1496,7 +1496,7 @@ class HoleSection(Sized):
 
 
 class ModesOptions(Sized):
-    c_name, about = "dmb_modes_options", ""
+    c_name, about = "dmb_modes_options", "For dmb_analysis_modes."
     struct_size: int
     kind: int
     select: int
@@ -1538,7 +1538,7 @@ class ModesOptions(Sized):
 
 
 class ModesInfo(Sized):
-    c_name, about = "dmb_modes_info", ""
+    c_name, about = "dmb_modes_info", "For dmb_modes_get_info."
     struct_size: int
     count: int
     rigid: int
@@ -1577,7 +1577,7 @@ class ModesInfo(Sized):
 
 
 class Mode(Sized):
-    c_name, about = "dmb_mode", ""
+    c_name, about = "dmb_mode", "For dmb_modes_get."
     struct_size: int
     rigid: int
     frequency: float
@@ -1620,7 +1620,7 @@ class Mode(Sized):
 
 
 class ModeShape(Sized):
-    c_name, about = "dmb_mode_shape", ""
+    c_name, about = "dmb_mode_shape", "For dmb_modes_shape."
     struct_size: int
     frame: int
     re: 'Array[c_double]'
@@ -1639,7 +1639,7 @@ class ModeShape(Sized):
 
 
 class ResponseOptions(Sized):
-    c_name, about = "dmb_response_options", ""
+    c_name, about = "dmb_response_options", "For dmb_analysis_response."
     struct_size: int
     points: int
     frequency_low: float
@@ -1720,7 +1720,7 @@ class SteppedSineOptions(Sized):
 
 
 class SteppedSineReport(Sized):
-    c_name, about = "dmb_stepped_sine_report", ""
+    c_name, about = "dmb_stepped_sine_report", "For dmb_analysis_stepped_sine."
     struct_size: int
     settled: int
     windows: int
@@ -1775,7 +1775,7 @@ class SpeedsReport(Sized):
 
 
 class SpeedBand(Sized):
-    c_name, about = "dmb_speed_band", ""
+    c_name, about = "dmb_speed_band", "For dmb_analysis_speeds."
     struct_size: int
     order: int
     output: int
@@ -1809,12 +1809,11 @@ class SpeedBand(Sized):
         "severity": ("-", "there"),
         "frequency": ("Hz", "of that order there"),
         "truncated": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
-        "reserved1": ("", "0"),
     }
 
 
 class Parameter(Sized):
-    c_name, about = "dmb_parameter", ""
+    c_name, about = "dmb_parameter", "For dmb_sensitivity_create."
     struct_size: int
     one_sided: int
     step: float
@@ -1839,7 +1838,7 @@ class Parameter(Sized):
 
 
 class StateSpaceOptions(Sized):
-    c_name, about = "dmb_state_space_options", ""
+    c_name, about = "dmb_state_space_options", "For dmb_analysis_state_space."
     struct_size: int
     form: int
     motion: int
@@ -1884,7 +1883,7 @@ class StateSpaceOptions(Sized):
 
 
 class StateSpaceInfo(Sized):
-    c_name, about = "dmb_state_space_info", ""
+    c_name, about = "dmb_state_space_info", "For dmb_state_space_get_info."
     struct_size: int
     states: int
     inputs: int
@@ -1927,21 +1926,27 @@ class StateSpaceInfo(Sized):
 
 
 LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+LOG_FN.__doc__ = "Called with a line of text, never during a step. The text lives only for the call."
 
 
 PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
+PROGRAMME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; what `provides` does not announce is built by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
+PART_FN.__doc__ = "One part of the work of a step."
 
 
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
+PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen. Returns 0, or nonzero to end the call."
 
 
 CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
+CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
 
 
 FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double))
+FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
 
 
 class Place(Record):
@@ -1964,7 +1969,7 @@ class Place(Record):
 
 
 class ModelOptions(Sized):
-    c_name, about = "dmb_model_options", ""
+    c_name, about = "dmb_model_options", "For dmb_model_create."
     struct_size: int
     reserved: int
     allocator: Any
@@ -1985,7 +1990,7 @@ class ModelOptions(Sized):
 
 
 class Term(TermPart, Sized):
-    c_name, about = "dmb_term", ""
+    c_name, about = "dmb_term", "For dmb_model_add_programme."
     struct_size: int
     kind: int
     x0: float
@@ -2034,7 +2039,7 @@ class Term(TermPart, Sized):
 
 
 class PipeDef(Sized):
-    c_name, about = "dmb_pipe_def", ""
+    c_name, about = "dmb_pipe_def", "For dmb_model_add_pipes."
     struct_size: int
     kind: int
     string: Id
@@ -2130,7 +2135,7 @@ class PipeDef(Sized):
 
 
 class BodyDef(Sized):
-    c_name, about = "dmb_body_def", ""
+    c_name, about = "dmb_body_def", "For dmb_model_add_body, dmb_model_place_at_end."
     struct_size: int
     attach: int
     string: Id
@@ -2184,7 +2189,7 @@ class BodyDef(Sized):
 
 
 class BitDef(Sized):
-    c_name, about = "dmb_bit_def", ""
+    c_name, about = "dmb_bit_def", "For dmb_model_add_bit."
     struct_size: int
     rock_law: int
     string: Id
@@ -2266,7 +2271,7 @@ class BitDef(Sized):
 
 
 class DriveDef(DrivePart, Sized):
-    c_name, about = "dmb_drive_def", ""
+    c_name, about = "dmb_drive_def", "For dmb_model_add_drive, dmb_motor_drive."
     struct_size: int
     kind: int
     part: Id
@@ -2341,11 +2346,9 @@ class DriveDef(DrivePart, Sized):
         "back_drag": ("N s/m, N m s", "where it is < 0: back-spin, >= 0"),
         "inertia": ("kg m2", "of rotor and gear, turning with the component, which must be RX of a string or a body; >= 0; of MOTION too"),
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
-        "reserved2": ("", ""),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
         "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
         "gain_count": ("-", "points of a table of CONTROL in the place of `gain`, which is 0 then: 0 (none) or 2 .. 16"),
-        "reserved3": ("", ""),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "in the place of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
         "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
@@ -2353,7 +2356,7 @@ class DriveDef(DrivePart, Sized):
 
 
 class Contact(Sized):
-    c_name, about = "dmb_contact", ""
+    c_name, about = "dmb_contact", "For dmb_query_contact."
     struct_size: int
     closed: int
     sticks: int
@@ -2404,7 +2407,7 @@ class Contact(Sized):
 
 
 class ProfileStruct(Sized):
-    c_name, about = "dmb_profile", ""
+    c_name, about = "dmb_profile", "For dmb_query_profile."
     struct_size: int
     station_count: int
     string: Id
@@ -2440,7 +2443,7 @@ class ProfileStruct(Sized):
 
 
 class BucklingOptions(Sized):
-    c_name, about = "dmb_buckling_options", ""
+    c_name, about = "dmb_buckling_options", "For dmb_analysis_buckling."
     struct_size: int
     count: int
     scale: int
@@ -2477,7 +2480,7 @@ class BucklingOptions(Sized):
 
 
 class InputDef(Sized):
-    c_name, about = "dmb_input_def", ""
+    c_name, about = "dmb_input_def", "For dmb_model_add_input."
     struct_size: int
     target: int
     name: bytes
@@ -2516,7 +2519,7 @@ class InputDef(Sized):
 
 
 class InputInfo(Sized):
-    c_name, about = "dmb_input_info", ""
+    c_name, about = "dmb_input_info", "For dmb_model_get_input."
     struct_size: int
     target: int
     input: Id
@@ -2595,7 +2598,7 @@ class CouplingDef(Sized):
 
 
 class TorqueDragOptions(Sized):
-    c_name, about = "dmb_torque_drag_options", ""
+    c_name, about = "dmb_torque_drag_options", "For dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
     struct_size: int
     post_buckling: int
     string: Id
@@ -2623,7 +2626,7 @@ class TorqueDragOptions(Sized):
 
 
 class SpeedsOptions(Sized):
-    c_name, about = "dmb_speeds_options", ""
+    c_name, about = "dmb_speeds_options", "For dmb_analysis_speeds."
     struct_size: int
     points: int
     speed_low: float
@@ -2714,7 +2717,7 @@ class RingDef(Sized):
 
 
 class Row(Sized):
-    c_name, about = "dmb_row", ""
+    c_name, about = "dmb_row", "For dmb_query_row."
     struct_size: int
     component: int
     part: Id
@@ -2741,13 +2744,15 @@ class Row(Sized):
 
 
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
+PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of stack. Parts call no function of the caller's: forces, programmes, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
+PATH_FN.__doc__ = "Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the call, restored into the sim the path began with. Returns 0, or nonzero to stop."
 
 
 class LoadDef(Sized):
-    c_name, about = "dmb_load_def", ""
+    c_name, about = "dmb_load_def", "For dmb_model_add_load."
     struct_size: int
     frame: int
     place: Place
@@ -2778,7 +2783,7 @@ class LoadDef(Sized):
 
 
 class SimOptions(Sized):
-    c_name, about = "dmb_sim_options", ""
+    c_name, about = "dmb_sim_options", "For dmb_sim_memory_size, dmb_sim_create, dmb_sim_create_in."
     struct_size: int
     max_iterations: int
     allocator: Any
@@ -2863,7 +2868,7 @@ class Channel(Record):
 
 
 class PathOptions(Sized):
-    c_name, about = "dmb_path_options", ""
+    c_name, about = "dmb_path_options", "For dmb_analysis_path."
     struct_size: int
     max_points: int
     max_iterations: int
@@ -2951,7 +2956,7 @@ class ProfileRecorderStruct(Sized):
 
 
 class JointDef(Sized):
-    c_name, about = "dmb_joint_def", ""
+    c_name, about = "dmb_joint_def", "For dmb_model_add_joint."
     struct_size: int
     kind: int
     name: bytes
@@ -3038,7 +3043,7 @@ class JointDef(Sized):
 
 
 class ConstraintDef(ConstraintPart, Sized):
-    c_name, about = "dmb_constraint_def", ""
+    c_name, about = "dmb_constraint_def", "For dmb_model_add_constraint."
     struct_size: int
     kind: int
     name: bytes
@@ -3074,7 +3079,7 @@ class ConstraintDef(ConstraintPart, Sized):
 
 
 class StuckDef(Sized):
-    c_name, about = "dmb_stuck_def", ""
+    c_name, about = "dmb_stuck_def", "For dmb_model_add_stuck."
     struct_size: int
     holds: int
     name: bytes
@@ -3110,7 +3115,7 @@ class StuckDef(Sized):
 
 
 class Sub(Sized):
-    c_name, about = "dmb_sub", ""
+    c_name, about = "dmb_sub", "For dmb_model_add_sub."
     struct_size: int
     reserved: int
     body: Id
@@ -3189,7 +3194,7 @@ class SpringDef(SpringPart, Sized):
 
 
 class ForceDef(ForcePart, Sized):
-    c_name, about = "dmb_force_def", ""
+    c_name, about = "dmb_force_def", "For dmb_model_add_force."
     struct_size: int
     frame: int
     name: bytes
@@ -3232,7 +3237,7 @@ class ForceDef(ForcePart, Sized):
 
 
 class Input(Sized):
-    c_name, about = "dmb_input", ""
+    c_name, about = "dmb_input", "For dmb_analysis_response, dmb_analysis_state_space."
     struct_size: int
     kind: int
     place: Place
@@ -3260,7 +3265,7 @@ class Input(Sized):
 
 
 class Output(Sized):
-    c_name, about = "dmb_output", ""
+    c_name, about = "dmb_output", "For dmb_analysis_response, dmb_analysis_stepped_sine, dmb_analysis_speeds, dmb_analysis_state_space."
     struct_size: int
     kind: int
     place: Place
@@ -3282,7 +3287,7 @@ class Output(Sized):
 
 
 class RecorderStruct(Sized):
-    c_name, about = "dmb_recorder", "output.h"
+    c_name, about = "dmb_recorder", "For dmb_recorder_take, dmb_recorder_write_csv."
     struct_size: int
     channel_count: int
     channels: Any
@@ -3313,7 +3318,7 @@ class RecorderStruct(Sized):
 
 
 class EventDef(Sized):
-    c_name, about = "dmb_event_def", ""
+    c_name, about = "dmb_event_def", "For dmb_model_add_event, dmb_model_get_event."
     struct_size: int
     direction: int
     name: bytes

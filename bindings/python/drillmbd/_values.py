@@ -23,7 +23,10 @@ def refuse(wrong: str, part: str, field: str, value: Any, bound: str, status: in
     """The Error of a value of the wrong type ("type") or of the wrong size ("value")."""
     from .errors import WrongType, WrongValue
     cls = WrongType if wrong == "type" else WrongValue
-    return cls(status, f"{part}: {field} = {shown(value)}, must {bound}")
+    error = cls(status, f"{part}: {field} = {shown(value)}, must {bound}")
+    error.part, error.field, error.bound = part, field, bound  # whatever signs the value has
+    error.value = float(value) if isinstance(value, (int, float)) and abs(value) < 1e300 else shown(value)
+    return error
 
 
 def refuse_type(part: str, field: str, value: Any, bound: str) -> NoReturn:

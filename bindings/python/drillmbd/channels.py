@@ -9,7 +9,7 @@ from typing import Any
 
 from ._library import lib as _lib
 from ._values import refuse_value, shown, whole
-from .enums import CHANNEL_WINDOW_MINIMUM, ERR_VALUE
+from .enums import CHANNEL_WINDOW_MINIMUM, ERR_VALUE, Quantity, Reading
 from .errors import WrongValue
 
 
@@ -55,6 +55,10 @@ def channel_names() -> list[str]:
     """The names of all channels."""
     return [channel_name(number) for number in channel_numbers()]
 
+
+for _member in (*Quantity, *Reading):  # what the headers have no sentence of
+    if _member.__doc__ == type(_member).__doc__ and _lib.dmb_channel_name(int(_member), None):
+        _member.__doc__ = f"[{channel_unit(_member)}] the channel {channel_name(_member)}"
 
 #: All channels but those of windows, as an enumeration: what a scene file may ask for.
 Named: Any = IntEnum("Named", {channel_name(number).upper(): number for number in channel_numbers()  # type: ignore[misc]

@@ -7,40 +7,75 @@ __version__ = "0.1.0"
 
 
 class Status(IntEnum):
-    """Values DMB_... of the headers."""
-    OK = 0  #: done
-    NOTE_STEP_CUT = 1  #: done; the step was divided to converge
-    NOTE_WORK_LIMITED = 2  #: done; the bounded number of iterations was used up above the tolerance
-    NOTE_PROJECTED = 3  #: done; poses or velocities were projected onto the allowed motion
-    NOTE_STOPPED = 4  #: done; stopped early at the bound on steps
-    NOTE_FULL = 5  #: done; the caller's memory is full, nothing more is recorded
-    NOTE_TOLERANCE = 6  #: done; the smallest step allowed was too long for the error tolerance
-    NOTE_UNSTABLE = 7  #: done; the equilibrium that was found is not stable
-    NOTE_NOT_STEADY = 8  #: done; drives move but no steady state was found: only what they move has a speed
-    NOTE_EXTRAPOLATED = 9  #: done; some of the answers are extrapolations that were not confirmed
-    NOTE_CANCELLED = 10  #: done up to where the caller's progress function ended it
-    NOTE_INCOMPLETE = 11  #: done; the scene or the range leaves something out, the message tells what
-    NOTE_FLUTTER = 12  #: done; a mode grows before the stiffness is singular, the message tells from where on
-    NOTE_CLAMPED = 13  #: done; a value beyond its bounds was taken for the bound
-    NOTE_NOT_SMOOTH = 14  #: done; a derivative is the mean of both sides of a corner, the message tells where
-    NOTE_EVENT = 15  #: done up to an event, the message names it
-    ERR_NULL = -1  #: a required pointer is NULL
-    ERR_HANDLE = -2  #: not a live object of this kind
-    ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
-    ERR_ID = -4  #: the id does not name a part of this model
-    ERR_VALUE = -5  #: a value lies outside its bounds
-    ERR_NOT_FINITE = -6  #: a value is NaN or infinite
-    ERR_ORDER = -7  #: the call does not fit the state of the object
-    ERR_NO_MEMORY = -8  #: memory could not be allocated
-    ERR_TOO_LARGE = -9  #: a size overflows or exceeds its limit
-    ERR_SINGULAR = -10  #: a stiffness or iteration matrix is singular
-    ERR_NO_CONVERGENCE = -11  #: the iteration did not converge
-    ERR_CALLBACK = -12  #: a callback failed or returned a value beyond +-1e30
-    ERR_IO = -13  #: a file could not be written
-    ERR_ROTATION = -14  #: relative rotation in one element exceeds 2.5 rad
-    ERR_GEOMETRY = -15  #: parts do not fit together
-    ERR_UNSUPPORTED = -16  #: a combination that this version does not offer
-    ERR_CANCELLED = -17  #: the caller's progress function ended the call
+    """Values DMB_... of the headers.
+
+    OK: done
+    NOTE_STEP_CUT: done; the step was divided to converge
+    NOTE_WORK_LIMITED: done; the bounded number of iterations was used up above the tolerance
+    NOTE_PROJECTED: done; poses or velocities were projected onto the allowed motion
+    NOTE_STOPPED: done; stopped early at the bound on steps
+    NOTE_FULL: done; the caller's memory is full, nothing more is recorded
+    NOTE_TOLERANCE: done; the smallest step allowed was too long for the error tolerance
+    NOTE_UNSTABLE: done; the equilibrium that was found is not stable
+    NOTE_NOT_STEADY: done; drives move but no steady state was found: only what they move has a speed
+    NOTE_EXTRAPOLATED: done; some of the answers are extrapolations that were not confirmed
+    NOTE_CANCELLED: done up to where the caller's progress function ended it
+    NOTE_INCOMPLETE: done; the scene or the range leaves something out, the message tells what
+    NOTE_FLUTTER: done; a mode grows before the stiffness is singular, the message tells from where on
+    NOTE_CLAMPED: done; a value beyond its bounds was taken for the bound
+    NOTE_NOT_SMOOTH: done; a derivative is the mean of both sides of a corner, the message tells where
+    NOTE_EVENT: done up to an event, the message names it
+    ERR_NULL: a required pointer is NULL
+    ERR_HANDLE: not a live object of this kind
+    ERR_STRUCT_SIZE: struct_size is not a size this library knows
+    ERR_ID: the id does not name a part of this model
+    ERR_VALUE: a value lies outside its bounds
+    ERR_NOT_FINITE: a value is NaN or infinite
+    ERR_ORDER: the call does not fit the state of the object
+    ERR_NO_MEMORY: memory could not be allocated
+    ERR_TOO_LARGE: a size overflows or exceeds its limit
+    ERR_SINGULAR: a stiffness or iteration matrix is singular
+    ERR_NO_CONVERGENCE: the iteration did not converge
+    ERR_CALLBACK: a callback failed or returned a value beyond +-1e30
+    ERR_IO: a file could not be written
+    ERR_ROTATION: relative rotation in one element exceeds 2.5 rad
+    ERR_GEOMETRY: parts do not fit together
+    ERR_UNSUPPORTED: a combination that this version does not offer
+    ERR_CANCELLED: the caller's progress function ended the call
+    """
+    OK = 0
+    NOTE_STEP_CUT = 1
+    NOTE_WORK_LIMITED = 2
+    NOTE_PROJECTED = 3
+    NOTE_STOPPED = 4
+    NOTE_FULL = 5
+    NOTE_TOLERANCE = 6
+    NOTE_UNSTABLE = 7
+    NOTE_NOT_STEADY = 8
+    NOTE_EXTRAPOLATED = 9
+    NOTE_CANCELLED = 10
+    NOTE_INCOMPLETE = 11
+    NOTE_FLUTTER = 12
+    NOTE_CLAMPED = 13
+    NOTE_NOT_SMOOTH = 14
+    NOTE_EVENT = 15
+    ERR_NULL = -1
+    ERR_HANDLE = -2
+    ERR_STRUCT_SIZE = -3
+    ERR_ID = -4
+    ERR_VALUE = -5
+    ERR_NOT_FINITE = -6
+    ERR_ORDER = -7
+    ERR_NO_MEMORY = -8
+    ERR_TOO_LARGE = -9
+    ERR_SINGULAR = -10
+    ERR_NO_CONVERGENCE = -11
+    ERR_CALLBACK = -12
+    ERR_IO = -13
+    ERR_ROTATION = -14
+    ERR_GEOMETRY = -15
+    ERR_UNSUPPORTED = -16
+    ERR_CANCELLED = -17
 
 
 OK = Status.OK
@@ -123,12 +158,18 @@ RZ = Component.RZ
 
 
 class Free(IntFlag):
-    """Bits DMB_FREE_... of the headers."""
+    """Bits DMB_FREE_... of the headers.
+
+    CYLINDRICAL: X, RX
+    CYLINDRICAL_Z: Y, RY; Z, RZ
+    PLANAR_Z: normal x, y, z: Y, Z, RX ...
+    SCHOENFLIES_Z: X, Y, Z with RX; RY; RZ
+    """
     NONE = 0
     X = 1
     RX = 8
     RZ = 32
-    CYLINDRICAL = 9  #: X, RX
+    CYLINDRICAL = 9
     SPHERICAL = 56
     ALL = 63
     Y = 2
@@ -139,13 +180,13 @@ class Free(IntFlag):
     YZ = 6
     TRANSLATIONS = 7
     CYLINDRICAL_Y = 18
-    CYLINDRICAL_Z = 36  #: Y, RY; Z, RZ
+    CYLINDRICAL_Z = 36
     PLANAR = 14
     PLANAR_Y = 21
-    PLANAR_Z = 35  #: normal x, y, z: Y, Z, RX ...
+    PLANAR_Z = 35
     SCHOENFLIES = 15
     SCHOENFLIES_Y = 23
-    SCHOENFLIES_Z = 39  #: X, Y, Z with RX; RY; RZ
+    SCHOENFLIES_Z = 39
 
 
 FREE_NONE = Free.NONE
@@ -173,13 +214,21 @@ FREE_SCHOENFLIES_Z = Free.SCHOENFLIES_Z
 
 
 class TermKind(IntEnum):
-    """Values DMB_TERM_... of the headers."""
-    CONSTANT = 0  #: h0
-    STEP = 1  #: h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0)
-    STEP5 = 2  #: the same with D^3 (10 - 15 D + 6 D^2)
-    HARMONIC = 3  #: h0 + h1 sin(omega t + phase)
-    TABLE = 4  #: straight lines through (time, value) pairs, constant outside
-    CALLBACK = 5  #: the caller's function
+    """Values DMB_TERM_... of the headers.
+
+    CONSTANT: h0
+    STEP: h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0)
+    STEP5: the same with D^3 (10 - 15 D + 6 D^2)
+    HARMONIC: h0 + h1 sin(omega t + phase)
+    TABLE: straight lines through (time, value) pairs, constant outside
+    CALLBACK: the caller's function
+    """
+    CONSTANT = 0
+    STEP = 1
+    STEP5 = 2
+    HARMONIC = 3
+    TABLE = 4
+    CALLBACK = 5
 
 
 TERM_CONSTANT = TermKind.CONSTANT
@@ -201,14 +250,23 @@ PROVIDES_INTEGRAL = ProgrammeProvides.INTEGRAL
 
 
 class NormalLaw(IntEnum):
-    """Values DMB_NORMAL_... of the headers."""
-    NONE = -1  #: no contact
-    KELVIN_VOIGT = 0  #: K d^n + c d', never pulling
-    HUNT_CROSSLEY = 1  #: K d^n (1 + mu d'/v0), mu = 3(1-e)/2
-    LANKARANI_NIKRAVESH = 2  #: mu = 3(1-e^2)/4
-    FLORES = 3  #: mu = 8(1-e)/(5e)
-    EXACT = 4  #: mu such that the restitution asked for is the one given
-    IMPACT = 5  #: K d^n + STEP(d; 0, 0, impact_depth, damping) d', never pulling
+    """Values DMB_NORMAL_... of the headers.
+
+    NONE: no contact
+    KELVIN_VOIGT: K d^n + c d', never pulling
+    HUNT_CROSSLEY: K d^n (1 + mu d'/v0), mu = 3(1-e)/2
+    LANKARANI_NIKRAVESH: mu = 3(1-e^2)/4
+    FLORES: mu = 8(1-e)/(5e)
+    EXACT: mu such that the restitution asked for is the one given
+    IMPACT: K d^n + STEP(d; 0, 0, impact_depth, damping) d', never pulling
+    """
+    NONE = -1
+    KELVIN_VOIGT = 0
+    HUNT_CROSSLEY = 1
+    LANKARANI_NIKRAVESH = 2
+    FLORES = 3
+    EXACT = 4
+    IMPACT = 5
 
 
 NORMAL_NONE = NormalLaw.NONE
@@ -221,12 +279,18 @@ NORMAL_IMPACT = NormalLaw.IMPACT
 
 
 class FrictionLaw(IntEnum):
-    """Values DMB_FRICTION_... of the headers."""
+    """Values DMB_FRICTION_... of the headers.
+
+    COULOMB: mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2)
+    AMBROSIO: 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond
+    STRIBECK: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB
+    BRISTLE: elastic bristle that truly sticks, breaking away at mu(v)
+    """
     NONE = -1
-    COULOMB = 0  #: mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2)
-    AMBROSIO = 1  #: 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond
-    STRIBECK = 2  #: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB
-    BRISTLE = 3  #: elastic bristle that truly sticks, breaking away at mu(v)
+    COULOMB = 0
+    AMBROSIO = 1
+    STRIBECK = 2
+    BRISTLE = 3
 
 
 FRICTION_NONE = FrictionLaw.NONE
@@ -237,10 +301,15 @@ FRICTION_BRISTLE = FrictionLaw.BRISTLE
 
 
 class PipeKind(IntEnum):
-    """Values DMB_PIPE_... of the headers."""
-    FLEXIBLE = 0  #: SE(3) beam elements: bending, shear, stretch, torsion
-    AXIAL_TORSIONAL = 1  #: stretch and torsion on the hole's axis, 2 coordinates a node
-    RIGID = 2  #: neighbouring rigid pipes are one rigid body
+    """Values DMB_PIPE_... of the headers.
+
+    FLEXIBLE: SE(3) beam elements: bending, shear, stretch, torsion
+    AXIAL_TORSIONAL: stretch and torsion on the hole's axis, 2 coordinates a node
+    RIGID: neighbouring rigid pipes are one rigid body
+    """
+    FLEXIBLE = 0
+    AXIAL_TORSIONAL = 1
+    RIGID = 2
 
 
 PIPE_FLEXIBLE = PipeKind.FLEXIBLE
@@ -261,10 +330,14 @@ ATTACH_END = Attach.END
 
 
 class RockLaw(IntEnum):
-    """Values DMB_ROCK_... of the headers."""
+    """Values DMB_ROCK_... of the headers.
+
+    RATE: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls, so that a bit that is slowed down stops at once, and sticks by nothing but its string: there steps may find no solution, however short. Where a bit may stick or bounce (undamped pipes, say) take the next one
+    REGENERATIVE: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
+    """
     NONE = 0
-    RATE = 1  #: Detournay, Defourny 1992: depth of cut 2 pi V/Omega, for drilling at a steady speed. Its torque grows as Omega falls, so that a bit that is slowed down stops at once, and sticks by nothing but its string: there steps may find no solution, however short. Where a bit may stick or bounce (undamped pipes, say) take the next one
-    REGENERATIVE = 2  #: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
+    RATE = 1
+    REGENERATIVE = 2
 
 
 ROCK_NONE = RockLaw.NONE
@@ -273,10 +346,15 @@ ROCK_REGENERATIVE = RockLaw.REGENERATIVE
 
 
 class DriveKind(IntEnum):
-    """Values DMB_DRIVE_... of the headers."""
-    MOTION = 0  #: the speed of the component follows the programme exactly [m/s, rad/s]
-    LOAD = 1  #: the programme is a force or torque on the component [N, N m]
-    CONTROL = 2  #: force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the programme
+    """Values DMB_DRIVE_... of the headers.
+
+    MOTION: the speed of the component follows the programme exactly [m/s, rad/s]
+    LOAD: the programme is a force or torque on the component [N, N m]
+    CONTROL: force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the programme
+    """
+    MOTION = 0
+    LOAD = 1
+    CONTROL = 2
 
 
 DRIVE_MOTION = DriveKind.MOTION
@@ -297,7 +375,10 @@ FRAME_HOLE = Frame.HOLE
 
 
 class Feature(IntFlag):
-    """Bits DMB_FEATURE_... of the headers."""
+    """Bits DMB_FEATURE_... of the headers.
+
+    VIBRATION: eccentricity and drive excitation
+    """
     GRAVITY = 1
     CONTACT = 2
     FRICTION = 4
@@ -305,7 +386,7 @@ class Feature(IntFlag):
     EXCITATION = 16
     ROCK = 32
     DAMPING = 64
-    VIBRATION = 24  #: eccentricity and drive excitation
+    VIBRATION = 24
     ALL = 127
 
 
@@ -321,9 +402,13 @@ FEATURE_ALL = Feature.ALL
 
 
 class ConstraintMethod(IntEnum):
-    """Values DMB_METHOD_... of the headers."""
-    INDEPENDENT = 0  #: the step solves for independent coordinates, found by partition
-    MULTIPLIERS = 1  #: it solves for all coordinates and the multipliers, for comparison; not in statics
+    """Values DMB_METHOD_... of the headers.
+
+    INDEPENDENT: the step solves for independent coordinates, found by partition
+    MULTIPLIERS: it solves for all coordinates and the multipliers, for comparison; not in statics
+    """
+    INDEPENDENT = 0
+    MULTIPLIERS = 1
 
 
 METHOD_INDEPENDENT = ConstraintMethod.INDEPENDENT
@@ -343,42 +428,79 @@ HOLE_BELOW = HoleBeyond.BELOW
 
 
 class ProfileQuantity(IntEnum):
-    """Values DMB_PROFILE_... of the headers."""
-    DISTANCE = 0  #: [m] along the string from its rig end
-    DEPTH = 1  #: [m] measured depth; 0 without a hole
-    X = 2  #: [m] position, world frame
-    Y = 3  #: [m] likewise
-    Z = 4  #: [m] likewise
-    DEVIATION = 5  #: [m] distance from the hole's axis
-    DEVIATION_SIDE = 6  #: [m] its horizontal part, along z_world x tangent: left looking ahead
-    DEVIATION_UP = 7  #: [m] its other part: towards the high side
-    AXIAL_FORCE = 8  #: [N] true axial force N
-    EFFECTIVE_FORCE = 9  #: [N] effective axial force N_e, as dmb_query_section
-    TORQUE = 10  #: [N m]
-    BENDING_MOMENT = 11  #: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature
-    SHEAR_FORCE = 12  #: [N] magnitude
-    CURVATURE = 13  #: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
-    NORMAL_FORCE = 14  #: [N/m] of the wall on the string, >= 0; that of the nearest contact site
-    FRICTION_AXIAL = 15  #: [N/m] of the wall on the string along its axis, likewise
-    FRICTION_AROUND = 16  #: [N/m] likewise along axis x outward normal
-    VON_MISES = 17  #: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
-    YIELD_SHARE = 18  #: [-] of `yield_strength`; NaN where the pipe has none
-    SINUSOIDAL_SHARE = 19  #: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole
-    HELICAL_SHARE = 20  #: [-] likewise of helical buckling
-    VELOCITY_AXIAL = 21  #: [m/s] along the pipe's axis
-    VELOCITY_LATERAL = 22  #: [m/s] across, magnitude
-    SPIN = 23  #: [rad/s] about the pipe's axis
-    ACCELERATION_AXIAL = 24  #: [m/s2] of the section's centre, along the pipe's axis
-    ACCELERATION_LATERAL = 25  #: [m/s2] across, magnitude
-    ROTATION = 26  #: [rad] about the pipe's axis since time 0, unwrapped
-    DISPLACEMENT_X = 27  #: [m] since time 0 as described, world frame
-    DISPLACEMENT_Y = 28  #: [m] likewise
-    DISPLACEMENT_Z = 29  #: [m] likewise
-    SHEAR_Y = 30  #: [N] section frame, as dmb_query_section
-    SHEAR_Z = 31  #: [N] likewise
-    MOMENT_Y = 32  #: [N m] bending about y, likewise
-    MOMENT_Z = 33  #: [N m] likewise
-    GAP = 34  #: [m] of the nearest contact site to the wall, < 0 when penetrating; NaN without one
+    """Values DMB_PROFILE_... of the headers.
+
+    DISTANCE: [m] along the string from its rig end
+    DEPTH: [m] measured depth; 0 without a hole
+    X: [m] position, world frame
+    Y: [m] likewise
+    Z: [m] likewise
+    DEVIATION: [m] distance from the hole's axis
+    DEVIATION_SIDE: [m] its horizontal part, along z_world x tangent: left looking ahead
+    DEVIATION_UP: [m] its other part: towards the high side
+    AXIAL_FORCE: [N] true axial force N
+    EFFECTIVE_FORCE: [N] effective axial force N_e, as dmb_query_section
+    TORQUE: [N m]
+    BENDING_MOMENT: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature
+    SHEAR_FORCE: [N] magnitude
+    CURVATURE: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
+    NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact site
+    FRICTION_AXIAL: [N/m] of the wall on the string along its axis, likewise
+    FRICTION_AROUND: [N/m] likewise along axis x outward normal
+    VON_MISES: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
+    YIELD_SHARE: [-] of `yield_strength`; NaN where the pipe has none
+    SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole
+    HELICAL_SHARE: [-] likewise of helical buckling
+    VELOCITY_AXIAL: [m/s] along the pipe's axis
+    VELOCITY_LATERAL: [m/s] across, magnitude
+    SPIN: [rad/s] about the pipe's axis
+    ACCELERATION_AXIAL: [m/s2] of the section's centre, along the pipe's axis
+    ACCELERATION_LATERAL: [m/s2] across, magnitude
+    ROTATION: [rad] about the pipe's axis since time 0, unwrapped
+    DISPLACEMENT_X: [m] since time 0 as described, world frame
+    DISPLACEMENT_Y: [m] likewise
+    DISPLACEMENT_Z: [m] likewise
+    SHEAR_Y: [N] section frame, as dmb_query_section
+    SHEAR_Z: [N] likewise
+    MOMENT_Y: [N m] bending about y, likewise
+    MOMENT_Z: [N m] likewise
+    GAP: [m] of the nearest contact site to the wall, < 0 when penetrating; NaN without one
+    """
+    DISTANCE = 0
+    DEPTH = 1
+    X = 2
+    Y = 3
+    Z = 4
+    DEVIATION = 5
+    DEVIATION_SIDE = 6
+    DEVIATION_UP = 7
+    AXIAL_FORCE = 8
+    EFFECTIVE_FORCE = 9
+    TORQUE = 10
+    BENDING_MOMENT = 11
+    SHEAR_FORCE = 12
+    CURVATURE = 13
+    NORMAL_FORCE = 14
+    FRICTION_AXIAL = 15
+    FRICTION_AROUND = 16
+    VON_MISES = 17
+    YIELD_SHARE = 18
+    SINUSOIDAL_SHARE = 19
+    HELICAL_SHARE = 20
+    VELOCITY_AXIAL = 21
+    VELOCITY_LATERAL = 22
+    SPIN = 23
+    ACCELERATION_AXIAL = 24
+    ACCELERATION_LATERAL = 25
+    ROTATION = 26
+    DISPLACEMENT_X = 27
+    DISPLACEMENT_Y = 28
+    DISPLACEMENT_Z = 29
+    SHEAR_Y = 30
+    SHEAR_Z = 31
+    MOMENT_Y = 32
+    MOMENT_Z = 33
+    GAP = 34
     COUNT = 35
 
 
@@ -421,28 +543,45 @@ PROFILE_COUNT = ProfileQuantity.COUNT
 
 
 class Quantity(IntEnum):
-    """Values DMB_CHANNEL_... of the headers."""
+    """Values DMB_CHANNEL_... of the headers.
+
+    DISPLACEMENT_Z: [m] world
+    VELOCITY_Z: [m/s] world
+    POSITION_Z: [m] world
+    ROTATION: [rad] unwrapped
+    SPIN: [rad/s] about the pipe's axis
+    AXIAL_FORCE: [N] tension > 0
+    TORQUE: [N m]
+    BENDING_MOMENT: [N m] magnitude
+    KINETIC_ENERGY: [J] of the pipe or body
+    NORMAL_FORCE: [N] at the pipe's far end, or of the body
+    DRIVE_FORCE: [N, N m] place.part is a drive
+    DRIVE_SPEED: [m/s, rad/s] place.part is a drive
+    BIT_WEIGHT: [N] place.part is a bit, bottom-hole load included
+    ENERGY_ERROR: [-] of the ledger; place is ignored
+    COUNT: of these; output.h goes on from number 100
+    """
     DISPLACEMENT_X = 0
     DISPLACEMENT_Y = 1
-    DISPLACEMENT_Z = 2  #: [m] world
+    DISPLACEMENT_Z = 2
     VELOCITY_X = 3
     VELOCITY_Y = 4
-    VELOCITY_Z = 5  #: [m/s] world
+    VELOCITY_Z = 5
     POSITION_X = 6
     POSITION_Y = 7
-    POSITION_Z = 8  #: [m] world
-    ROTATION = 9  #: [rad] unwrapped
-    SPIN = 10  #: [rad/s] about the pipe's axis
-    AXIAL_FORCE = 11  #: [N] tension > 0
-    TORQUE = 12  #: [N m]
-    BENDING_MOMENT = 13  #: [N m] magnitude
-    KINETIC_ENERGY = 14  #: [J] of the pipe or body
-    NORMAL_FORCE = 15  #: [N] at the pipe's far end, or of the body
-    DRIVE_FORCE = 16  #: [N, N m] place.part is a drive
-    DRIVE_SPEED = 17  #: [m/s, rad/s] place.part is a drive
-    BIT_WEIGHT = 18  #: [N] place.part is a bit, bottom-hole load included
-    ENERGY_ERROR = 19  #: [-] of the ledger; place is ignored
-    COUNT = 20  #: of these; output.h goes on from number 100
+    POSITION_Z = 8
+    ROTATION = 9
+    SPIN = 10
+    AXIAL_FORCE = 11
+    TORQUE = 12
+    BENDING_MOMENT = 13
+    KINETIC_ENERGY = 14
+    NORMAL_FORCE = 15
+    DRIVE_FORCE = 16
+    DRIVE_SPEED = 17
+    BIT_WEIGHT = 18
+    ENERGY_ERROR = 19
+    COUNT = 20
 
 
 CHANNEL_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
@@ -469,11 +608,17 @@ CHANNEL_COUNT = Quantity.COUNT
 
 
 class Steady(IntEnum):
-    """Values DMB_STEADY_... of the headers."""
-    AUTO = 0  #: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
-    AT_REST = 1  #: all is at rest; only what motion drives move takes their speed
-    SLIDING = 2  #: axes at rest; strings slide along the hole and turn about their axis as drives say
-    RIGID = 3  #: all turns about one fixed axis like a rigid body, under centrifugal forces
+    """Values DMB_STEADY_... of the headers.
+
+    AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
+    AT_REST: all is at rest; only what motion drives move takes their speed
+    SLIDING: axes at rest; strings slide along the hole and turn about their axis as drives say
+    RIGID: all turns about one fixed axis like a rigid body, under centrifugal forces
+    """
+    AUTO = 0
+    AT_REST = 1
+    SLIDING = 2
+    RIGID = 3
 
 
 STEADY_AUTO = Steady.AUTO
@@ -483,9 +628,13 @@ STEADY_RIGID = Steady.RIGID
 
 
 class Stiffness(IntEnum):
-    """Values DMB_STIFFNESS_... of the headers."""
-    SYMMETRIC = 0  #: forces have a potential: the state is stable where no eigenvalue is negative
-    UNSYMMETRIC = 1  #: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is a question for dmb_analysis_modes with MODES_DAMPED
+    """Values DMB_STIFFNESS_... of the headers.
+
+    SYMMETRIC: forces have a potential: the state is stable where no eigenvalue is negative
+    UNSYMMETRIC: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is a question for dmb_analysis_modes with MODES_DAMPED
+    """
+    SYMMETRIC = 0
+    UNSYMMETRIC = 1
 
 
 STIFFNESS_SYMMETRIC = Stiffness.SYMMETRIC
@@ -503,10 +652,15 @@ STATIC_RELAXATION = StaticMethod.RELAXATION
 
 
 class Scale(IntEnum):
-    """Values DMB_SCALE_... of the headers."""
-    ALL = 0  #: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
-    LOADS = 1  #: the same without gravity
-    PART = 2  #: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
+    """Values DMB_SCALE_... of the headers.
+
+    ALL: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
+    LOADS: the same without gravity
+    PART: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
+    """
+    ALL = 0
+    LOADS = 1
+    PART = 2
 
 
 SCALE_ALL = Scale.ALL
@@ -515,11 +669,17 @@ SCALE_PART = Scale.PART
 
 
 class BucklingEnd(IntEnum):
-    """Values DMB_BUCKLING_... of the headers."""
-    EXTRAPOLATED = 0  #: there was none: follow = 0, or nothing buckles about the present state
-    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable
-    LIMIT = 2  #: the factor is at a maximum of the path, or a contact that opens turns it back
-    STABLE = 3  #: none: det K keeps its sign up to `reached`
+    """Values DMB_BUCKLING_... of the headers.
+
+    EXTRAPOLATED: there was none: follow = 0, or nothing buckles about the present state
+    BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable
+    LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
+    STABLE: none: det K keeps its sign up to `reached`
+    """
+    EXTRAPOLATED = 0
+    BIFURCATION = 1
+    LIMIT = 2
+    STABLE = 3
 
 
 BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
@@ -529,10 +689,15 @@ BUCKLING_STABLE = BucklingEnd.STABLE
 
 
 class Flutter(IntEnum):
-    """Values DMB_FLUTTER_... of the headers."""
-    NOT_JUDGED = 0  #: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
-    NONE = 1  #: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
-    FOUND = 2  #: one grows from flutter_factor on
+    """Values DMB_FLUTTER_... of the headers.
+
+    NOT_JUDGED: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
+    NONE: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
+    FOUND: one grows from flutter_factor on
+    """
+    NOT_JUDGED = 0
+    NONE = 1
+    FOUND = 2
 
 
 FLUTTER_NOT_JUDGED = Flutter.NOT_JUDGED
@@ -541,11 +706,16 @@ FLUTTER_FOUND = Flutter.FOUND
 
 
 class PathKind(IntEnum):
-    """Values DMB_PATH_... of the headers."""
+    """Values DMB_PATH_... of the headers.
+
+    LIMIT: the factor is at a maximum or minimum of the path
+    BIFURCATION: another path crosses: the stiffness is singular and the factor goes on
+    BRANCH: first point of the path that crossed
+    """
     REGULAR = 0
-    LIMIT = 1  #: the factor is at a maximum or minimum of the path
-    BIFURCATION = 2  #: another path crosses: the stiffness is singular and the factor goes on
-    BRANCH = 3  #: first point of the path that crossed
+    LIMIT = 1
+    BIFURCATION = 2
+    BRANCH = 3
 
 
 PATH_REGULAR = PathKind.REGULAR
@@ -555,10 +725,15 @@ PATH_BRANCH = PathKind.BRANCH
 
 
 class ContactState(IntEnum):
-    """Values DMB_CONTACT_... of the headers."""
-    AS_IS = 0  #: rings that touch the wall press on it, others do not
-    OPEN = 1  #: there is no wall; what it presses with in the state stays as a dead load
-    CLOSED = 2  #: rings up to `contact_gap` from the wall are held across it too
+    """Values DMB_CONTACT_... of the headers.
+
+    AS_IS: rings that touch the wall press on it, others do not
+    OPEN: there is no wall; what it presses with in the state stays as a dead load
+    CLOSED: rings up to `contact_gap` from the wall are held across it too
+    """
+    AS_IS = 0
+    OPEN = 1
+    CLOSED = 2
 
 
 CONTACT_AS_IS = ContactState.AS_IS
@@ -567,52 +742,133 @@ CONTACT_CLOSED = ContactState.CLOSED
 
 
 class Reading(IntEnum):
-    """Values DMB_CHANNEL_... of the headers."""
-    HOOK_LOAD = 100  #: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
-    ROTATION_TORQUE = 101  #: [N m] that the rig puts into that section, > 0 along the string's x axis
-    WEIGHT_ON_BIT = 102  #: [N] of all bits on the string: rock law and bottom-hole load
-    TORQUE_ON_BIT = 103  #: [N m] of all bits on the string: rock law, against the rotation
-    RATE_OF_PENETRATION = 104  #: [m/s] of the string's first bit along the hole, > 0 into it; with a rock law 0 while it is off bottom. The rate of dmb_bit_state.advance
-    BIT_SPEED = 105  #: [rad/s] about its axis, of the string's far end
-    BIT_DEPTH = 106  #: [m] measured depth of the string's far end; 0 without a hole
-    ROTARY_SPEED = 107  #: [rad/s] about its axis, of the string's rig end
-    FEED_SPEED = 108  #: [m/s] along its axis, of the string's rig end, > 0 into the hole
-    STRETCH = 109  #: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
-    WIND_UP = 110  #: [rad] elastic, of the rig end against the far end: less the sum of the twist
-    OFF_BOTTOM = 111  #: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
-    RIG_FORCE = 112  #: [N] that guide and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
-    RIG_TORQUE = 113  #: [N m] likewise, > 0 along the string's x axis
-    BIT_ADVANCE = 120  #: [m]
-    BIT_BOTTOM = 121  #: [m]
-    BIT_DEPTH_OF_CUT = 122  #: [m]
-    BIT_ROCK_WEIGHT = 123  #: [N] of the rock law alone
-    BIT_TORQUE = 124  #: [N m]
-    BIT_LOAD = 125  #: [N]
-    BIT_ON_BOTTOM = 126  #: [-] 1 or 0
-    STUCK = 127  #: [-] 1 or 0
-    STUCK_FORCE = 128  #: [N] axial
-    STUCK_TORQUE = 129  #: [N m]
-    DRIVE_TARGET = 130  #: [unit of the programme]
-    DRIVE_POSITION = 131  #: [m, rad]
-    DRIVE_POWER = 132  #: [W]
-    DRIVE_WORK = 133  #: [J]
-    DRIVE_COMMAND = 134  #: [N, N m]
-    DRIVE_MADE = 135  #: [N, N m]
-    SITE_GAP = 140  #: [m]
-    SITE_NORMAL_FORCE = 141  #: [N]
-    SITE_APPROACH = 142  #: [m/s]
-    SITE_FRICTION_AXIAL = 143  #: [N]
-    SITE_FRICTION_AROUND = 144  #: [N]
-    SITE_SLIP_AXIAL = 145  #: [m/s]
-    SITE_SLIP_AROUND = 146  #: [m/s]
-    SITE_CLOSED = 147  #: [-] 1 or 0
-    SITE_STICKS = 148  #: [-] 1 or 0
-    CONTACTS_CLOSED = 150  #: [-]
-    CONTACTS_NORMAL_FORCE = 151  #: [N]
-    CONTACTS_FRICTION_AXIAL = 152  #: [N]
-    CONTACTS_FRICTION_AROUND = 153  #: [N]
-    CONTACTS_DEEPEST = 154  #: [m]
-    ENERGY_KINETIC = 160  #: [J] dmb_query_energy, O(nodes)
+    """Values DMB_CHANNEL_... of the headers.
+
+    HOOK_LOAD: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
+    ROTATION_TORQUE: [N m] that the rig puts into that section, > 0 along the string's x axis
+    WEIGHT_ON_BIT: [N] of all bits on the string: rock law and bottom-hole load
+    TORQUE_ON_BIT: [N m] of all bits on the string: rock law, against the rotation
+    RATE_OF_PENETRATION: [m/s] of the string's first bit along the hole, > 0 into it; with a rock law 0 while it is off bottom. The rate of dmb_bit_state.advance
+    BIT_SPEED: [rad/s] about its axis, of the string's far end
+    BIT_DEPTH: [m] measured depth of the string's far end; 0 without a hole
+    ROTARY_SPEED: [rad/s] about its axis, of the string's rig end
+    FEED_SPEED: [m/s] along its axis, of the string's rig end, > 0 into the hole
+    STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
+    WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
+    OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
+    RIG_FORCE: [N] that guide and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
+    RIG_TORQUE: [N m] likewise, > 0 along the string's x axis
+    BIT_ADVANCE: [m]
+    BIT_BOTTOM: [m]
+    BIT_DEPTH_OF_CUT: [m]
+    BIT_ROCK_WEIGHT: [N] of the rock law alone
+    BIT_TORQUE: [N m]
+    BIT_LOAD: [N]
+    BIT_ON_BOTTOM: [-] 1 or 0
+    STUCK: [-] 1 or 0
+    STUCK_FORCE: [N] axial
+    STUCK_TORQUE: [N m]
+    DRIVE_TARGET: [unit of the programme]
+    DRIVE_POSITION: [m, rad]
+    DRIVE_POWER: [W]
+    DRIVE_WORK: [J]
+    DRIVE_COMMAND: [N, N m]
+    DRIVE_MADE: [N, N m]
+    SITE_GAP: [m]
+    SITE_NORMAL_FORCE: [N]
+    SITE_APPROACH: [m/s]
+    SITE_FRICTION_AXIAL: [N]
+    SITE_FRICTION_AROUND: [N]
+    SITE_SLIP_AXIAL: [m/s]
+    SITE_SLIP_AROUND: [m/s]
+    SITE_CLOSED: [-] 1 or 0
+    SITE_STICKS: [-] 1 or 0
+    CONTACTS_CLOSED: [-]
+    CONTACTS_NORMAL_FORCE: [N]
+    CONTACTS_FRICTION_AXIAL: [N]
+    CONTACTS_FRICTION_AROUND: [N]
+    CONTACTS_DEEPEST: [m]
+    ENERGY_KINETIC: [J] dmb_query_energy, O(nodes)
+    MOMENTUM_X: [kg m/s] world, 180 .. 182: dmb_query_momentum, O(nodes)
+    ANGULAR_MOMENTUM_X: [kg m2/s] world, 183 .. 185
+    MASS: [kg]
+    CENTRE_X: [m] of mass, world, 187 .. 189
+    STEPS: [-] dmb_query_statistics, O(joints)
+    VIOLATION: [m, -] of all joints
+    SPRING_LENGTH: [m]
+    SPRING_ELONGATION: [m]
+    SPRING_SPEED: [m/s]
+    SPRING_FORCE: [N] tension > 0, sum of the next two
+    SPRING_ELASTIC: [N]
+    SPRING_DAMPER: [N]
+    SPRING_ENERGY: [J]
+    INPUT_PRESENT: [unit of the input] in force now
+    INPUT_RATE: [unit of the input/s] of that
+    INPUT_VALUE: [unit of the input] what is set
+    JOINT_POSITION: [m, rad]
+    JOINT_SPEED: [m/s, rad/s]
+    JOINT_ACCELERATION: [m/s2, rad/s2]
+    JOINT_REACTION: [N, N m] world
+    JOINT_REACTION_BODY: [N, N m] frame b
+    JOINT_ACTION: [N, N m]
+    JOINT_VIOLATION: [m, -]
+    JOINT_STATE: [-] JOINT_...
+    JOINT_ROWS: [-]
+    MULTIPLIER: [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six
+    REACTION: [N, N m] of a string or body: dmb_query_reaction; six
+    SECTION_FORCE: [N, N m] dmb_query_section
+    SECTION_STRAIN: [-, rad/m]
+    WORLD_VELOCITY: [m/s, rad/s] dmb_query_motion
+    WORLD_ACCELERATION: [m/s2, rad/s2]
+    BODY_VELOCITY: [m/s, rad/s]
+    BODY_ACCELERATION: [m/s2, rad/s2]
+    PROFILE: + PROFILE_...: at a place of a string; as dmb_query_profile, NaN included
+    """
+    HOOK_LOAD = 100
+    ROTATION_TORQUE = 101
+    WEIGHT_ON_BIT = 102
+    TORQUE_ON_BIT = 103
+    RATE_OF_PENETRATION = 104
+    BIT_SPEED = 105
+    BIT_DEPTH = 106
+    ROTARY_SPEED = 107
+    FEED_SPEED = 108
+    STRETCH = 109
+    WIND_UP = 110
+    OFF_BOTTOM = 111
+    RIG_FORCE = 112
+    RIG_TORQUE = 113
+    BIT_ADVANCE = 120
+    BIT_BOTTOM = 121
+    BIT_DEPTH_OF_CUT = 122
+    BIT_ROCK_WEIGHT = 123
+    BIT_TORQUE = 124
+    BIT_LOAD = 125
+    BIT_ON_BOTTOM = 126
+    STUCK = 127
+    STUCK_FORCE = 128
+    STUCK_TORQUE = 129
+    DRIVE_TARGET = 130
+    DRIVE_POSITION = 131
+    DRIVE_POWER = 132
+    DRIVE_WORK = 133
+    DRIVE_COMMAND = 134
+    DRIVE_MADE = 135
+    SITE_GAP = 140
+    SITE_NORMAL_FORCE = 141
+    SITE_APPROACH = 142
+    SITE_FRICTION_AXIAL = 143
+    SITE_FRICTION_AROUND = 144
+    SITE_SLIP_AXIAL = 145
+    SITE_SLIP_AROUND = 146
+    SITE_CLOSED = 147
+    SITE_STICKS = 148
+    CONTACTS_CLOSED = 150
+    CONTACTS_NORMAL_FORCE = 151
+    CONTACTS_FRICTION_AXIAL = 152
+    CONTACTS_FRICTION_AROUND = 153
+    CONTACTS_DEEPEST = 154
+    ENERGY_KINETIC = 160
     ENERGY_STRAIN = 161
     ENERGY_GRAVITY = 162
     ENERGY_CONTACT = 163
@@ -626,17 +882,17 @@ class Reading(IntEnum):
     ENERGY_INPUT = 171
     ENERGY_BALANCE = 172
     ENERGY_UNEXPLAINED = 173
-    MOMENTUM_X = 180  #: [kg m/s] world, 180 .. 182: dmb_query_momentum, O(nodes)
+    MOMENTUM_X = 180
     MOMENTUM_Y = 181
     MOMENTUM_Z = 182
-    ANGULAR_MOMENTUM_X = 183  #: [kg m2/s] world, 183 .. 185
+    ANGULAR_MOMENTUM_X = 183
     ANGULAR_MOMENTUM_Y = 184
     ANGULAR_MOMENTUM_Z = 185
-    MASS = 186  #: [kg]
-    CENTRE_X = 187  #: [m] of mass, world, 187 .. 189
+    MASS = 186
+    CENTRE_X = 187
     CENTRE_Y = 188
     CENTRE_Z = 189
-    STEPS = 200  #: [-] dmb_query_statistics, O(joints)
+    STEPS = 200
     REJECTED = 201
     ITERATIONS = 202
     LIMITED_STEPS = 203
@@ -645,35 +901,35 @@ class Reading(IntEnum):
     SWITCHES = 206
     DEPENDENT = 207
     REDUNDANT = 208
-    VIOLATION = 209  #: [m, -] of all joints
-    SPRING_LENGTH = 220  #: [m]
-    SPRING_ELONGATION = 221  #: [m]
-    SPRING_SPEED = 222  #: [m/s]
-    SPRING_FORCE = 223  #: [N] tension > 0, sum of the next two
-    SPRING_ELASTIC = 224  #: [N]
-    SPRING_DAMPER = 225  #: [N]
-    SPRING_ENERGY = 226  #: [J]
-    INPUT_PRESENT = 230  #: [unit of the input] in force now
-    INPUT_RATE = 231  #: [unit of the input/s] of that
-    INPUT_VALUE = 232  #: [unit of the input] what is set
-    JOINT_POSITION = 300  #: [m, rad]
-    JOINT_SPEED = 310  #: [m/s, rad/s]
-    JOINT_ACCELERATION = 320  #: [m/s2, rad/s2]
-    JOINT_REACTION = 330  #: [N, N m] world
-    JOINT_REACTION_BODY = 340  #: [N, N m] frame b
-    JOINT_ACTION = 350  #: [N, N m]
-    JOINT_VIOLATION = 360  #: [m, -]
-    JOINT_STATE = 361  #: [-] JOINT_...
-    JOINT_ROWS = 362  #: [-]
-    MULTIPLIER = 370  #: [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six
-    REACTION = 380  #: [N, N m] of a string or body: dmb_query_reaction; six
-    SECTION_FORCE = 400  #: [N, N m] dmb_query_section
-    SECTION_STRAIN = 410  #: [-, rad/m]
-    WORLD_VELOCITY = 420  #: [m/s, rad/s] dmb_query_motion
-    WORLD_ACCELERATION = 430  #: [m/s2, rad/s2]
-    BODY_VELOCITY = 440  #: [m/s, rad/s]
-    BODY_ACCELERATION = 450  #: [m/s2, rad/s2]
-    PROFILE = 1000  #: + PROFILE_...: at a place of a string; as dmb_query_profile, NaN included
+    VIOLATION = 209
+    SPRING_LENGTH = 220
+    SPRING_ELONGATION = 221
+    SPRING_SPEED = 222
+    SPRING_FORCE = 223
+    SPRING_ELASTIC = 224
+    SPRING_DAMPER = 225
+    SPRING_ENERGY = 226
+    INPUT_PRESENT = 230
+    INPUT_RATE = 231
+    INPUT_VALUE = 232
+    JOINT_POSITION = 300
+    JOINT_SPEED = 310
+    JOINT_ACCELERATION = 320
+    JOINT_REACTION = 330
+    JOINT_REACTION_BODY = 340
+    JOINT_ACTION = 350
+    JOINT_VIOLATION = 360
+    JOINT_STATE = 361
+    JOINT_ROWS = 362
+    MULTIPLIER = 370
+    REACTION = 380
+    SECTION_FORCE = 400
+    SECTION_STRAIN = 410
+    WORLD_VELOCITY = 420
+    WORLD_ACCELERATION = 430
+    BODY_VELOCITY = 440
+    BODY_ACCELERATION = 450
+    PROFILE = 1000
     WINDOW_MINIMUM = 2000
     WINDOW_MAXIMUM = 2001
     WINDOW_MEAN = 2002
@@ -797,22 +1053,34 @@ CHANNEL_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 
 
 class InputTarget(IntEnum):
-    """Values DMB_TARGET_... of the headers."""
-    SET_POINT = 0  #: of a drive, in the place of its programme; its excitation goes on
+    """Values DMB_TARGET_... of the headers.
+
+    SET_POINT: of a drive, in the place of its programme; its excitation goes on
+    INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
+    LIMIT_HIGH: [N, N m] the first below the second
+    BIT_LOAD: [-] of a load, [N] of a bit, in the place of its programme
+    FLUID_DENSITY: [-] factor of both coefficients of the wall, [kg/m3]
+    AXIAL_DAMPING: [N s/m2]
+    TORSIONAL_DAMPING: [N s]
+    STUCK: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
+    COUNT: of the targets above, as programs know them that were built before there were more
+    FLOW_RATE: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
+    """
+    SET_POINT = 0
     GAIN = 1
-    INTEGRAL_GAIN = 2  #: [N s/m, N m s], [N/m, N m] >= 0
+    INTEGRAL_GAIN = 2
     LIMIT_LOW = 3
-    LIMIT_HIGH = 4  #: [N, N m] the first below the second
+    LIMIT_HIGH = 4
     LOAD_FACTOR = 5
-    BIT_LOAD = 6  #: [-] of a load, [N] of a bit, in the place of its programme
+    BIT_LOAD = 6
     FRICTION = 7
-    FLUID_DENSITY = 8  #: [-] factor of both coefficients of the wall, [kg/m3]
+    FLUID_DENSITY = 8
     LATERAL_DAMPING = 9
-    AXIAL_DAMPING = 10  #: [N s/m2]
-    TORSIONAL_DAMPING = 11  #: [N s]
-    STUCK = 12  #: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
-    COUNT = 13  #: of the targets above, as programs know them that were built before there were more
-    FLOW_RATE = 14  #: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
+    AXIAL_DAMPING = 10
+    TORSIONAL_DAMPING = 11
+    STUCK = 12
+    COUNT = 13
+    FLOW_RATE = 14
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -863,23 +1131,40 @@ EVENTS_MAX = Events.MAX
 
 
 class JointKind(IntEnum):
-    """Values DMB_JOINT_... of the headers."""
+    """Values DMB_JOINT_... of the headers.
+
+    REVOLUTE: RX free
+    PRISMATIC: X free
+    CYLINDRICAL: X, RX free
+    UNIVERSAL: RY, RZ free: crossed axes y of a and z of b
+    SPHERICAL: RX, RY, RZ free
+    PLANAR: Y, Z, RX free: x is the normal of the plane
+    POINT_ON_LINE: X, RX, RY, RZ free: origin of b on the x axis of a
+    POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
+    DISTANCE: origins `length` apart
+    FREE: holds nothing: carries springs, dampers, stops, friction
+    KNIFE_EDGE: nonholonomic: the origin of b does not move along y of b (no lateral slip)
+    ROLLING: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
+    TRANSLATIONAL: X, Y, Z free: b does not turn against a
+    CROSS_SLIDE: Y, Z free: two slides across each other
+    SCHOENFLIES: X, Y, Z, RX free: x of b stays parallel to x of a
+    """
     FIXED = 0
-    REVOLUTE = 1  #: RX free
-    PRISMATIC = 2  #: X free
-    CYLINDRICAL = 3  #: X, RX free
-    UNIVERSAL = 4  #: RY, RZ free: crossed axes y of a and z of b
-    SPHERICAL = 5  #: RX, RY, RZ free
-    PLANAR = 6  #: Y, Z, RX free: x is the normal of the plane
-    POINT_ON_LINE = 7  #: X, RX, RY, RZ free: origin of b on the x axis of a
-    POINT_ON_HOLE = 8  #: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
-    DISTANCE = 9  #: origins `length` apart
-    FREE = 10  #: holds nothing: carries springs, dampers, stops, friction
-    KNIFE_EDGE = 11  #: nonholonomic: the origin of b does not move along y of b (no lateral slip)
-    ROLLING = 12  #: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
-    TRANSLATIONAL = 13  #: X, Y, Z free: b does not turn against a
-    CROSS_SLIDE = 14  #: Y, Z free: two slides across each other
-    SCHOENFLIES = 15  #: X, Y, Z, RX free: x of b stays parallel to x of a
+    REVOLUTE = 1
+    PRISMATIC = 2
+    CYLINDRICAL = 3
+    UNIVERSAL = 4
+    SPHERICAL = 5
+    PLANAR = 6
+    POINT_ON_LINE = 7
+    POINT_ON_HOLE = 8
+    DISTANCE = 9
+    FREE = 10
+    KNIFE_EDGE = 11
+    ROLLING = 12
+    TRANSLATIONAL = 13
+    CROSS_SLIDE = 14
+    SCHOENFLIES = 15
 
 
 JOINT_FIXED = JointKind.FIXED
@@ -901,10 +1186,15 @@ JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
 
 
 class JointMode(IntEnum):
-    """Values DMB_JOINT_... of the headers."""
-    ACTIVE = 0  #: holds what its kind says
-    LOCKED = 1  #: holds all six coordinates where they were when it was locked
-    OPEN = 2  #: holds nothing; its springs, dampers, stops and friction do not act
+    """Values DMB_JOINT_... of the headers.
+
+    ACTIVE: holds what its kind says
+    LOCKED: holds all six coordinates where they were when it was locked
+    OPEN: holds nothing; its springs, dampers, stops and friction do not act
+    """
+    ACTIVE = 0
+    LOCKED = 1
+    OPEN = 2
 
 
 JOINT_ACTIVE = JointMode.ACTIVE
@@ -943,13 +1233,21 @@ STUCK_LATERAL = StuckHolds.LATERAL
 
 
 class OperationKind(IntEnum):
-    """Values DMB_OPERATION_... of the headers."""
-    PICK_UP = 0  #: pulled without turning
-    SLACK_OFF = 1  #: lowered or pushed without turning
-    ROTATE = 2  #: turned off bottom
-    DRILL = 3  #: turned and fed, with load and torque on the bit
-    SLIDE = 4  #: fed without turning the string, with load and the motor's torque on the bit
-    BACK_REAM = 5  #: turned and pulled
+    """Values DMB_OPERATION_... of the headers.
+
+    PICK_UP: pulled without turning
+    SLACK_OFF: lowered or pushed without turning
+    ROTATE: turned off bottom
+    DRILL: turned and fed, with load and torque on the bit
+    SLIDE: fed without turning the string, with load and the motor's torque on the bit
+    BACK_REAM: turned and pulled
+    """
+    PICK_UP = 0
+    SLACK_OFF = 1
+    ROTATE = 2
+    DRILL = 3
+    SLIDE = 4
+    BACK_REAM = 5
     COUNT = 6
 
 
@@ -1005,9 +1303,13 @@ PROVIDES_POTENTIAL = ForceProvides.POTENTIAL
 
 
 class HoleShape(IntEnum):
-    """Values DMB_HOLE_... of the headers."""
-    STEP = 0  #: the values hold up to the next section, or on and on
-    LINE = 1  #: they go in straight lines to those of the next section
+    """Values DMB_HOLE_... of the headers.
+
+    STEP: the values hold up to the next section, or on and on
+    LINE: they go in straight lines to those of the next section
+    """
+    STEP = 0
+    LINE = 1
 
 
 HOLE_STEP = HoleShape.STEP
@@ -1015,9 +1317,13 @@ HOLE_LINE = HoleShape.LINE
 
 
 class ModesKind(IntEnum):
-    """Values DMB_MODES_... of the headers."""
-    UNDAMPED = 0  #: M d'' + K d = 0
-    DAMPED = 1  #: with C: damping and gyroscopic terms
+    """Values DMB_MODES_... of the headers.
+
+    UNDAMPED: M d'' + K d = 0
+    DAMPED: with C: damping and gyroscopic terms
+    """
+    UNDAMPED = 0
+    DAMPED = 1
 
 
 MODES_UNDAMPED = ModesKind.UNDAMPED
@@ -1095,15 +1401,25 @@ PART_EVENT = PartKind.EVENT
 
 
 class InputKind(IntEnum):
-    """Values DMB_INPUT_... of the headers."""
-    DRIVE = 0  #: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
-    LOAD = 1  #: [-] factor of the load place.part
-    BIT_LOAD = 2  #: [N] bottom-hole load of the bit place.part
-    FORCE = 3  #: [N, N m] `component` of a force or moment at `place`, in `frame`
-    UNBALANCE = 4  #: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
-    ECCENTRICITY = 5  #: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
-    FRICTION = 6  #: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
-    SETTING = 7  #: the input place.part of control.h [its unit]: a set point, load factor or bit load, as the drive, load or bit that it moves; limits on its rate do not bind small changes. Others (gains, limits, friction, mud, stuck) change the scene itself: ERR_UNSUPPORTED; one that is still on its way is ERR_VALUE
+    """Values DMB_INPUT_... of the headers.
+
+    DRIVE: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
+    LOAD: [-] factor of the load place.part
+    BIT_LOAD: [N] bottom-hole load of the bit place.part
+    FORCE: [N, N m] `component` of a force or moment at `place`, in `frame`
+    UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
+    ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
+    FRICTION: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
+    SETTING: the input place.part of control.h [its unit]: a set point, load factor or bit load, as the drive, load or bit that it moves; limits on its rate do not bind small changes. Others (gains, limits, friction, mud, stuck) change the scene itself: ERR_UNSUPPORTED; one that is still on its way is ERR_VALUE
+    """
+    DRIVE = 0
+    LOAD = 1
+    BIT_LOAD = 2
+    FORCE = 3
+    UNBALANCE = 4
+    ECCENTRICITY = 5
+    FRICTION = 6
+    SETTING = 7
 
 
 INPUT_DRIVE = InputKind.DRIVE
@@ -1117,23 +1433,38 @@ INPUT_SETTING = InputKind.SETTING
 
 
 class OutputKind(IntEnum):
-    """Values DMB_OUTPUT_... of the headers."""
-    DISPLACEMENT = 0  #: [m, rad] of `place`, components along the axes of `frame`
-    VELOCITY = 1  #: [m/s, rad/s] its rate
-    ACCELERATION = 2  #: [m/s2, rad/s2] the rate of that
-    SECTION_FORCE = 3  #: [N, N m] as dmb_query_section, section frame
-    SECTION_STRAIN = 4  #: [-, rad/m] likewise
-    CONTACT = 5  #: [N] at contact site number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
-    DRIVE = 6  #: [N, N m] force of the drive place.part, as dmb_query_drive; no component
-    REACTION = 7  #: [N, N m] on the part place.part, as dmb_query_reaction
+    """Values DMB_OUTPUT_... of the headers.
+
+    DISPLACEMENT: [m, rad] of `place`, components along the axes of `frame`
+    VELOCITY: [m/s, rad/s] its rate
+    ACCELERATION: [m/s2, rad/s2] the rate of that
+    SECTION_FORCE: [N, N m] as dmb_query_section, section frame
+    SECTION_STRAIN: [-, rad/m] likewise
+    CONTACT: [N] at contact site number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
+    DRIVE: [N, N m] force of the drive place.part, as dmb_query_drive; no component
+    REACTION: [N, N m] on the part place.part, as dmb_query_reaction
+    JOINT_ACCELERATION: coordinates of the
+    JOINT_ACTION: joint place.part, its forces: as dmb_query_joint
+    MULTIPLIER: number `component` of place.part, as dmb_query_multipliers
+    BIT: [N, N m] X weight, RX torque on the bit place.part by the rock law
+    CHANNEL: the channel CHANNEL_... that `component` says, at `place`. In a stepped sine each but those of a window; in a linear analysis those that change in proportion to a small motion: not magnitudes, sums over the string, energies (ERR_UNSUPPORTED)
+    """
+    DISPLACEMENT = 0
+    VELOCITY = 1
+    ACCELERATION = 2
+    SECTION_FORCE = 3
+    SECTION_STRAIN = 4
+    CONTACT = 5
+    DRIVE = 6
+    REACTION = 7
     JOINT_POSITION = 8
     JOINT_SPEED = 9
-    JOINT_ACCELERATION = 10  #: coordinates of the
+    JOINT_ACCELERATION = 10
     JOINT_REACTION = 11
-    JOINT_ACTION = 12  #: joint place.part, its forces: as dmb_query_joint
-    MULTIPLIER = 13  #: number `component` of place.part, as dmb_query_multipliers
-    BIT = 14  #: [N, N m] X weight, RX torque on the bit place.part by the rock law
-    CHANNEL = 15  #: the channel CHANNEL_... that `component` says, at `place`. In a stepped sine each but those of a window; in a linear analysis those that change in proportion to a small motion: not magnitudes, sums over the string, energies (ERR_UNSUPPORTED)
+    JOINT_ACTION = 12
+    MULTIPLIER = 13
+    BIT = 14
+    CHANNEL = 15
 
 
 OUTPUT_DISPLACEMENT = OutputKind.DISPLACEMENT
@@ -1165,10 +1496,15 @@ RESPONSE_AXES_AT_REST = ResponseAxes.AXES_AT_REST
 
 
 class StateForm(IntEnum):
-    """Values DMB_STATE_... of the headers."""
-    FULL = 0  #: all coordinates
-    REDUCED = 1  #: amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input, two or three for a motion drive, so that answers are exact at frequency `shift`. Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part
-    MATRICES = 2  #: none: sparse matrices alone, about any state; no inputs nor outputs
+    """Values DMB_STATE_... of the headers.
+
+    FULL: all coordinates
+    REDUCED: amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input, two or three for a motion drive, so that answers are exact at frequency `shift`. Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part
+    MATRICES: none: sparse matrices alone, about any state; no inputs nor outputs
+    """
+    FULL = 0
+    REDUCED = 1
+    MATRICES = 2
 
 
 STATE_FULL = StateForm.FULL
@@ -1177,9 +1513,13 @@ STATE_MATRICES = StateForm.MATRICES
 
 
 class MotionInput(IntEnum):
-    """Values DMB_MOTION_... of the headers."""
-    SPEED = 0  #: the input of a motion drive is its speed. Outputs that feel accelerations at once (forces beside the drive) would depend on its rate: ERR_UNSUPPORTED
-    ACCELERATION = 1  #: it is the rate of that [m/s2, rad/s2], with displacement and speed as states
+    """Values DMB_MOTION_... of the headers.
+
+    SPEED: the input of a motion drive is its speed. Outputs that feel accelerations at once (forces beside the drive) would depend on its rate: ERR_UNSUPPORTED
+    ACCELERATION: it is the rate of that [m/s2, rad/s2], with displacement and speed as states
+    """
+    SPEED = 0
+    ACCELERATION = 1
 
 
 MOTION_SPEED = MotionInput.SPEED
@@ -1187,16 +1527,26 @@ MOTION_ACCELERATION = MotionInput.ACCELERATION
 
 
 class Matrix(IntEnum):
-    """Values DMB_MATRIX_... of the headers."""
-    A = 0  #: shape (states, states)
-    B = 1  #: shape (states, inputs)
-    C = 2  #: shape (outputs, states)
-    D = 3  #: shape (outputs, inputs)
+    """Values DMB_MATRIX_... of the headers.
+
+    A: shape (states, states)
+    B: shape (states, inputs)
+    C: shape (outputs, states)
+    D: shape (outputs, inputs)
+    DAMPING: with gyroscopic terms
+    STIFFNESS: each by all rows, body-frame displacements; shape (rows, rows)
+    JACOBIAN: of the equations of joints, couplings, constraints and joint drives that act; shape (constraint_rows, rows)
+    COORDINATES: R of d = R z, z the independent coordinates; shape (rows, independent)
+    """
+    A = 0
+    B = 1
+    C = 2
+    D = 3
     MASS = 4
-    DAMPING = 5  #: with gyroscopic terms
-    STIFFNESS = 6  #: each by all rows, body-frame displacements; shape (rows, rows)
-    JACOBIAN = 7  #: of the equations of joints, couplings, constraints and joint drives that act; shape (constraint_rows, rows)
-    COORDINATES = 8  #: R of d = R z, z the independent coordinates; shape (rows, independent)
+    DAMPING = 5
+    STIFFNESS = 6
+    JACOBIAN = 7
+    COORDINATES = 8
 
 
 MATRIX_A = Matrix.A
@@ -1211,13 +1561,21 @@ MATRIX_COORDINATES = Matrix.COORDINATES
 
 
 class Array(IntEnum):
-    """Values DMB_ARRAY_... of the headers."""
-    VELOCITY = 0  #: [m/s, rad/s] shape (rows)
-    ACCELERATION = 1  #: [m/s2, rad/s2] rates of those, shape (rows)
-    POSITION = 2  #: [m] of the nodes, world, shape (nodes, 3)
-    QUATERNION = 3  #: [-] body to world, scalar first, shape (nodes, 4)
-    MULTIPLIER = 4  #: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
-    RESIDUAL = 5  #: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what guides hold is left in their rows
+    """Values DMB_ARRAY_... of the headers.
+
+    VELOCITY: [m/s, rad/s] shape (rows)
+    ACCELERATION: [m/s2, rad/s2] rates of those, shape (rows)
+    POSITION: [m] of the nodes, world, shape (nodes, 3)
+    QUATERNION: [-] body to world, scalar first, shape (nodes, 4)
+    MULTIPLIER: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
+    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what guides hold is left in their rows
+    """
+    VELOCITY = 0
+    ACCELERATION = 1
+    POSITION = 2
+    QUATERNION = 3
+    MULTIPLIER = 4
+    RESIDUAL = 5
 
 
 ARRAY_VELOCITY = Array.VELOCITY
@@ -1301,3 +1659,8 @@ ENUMS = (
     Array,
     RowState,
 )
+
+for _enum in ENUMS:  # help(drillmbd.PIPE_RIGID) tells its own line
+    for _line in (_enum.__doc__ or "").splitlines()[2:-1]:
+        _name, _text = _line.strip().split(": ", 1)
+        _enum[_name].__doc__ = _text

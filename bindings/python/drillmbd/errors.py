@@ -53,7 +53,7 @@ class Error(Exception):
         super().__init__(f"{self.name}: {self.message}")
 
     def __reduce__(self) -> Any:
-        return type(self), (int(self.status), self.message)
+        return type(self), (int(self.status), self.message), dict(vars(self))
 
 
 class WrongType(Error, TypeError):
