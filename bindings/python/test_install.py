@@ -1,5 +1,6 @@
-"""Tests of the installed package: by pip into a virtual environment without network, and by cmake --install. Both find
-their library without an environment variable. DRILLMBD_BUILD names the build folder."""
+"""Tests of the installed package: by pip into a bare virtual environment without network, setuptools or wheel, by the
+command that README has, and by cmake --install. Both find their library without an environment variable. DRILLMBD_BUILD
+names the build folder."""
 import importlib.util
 import os
 import pathlib
@@ -7,11 +8,14 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
+import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-BUILD = pathlib.Path(os.environ.get("DRILLMBD_BUILD", HERE.parents[1] / "build" / "release")).resolve()
+ROOT = HERE.parents[1]
+BUILD = pathlib.Path(os.environ.get("DRILLMBD_BUILD", ROOT / "build" / "release")).resolve()
 PROGRAM = ("import drillmbd as m; model = m.Model(); model.add_pipes(2); model.compile(); sim = model.sim(); "
            "sim.step(1e-3); print(m.__file__, m.__version__, sim.time)")
 
@@ -21,8 +25,8 @@ def environment(**more):
     return {**kept, **more}
 
 
-def run(*command, **more):
-    done = subprocess.run(command, capture_output=True, text=True, cwd="/", env=environment(**more))
+def run(*command, cwd="/", **more):
+    done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment(PWD=str(cwd), **more))
     if done.returncode != 0:
         raise AssertionError(f"{command}: {done.stdout}{done.stderr}")
     return done.stdout
@@ -34,27 +38,62 @@ class InstallTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def sources(self):
-        """A copy: setuptools builds in the folder it installs."""
-        shutil.copytree(HERE, self.folder / "python", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
-        return self.folder / "python"
+    def readme_command(self):
+        """Words of README's command, its preset in the place of ours; the environment variable before them."""
+        line = re.search(r"^    DRILLMBD_BUNDLE=(\S+) pip (install .*)$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(pathlib.Path(line.group(1)).name, "libdrillmbd.so")
+        return line.group(2).split()
 
     def test_pip(self):
         try:
             import ensurepip  # noqa: F401
-            import setuptools  # noqa: F401
         except ImportError as error:
             self.skipTest(f"not there: {error.name}")
-        run(sys.executable, "-m", "venv", "--system-site-packages", self.folder / "env")
-        python = self.folder / "env" / "bin" / "python"
-        run(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", self.sources(),
-            DRILLMBD_BUNDLE=str(BUILD / "libdrillmbd.so"))
+        run(sys.executable, "-m", "venv", self.folder / "env")
+        python, before = self.folder / "env" / "bin" / "python", sorted(HERE.iterdir())
+        library = os.path.relpath(BUILD / "libdrillmbd.so", ROOT)
+        subprocess.run([python, "-m", "pip", "uninstall", "-y", "setuptools"], capture_output=True, env=environment())
+        run(python, "-m", "pip", *self.readme_command(), cwd=ROOT, DRILLMBD_BUNDLE=library)
+        self.assertEqual([one for one in sorted(HERE.iterdir()) if one.name != "__pycache__"],
+                         [one for one in before if one.name != "__pycache__"])  # nothing is built among the sources
         out = run(python, "-c", PROGRAM)
         self.assertIn(str(self.folder / "env"), out)
         self.assertIn("usage: drillmbd", run(self.folder / "env" / "bin" / "drillmbd", "--help"))
+        files = run(python, "-m", "pip", "show", "-f", "drillmbd")
+        for name in ("drillmbd/scene/scene.schema.json", "py.typed", "drillmbd/libdrillmbd.so"):
+            self.assertIn(name, files)
+        config = self.folder / "env" / "pyvenv.cfg"
+        config.write_text(config.read_text().replace("packages = false", "packages = true"))
         self.finds_units(python, self.folder / "env")
-        self.assertIn("drillmbd/scene/scene.schema.json", run(python, "-m", "pip", "show", "-f", "drillmbd"))
-        self.assertIn("py.typed", run(python, "-m", "pip", "show", "-f", "drillmbd"))
+
+    def test_backend(self):
+        """What it makes: a wheel for this machine with the library, one for all without, the sources, a path to them."""
+        sys.path.insert(0, str(HERE))
+        self.addCleanup(sys.path.remove, str(HERE))
+        import backend
+        self.addCleanup(os.environ.pop, "DRILLMBD_BUNDLE", None)
+        os.environ["DRILLMBD_BUNDLE"] = str(BUILD / "libdrillmbd.so")
+        name = backend.build_wheel(self.folder)
+        self.assertNotIn("-any", name)
+        names = zipfile.ZipFile(self.folder / name).namelist()
+        self.assertIn("drillmbd/libdrillmbd.so", names)
+        os.environ["DRILLMBD_BUNDLE"] = "no/such.so"
+        with self.assertRaisesRegex(SystemExit, "must be the file of the built library"):
+            backend.build_wheel(self.folder)
+        del os.environ["DRILLMBD_BUNDLE"]
+        name = backend.build_wheel(self.folder)
+        self.assertTrue(name.endswith("-py3-none-any.whl"))
+        wheel = zipfile.ZipFile(self.folder / name)
+        wanted = {path.relative_to(HERE).as_posix() for path in (HERE / "drillmbd").rglob("*.py")}
+        self.assertEqual({path for path in wheel.namelist() if path.endswith(".py")}, wanted)
+        text = wheel.read(next(path for path in wheel.namelist() if path.endswith("METADATA"))).decode()
+        self.assertIn('Requires-Dist: pandas; extra == "frames"', text)
+        first = (self.folder / name).read_bytes()
+        self.assertEqual(first, (self.folder / backend.build_wheel(self.folder)).read_bytes())
+        with tarfile.open(self.folder / backend.build_sdist(self.folder)) as archive:
+            self.assertTrue(any(path.endswith("/backend.py") for path in archive.getnames()))
+        editable = zipfile.ZipFile(self.folder / backend.build_editable(self.folder))
+        self.assertEqual(editable.read("drillmbd.pth").decode().strip(), str(HERE))
 
     def finds_units(self, python, folder, **more):
         """The binary of co-simulation units is installed beside the library, where it was built."""
@@ -97,6 +136,7 @@ class InstallTest(unittest.TestCase):
         out = run(sys.executable, "-c", PROGRAM, PYTHONPATH=str(package.parents[1]))
         self.assertIn(str(prefix), out)
         self.finds_units(sys.executable, prefix, PYTHONPATH=str(package.parents[1]))
+        self.assertIn(str(prefix), run(sys.executable, "-c", PROGRAM, PYTHONUSERBASE=str(prefix)))  # as below ~/.local
         self.manual(prefix)
         moved = self.folder / "elsewhere"
         prefix.rename(moved)
