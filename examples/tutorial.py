@@ -30,11 +30,12 @@ model.compile()
 info = model.info()
 print(f"{info.pipes} pipes, {info.mass:.1f} kg, {info.degrees_of_freedom} degrees of freedom")
 
-# A value that does not fit is refused; the error tells part, field, value and bound.
-try:
-    mbd.Model().add_wall(diameter=-0.1)
-except mbd.Error as error:
-    print(f"refused: {error.part}, {error.field} = {error.value}, must {error.bound}")
+# A value that does not fit is refused; the error tells part, field, value and bound, of a wrong type too.
+for wrong in (-0.1, "94 mm"):
+    try:
+        mbd.Model().add_wall(diameter=wrong)
+    except mbd.Error as error:
+        print(f"refused: {error.part}, {error.field} = {error.value}, must {error.bound}")
 
 # 2. Where does it lie? Friction as if it were pushed in.
 sim = model.sim()
@@ -73,7 +74,7 @@ print("modes [Hz]: " + ", ".join(f"{frequency:.2f}" for frequency in modes.frequ
 middle = mbd.station(string, PIPES // 2, 0.5)
 response = sim.response([mbd.Input(kind=mbd.INPUT_ECCENTRICITY)], [mbd.output(middle, mbd.Z), mbd.output(tip, mbd.RX)],
                         frequency_low=0.5, frequency_high=40.0, points=200)
-bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [mbd.output(middle, mbd.Z)], [2e-5],
+bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [mbd.output(middle, mbd.Z)], [1e-6],
                              speed_low=20.0 * RPM, speed_high=300.0 * RPM, points=150)
 print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.high / RPM:.0f}" for band in bands) or "none"))
 
@@ -96,7 +97,8 @@ recorder.write_csv(folder / "run.csv")
 sim.write_vtk(folder / "string.vtp")
 model.write_vtk_hole(folder / "hole.vtp", 0.0, 35.0)
 try:
-    lying.frame().to_csv(folder / "profile.csv", index=False)
+    lying.frame().to_csv(folder / "profile.csv", index=False)  # a pandas frame with units in its heads
+    modes.frame().to_csv(folder / "modes.csv", index=False)
 except ImportError as error:
     print(error)
 try:
@@ -105,9 +107,9 @@ try:
     plots.string(lying, 0.094, "the string in its hole").savefig(folder / "string.png")
     plots.recording(recorder, "start of drilling").savefig(folder / "run.png")
     plots.shapes(modes, places, along, 5, "modes").savefig(folder / "modes.png")
+    plots.frequencies(modes, "modes").savefig(folder / "frequencies.png")
     plots.response(response, ["middle, up [m]", "far end, turn [rad]"], "eccentric pipes").savefig(folder / "response.png")
-    rpm = [20.0 + 280.0 * i / 149 for i in range(150)]
-    plots.severity([one * RPM for one in rpm], severity, bands, title="speeds to avoid").savefig(folder / "speeds.png")
+    plots.severity(bands.speeds, severity, bands, title="speeds to avoid").savefig(folder / "speeds.png")
     plots.buckling(shape, range(1, 13), factor, "buckling, pushed at the rig").savefig(folder / "buckling.png")
 except ImportError as error:
     print(error)

@@ -81,6 +81,24 @@ class NamesTest(unittest.TestCase):
             elif inspect.isfunction(value):
                 self.assertTrue(value.__doc__, name)
 
+    def test_each_name_has_a_docstring(self):
+        """Constants by their own sentence where the headers have one, channels by their unit, structs by what they are for,
+        each public method and property of all classes."""
+        for name in mbd.__all__:
+            self.assertTrue(getattr(mbd, name).__doc__, name)
+            if inspect.isclass(getattr(mbd, name)):
+                for member in dir(getattr(mbd, name)):
+                    static = inspect.getattr_static(getattr(mbd, name), member)
+                    if not member.startswith("_") and (inspect.isfunction(static) or isinstance(static, property)):
+                        self.assertTrue(inspect.getdoc(static), f"{name}.{member}")
+        self.assertEqual(mbd.FRICTION_BRISTLE.__doc__, "elastic bristle that truly sticks, breaking away at mu(v)")
+        self.assertTrue(mbd.CHANNEL_VELOCITY_X.__doc__.startswith("[m/s]"))
+        self.assertIn("STRIBECK: mu_d", mbd.FrictionLaw.__doc__)
+        self.assertIn("output (Channel)", mbd.EventDef.__doc__)
+        self.assertIn("dmb_model_add_pipes", mbd.PipeDef.__doc__)
+        self.assertNotIn("reserved", mbd.DriveDef.__doc__)
+        self.assertNotIn("reserved", repr(mbd.DriveDef()))
+
     def test_fields_tell_unit_and_meaning(self):
         for struct in mbd.STRUCTS.values():
             if issubclass(struct, mbd._Sized):
@@ -524,6 +542,48 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(shapes[4, 1], complex(modes.shape(0, self.places[4]).re[1], modes.shape(0, self.places[4]).im[1]))
         self.assertEqual(list(modes.frequencies), sorted(mode.frequency for mode in modes))
 
+    @there("numpy", "matplotlib.pyplot")
+    def test_torsion_is_drawn(self):
+        """A mode that only twists shows its twist, and no rounding of displacements drawn large."""
+        from drillmbd import plots
+        model = mbd.Model()
+        model.set_environment(gravity=(0, 0, 0))
+        string = model.add_string(start_free=mbd.FREE_NONE)
+        model.add_pipes(10, string=string, kind=mbd.PIPE_AXIAL_TORSIONAL)
+        model.compile()
+        with model.sim() as sim:
+            modes = sim.modes(count=1)
+            self.assertAlmostEqual(modes[0].share[1], 1.0)
+            figure = plots.shapes(modes, [mbd.station(string, i, 1.0) for i in range(10)], range(1, 11))
+        lines = {line.get_label(): abs(line.get_ydata()) for line in figure.axes[0].get_lines()}
+        self.assertAlmostEqual(lines["twist"].max(), 1.0)
+        for name in "xyz":
+            self.assertLess(lines[name].max(), 1e-6)
+        mbd.plots.need("matplotlib.pyplot").close("all")
+
+    @there("numpy", "pandas")
+    def test_frames_of_analyses(self):
+        rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_TORQUE], 5, 3)
+        rows.take()
+        frame = rows.frame()
+        self.assertEqual(list(frame.columns), ["time [s]", "along the string [m]", "distance [m]", "torque [N m]"])
+        self.assertEqual(frame["along the string [m]"].tolist(), frame["distance [m]"].tolist())
+        self.assertEqual(rows.along.shape, (5,))
+        counted = self.sim.string_fatigue(self.string, 10, curve_stress=1e8, slope=4.0)
+        counted.take()
+        frame = counted.frame()
+        self.assertEqual(frame["pipe"].tolist(), list(range(10)))
+        self.assertEqual(frame["damage [-]"].tolist(), [one.damage for one in counted.results])
+        self.assertEqual(len(counted.counter.frame()), 10)
+        along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 4)
+        self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]", "wall force [N/m]"])
+        self.assertEqual(along.frame()["depth [m]"].tolist(), along["depth"])
+        bands, severity = self.sim.speeds([mbd.Order()], [mbd.output(self.places[4], mbd.Z)], [1e-9], points=20,
+                                          speed_low=2.0, speed_high=40.0, contact=mbd.CONTACT_OPEN)
+        self.assertEqual((bands.speeds[0], bands.speeds[-1], len(bands.speeds)), (2.0, 40.0, 20))
+        self.assertEqual(bands.severity_frame()["severity [-]"].tolist(), severity)
+        self.assertEqual(len(bands.frame()), len(bands))
+
     @there("numpy", "pandas")
     def test_frames(self):
         frame = self.sim.profile(self.string, 10).frame()
@@ -545,11 +605,24 @@ class ArraysTest(unittest.TestCase):
                                      [mbd.Output(place=self.places[9], component=mbd.Z)], points=20,
                                      contact=mbd.CONTACT_OPEN)
         band = mbd.SpeedBand(low=2.0, high=3.0)
-        figures = [plots.profile(profile, "statics"), plots.string(profile, 0.094),
+        rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_BENDING_MOMENT], 5, 3)
+        rows.take()
+        table = mbd.numpy.array([[0.01 * i, math.sin(0.2 * math.pi * i), 3.0] for i in range(200)])
+        figures = [plots.causes(response, ["a force"], label="tip [m]"), plots.frequencies(modes),
+                   plots.study([1.0, 2.0], {"a [Hz]": [1.0, 2.0], "b [m]": [3.0, 4.0]}, "length [m]", log=True),
+                   plots.orbit(table[:, 1], table[:, 2], 0.01), plots.over_time(rows, 1),
+                   plots.spectrum(table, ["time [s]", "a [m]", "b [m]"]), plots.profile(profile, "statics"), plots.string(profile, 0.094),
                    plots.shapes(modes, self.places, [i + 1.0 for i in range(10)]), plots.response(response, ["tip [m/N]"]),
                    plots.severity([1.0, 2.0, 3.0], [0.1, 2.0, 0.3], [band]),
                    plots.history(mbd.numpy.zeros((3, 3)), ["time [s]", "a [m]", "b [N]"]),
                    plots.buckling(modes.shapes(0, self.places).real, range(10), 2.5)]
+        line = figures[5].axes[0].get_lines()[0]  # a sine of 10 Hz and amplitude 1
+        at = line.get_ydata().argmax()
+        self.assertAlmostEqual(line.get_xdata()[at], 10.0, delta=0.5)
+        self.assertAlmostEqual(line.get_ydata()[at], 1.0, delta=0.03)
+        with self.assertRaisesRegex(ValueError, "equal times"):
+            plots.spectrum([[0.0, 1.0], [0.1, 1.0], [0.5, 1.0]], ["time [s]", "a [m]"])
+        self.assertEqual(figures[6].axes[2].get_xlabel(), "bending moment [N m]")  # 46 N m at most: no kN m
         with tempfile.TemporaryDirectory() as folder:
             for number, figure in enumerate(figures):
                 for axes in figure.axes:

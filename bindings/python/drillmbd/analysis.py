@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable, Iterator, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, pointer
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any, Dict, List
 
 from ._handle import Handle
 from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
@@ -26,12 +26,40 @@ if TYPE_CHECKING:
 
 
 class SpeedBands(List[SpeedBand]):
-    """Bands of rotary speed to avoid, with the status of the call and its SpeedsReport."""
+    """Bands of rotary speed to avoid, with the status of the call and its SpeedsReport. `speeds` [rad/s] and `severity` [-]
+    are those of the grid, shape (points) each."""
 
     def __init__(self) -> None:
         super().__init__()
         self.status = 0
         self.report = SpeedsReport()
+        self.speeds: list[float] = []
+        self.severity: list[float] = []
+
+    def frame(self) -> Any:
+        """The bands as a pandas frame, one row each, units in the names of its columns."""
+        return frame_of(SpeedBand, self)
+
+    def severity_frame(self) -> Any:
+        """Severity over rotary speed as a pandas frame."""
+        return need("pandas").DataFrame({"rotary speed [rad/s]": self.speeds, "severity [-]": self.severity})
+
+
+class Columns(Dict[str, List[float]]):
+    """Lists by name, all of one length: of stations along a string."""
+    units: dict[str, str] = {}
+
+    def frame(self) -> Any:
+        """The lists as a pandas frame with units in the names of its columns."""
+        return need("pandas").DataFrame({f"{name.replace('_', ' ')} [{self.units[name]}]": one for name, one in self.items()})
+
+
+def frame_of(cls: Any, rows: Sequence[Any], index: dict[str, Sequence[Any]] | None = None) -> Any:
+    """A pandas frame of structs, a row each, units in the names of its columns; columns of `index` come first."""
+    names = [name for name, kind in cls._fields_ if name != "struct_size" and not name.rstrip("0123456789").endswith("reserved")
+             and not hasattr(kind, "_length_") and not hasattr(kind, "contents")]
+    table = {f"{name.replace('_', ' ')} [{cls.field_docs[name][0] or '-'}]": [getattr(row, name) for row in rows] for name in names}
+    return need("pandas").DataFrame({**(index or {}), **table})
 
 
 class Analyses:
@@ -115,7 +143,7 @@ class Analyses:
         given, asked, handle = row_of(Input, inputs, "inputs"), row_of(Output, outputs, "outputs"), c_void_p()
         self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(inputs), asked, len(outputs),
                                                byref(handle)))
-        return Response(handle)
+        return Response(handle, [one.amplitude for one in given])
 
     @mirrors("dmb_analysis_stepped_sine")
     def stepped_sine(self, frequency: float, outputs: Sequence[Output], options: Any = None,
@@ -159,7 +187,9 @@ class Analyses:
                                              len(outputs), bands, byref(count), severity))
         options.report = None
         found.extend(list(bands)[:count.value])
-        return found, list(severity)
+        width = (options.speed_high - options.speed_low) / max(options.points - 1, 1)
+        found.speeds, found.severity = [options.speed_low + i * width for i in range(options.points)], list(severity)
+        return found, found.severity
 
     @mirrors("dmb_analysis_torque_drag")
     def torque_drag(self, operations: Any = None, depths: Sequence[float] | None = None,
@@ -183,14 +213,16 @@ class Analyses:
 
     @mirrors("dmb_analysis_torque_drag_profile")
     def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
-                            options: TorqueDragOptions | None = None, **fields: Any) -> dict[str, list[float]]:
+                            options: TorqueDragOptions | None = None, **fields: Any) -> Columns:
         """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
         torque [N m], wall force per metre [N/m], as lists by name."""
         options = struct(TorqueDragOptions, options, fields)
         given, stations = as_operation(operation), whole(stations, "torque and drag profile", "stations", 2, 2 ** 20)
         values = [(c_double * stations)() for _ in range(4)]
         self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
-        return dict(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
+        found = Columns(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
+        found.units = dict(zip(found, ("m", "N", "N m", "N/m")))
+        return found
 
     @mirrors("dmb_analysis_friction_factor")
     def friction_factor(self, operation: Operation | int, hook_load: float | None = None, torque: float | None = None,
@@ -267,11 +299,12 @@ class TorqueDrag:
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------
 class Response(Handle):
-    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, inputs and outputs."""
+    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, inputs and outputs; `amplitudes`:
+    of the inputs, as they were given."""
     _kind = "response"
 
-    def __init__(self, handle: c_void_p) -> None:
-        self._handle = handle
+    def __init__(self, handle: c_void_p, amplitudes: list[float]) -> None:
+        self._handle, self.amplitudes = handle, amplitudes
         shape = (c_uint32 * 3)()
         check(_lib.dmb_response_dimensions(handle, shape))
         self.shape = tuple(shape)  # points, inputs, outputs

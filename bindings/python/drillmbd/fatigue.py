@@ -49,6 +49,11 @@ class Fatigue(Handle):
         self._sure(_lib.dmb_fatigue_get(self._handle, place, byref(answer)))
         return answer
 
+    def frame(self) -> Any:
+        """The places as a pandas frame, one row each, units in the names of its columns."""
+        from .analysis import frame_of
+        return frame_of(FatigueResult, [self.result(place) for place in range(self._count)])
+
     @mirrors("dmb_fatigue_histogram")
     def histogram(self, place: int = 0) -> tuple[list[float], list[float]]:
         """Ranges [Pa] and how many cycles have them, at the worst point of a place."""
@@ -75,6 +80,11 @@ class StringFatigue:
     def results(self) -> list[FatigueResult]:
         """Of each of the pipes."""
         return [self.counter.result(i) for i in range(len(self.pipes))]
+
+    def frame(self) -> Any:
+        """The pipes as a pandas frame, one row each, units in the names of its columns."""
+        from .analysis import frame_of
+        return frame_of(FatigueResult, self.results, {"pipe": self.pipes})
 
     @property
     def worst(self) -> int:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .analysis import TorqueDrag
     from .fatigue import StringFatigue
     from .profile import Profile
-    from .recorder import Recorder
+    from .recorder import ProfileRecorder, Recorder
 
 # Okabe and Ito's palette from dark to light, with lines that differ too.
 COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -36,6 +36,12 @@ def _style(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "linestyle": LINES[number % len(LINES)]}
 
 
+def _kilo(*rows: Any) -> tuple[float, str]:
+    """Factor and prefix of a unit: 1e-3 and "k" where values reach 1000."""
+    largest = max((abs(float(value)) for row in rows for value in row if value == value and abs(value) < math.inf), default=0.0)
+    return (1e-3, "k") if largest >= 1e3 else (1.0, "")
+
+
 def _legend(axes: Any) -> None:
     if len(axes.get_lines()) > 1:
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -46,16 +52,18 @@ def profile(found: Profile, title: str = "") -> Any:
     has_hole = bool(found.depth.max() > 0.0)
     down = found.depth if has_hole else found.along
     figure, ((axial, torque, bending, wall),) = _axes(1, 4, (13, 6), sharey=True)
-    for axes, values, label in ((axial, found.axial_force / 1e3, "axial force [kN]\n(tension > 0)"),
-                                (torque, found.torque / 1e3, "torque [kN m]"),
-                                (bending, found.bending_moment / 1e3, "bending moment [kN m]")):
-        axes.plot(values, down, **SINGLE)
+    for axes, values, label in ((axial, found.axial_force, "axial force [{}N]\n(tension > 0)"),
+                                (torque, found.torque, "torque [{}N m]"),
+                                (bending, found.bending_moment, "bending moment [{}N m]")):
+        factor, prefix = _kilo(values)
+        axes.plot(factor * values, down, **SINGLE)
         axes.axvline(0.0, color="#999999", linewidth=0.8)
-        axes.set_xlabel(label)
+        axes.set_xlabel(label.format(prefix))
+    factor, prefix = _kilo(found.contact_force)
     if len(found.contact_depth):
-        wall.barh(found.contact_depth, found.contact_force / 1e3, color=COLOURS[2],
+        wall.barh(found.contact_depth, factor * found.contact_force, color=COLOURS[2],
                   height=0.6 * max(float(down.max()), 1e-9) / len(found.contact_depth))
-    wall.set_xlabel("force on the wall [kN]\nper site")
+    wall.set_xlabel(f"force on the wall [{prefix}N]\nper site")
     axial.set_ylabel("measured depth [m]" if has_hole else "along the string [m]")
     axial.invert_yaxis()
     figure.suptitle(title)
@@ -114,7 +122,9 @@ def response(found: Response, names: Sequence[str] | None = None, title: str = "
     for i in range(found.shape[2]):
         values = found.transfer(output=i)
         size.plot(found.frequencies, numpy.abs(values), label=names[i] if names else f"output {i}", **_style(i))
-        phase.plot(found.frequencies, numpy.angle(values, deg=True), **_style(i))
+        angle = numpy.angle(values, deg=True)
+        phase.plot(found.frequencies, numpy.where(numpy.abs(numpy.diff(angle, append=angle[-1:])) > 180.0, numpy.nan, angle),
+                   **_style(i))  # a phase that comes back at the other side draws no line across
     size.set(yscale="log", ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else names[0])
     phase.set(xlabel="frequency [Hz]", ylabel="phase [deg]", yticks=range(-180, 181, 90))
     _legend(size)
@@ -123,18 +133,20 @@ def response(found: Response, names: Sequence[str] | None = None, title: str = "
 
 
 def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, title: str = "") -> Any:
-    """The lowest modes that are not rigid-body motions: displacement along, across and twist over the string [m]."""
+    """The lowest modes that are not rigid-body motions, over the string [m]: displacement along x, across y and z, the
+    largest 1, and the rotation about x, the largest of all rotations 1."""
     numpy = need("numpy")
     elastic = [i for i in range(len(found)) if not found[i].rigid][:count]
     figure, grid = _axes(max(1, len(elastic)), 1, (11, 1.9 * max(1, len(elastic))), sharex=True)
     for (axes,), index in zip(grid, elastic):
         values = found.shapes(index, places)
-        turned = values * numpy.exp(-1j * numpy.angle(values.ravel()[numpy.abs(values).argmax()]))
-        parts = ((turned[:, 0].real, "x"), (turned[:, 1].real, "y"), (turned[:, 2].real, "z"))
-        scale = max(float(numpy.abs(turned[:, :3]).max()), 1e-300)
-        for number, (part, name) in enumerate(parts):
-            axes.plot(along, part / scale, label=name, **_style(number))
-        axes.set(ylabel=f"{found[index].frequency:.3g} Hz\n[-]")
+        turned = (values * numpy.exp(-1j * numpy.angle(values.ravel()[numpy.abs(values).argmax()]))).real
+        swing = max(float(numpy.abs(turned[:, 3:]).max()), 1e-300)  # [rad]
+        scale = max(float(numpy.abs(turned[:, :3]).max()), 1e-3 * swing)  # [m] twist alone moves nothing by rounding
+        for number, (part, name) in enumerate(((turned[:, 0] / scale, "x"), (turned[:, 1] / scale, "y"),
+                                               (turned[:, 2] / scale, "z"), (turned[:, 3] / swing, "twist"))):
+            axes.plot(along, part, label=name, **_style(number))
+        axes.set(ylabel=f"{found[index].frequency:.3g} Hz\n[-]", ylim=(-1.1, 1.1))
     _legend(grid[0][0])
     grid[-1][0].set_xlabel("along the string [m]")
     figure.suptitle(title)
@@ -144,13 +156,15 @@ def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, titl
 def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "") -> Any:
     """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation."""
     figure, ((load, torque),) = _axes(1, 2, (11, 6), sharey=True)
-    for number, name in enumerate(names):
-        depth = found.column("depth", number)
-        load.plot([value / 1e3 for value in found.column("hook_load", number)], depth, label=name, **_style(number))
-        torque.plot([value / 1e3 for value in found.column("torque", number)], depth, label=name, **_style(number))
+    for axes, field, label in ((load, "hook_load", "hook load [{}N]\n(> 0: the rig pulls)"),
+                               (torque, "torque", "torque at the rig [{}N m]")):
+        columns = [found.column(field, number) for number in range(len(names))]
+        factor, prefix = _kilo(*columns)
+        for number, (name, column) in enumerate(zip(names, columns)):
+            axes.plot([factor * value for value in column], found.column("depth", number), label=name, **_style(number))
+        axes.set_xlabel(label.format(prefix))
     load.axvline(0.0, color="#999999", linewidth=0.8)
-    load.set(xlabel="hook load [kN]\n(> 0: the rig pulls)", ylabel="measured depth of the bit [m]")
-    torque.set_xlabel("torque at the rig [kN m]")
+    load.set_ylabel("measured depth of the bit [m]")
     load.invert_yaxis()
     _legend(torque)
     figure.suptitle(title)
@@ -162,14 +176,15 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
     """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm."""
     figure, ((axes,),) = _axes(1, 1, (11, 4.5))
     rpm = [30.0 * speed / math.pi for speed in speeds]
-    axes.plot(rpm, values, **SINGLE)
-    axes.axhline(threshold, **_style(0), linewidth=1.0)
+    axes.plot(rpm, values, label="severity", **SINGLE)
+    axes.axhline(threshold, **_style(2), linewidth=1.0, label="limit")
     for band in bands:
         low, high = 30.0 * band.low / math.pi, 30.0 * band.high / math.pi
         axes.axvspan(low, high, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00", linewidth=0.0)
         axes.annotate(f"{low:.0f} .. {high:.0f}", (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
                       xytext=(0, 3), textcoords="offset points", ha="center", fontsize=8, rotation=40)
     axes.set(xlabel="rotary speed [rpm]", ylabel="severity [-]", yscale="log" if max(values) > 0.0 else "linear")
+    _legend(axes)
     figure.suptitle(title)
     return figure
 
@@ -195,5 +210,108 @@ def fatigue(found: StringFatigue, title: str = "") -> Any:
     width = 1e-6 * (ranges[1] - ranges[0])
     cycles.bar([one for one, _ in known], [one for _, one in known], width=width, color=COLOURS[1])
     cycles.set(xlabel="stress range [MPa]", ylabel=f"cycles at pipe {found.pipes[found.worst]}", yscale="log" if known else "linear")
+    figure.suptitle(title)
+    return figure
+
+
+def causes(found: Response, names: Sequence[str], output: int = 0, label: str = "amplitude", title: str = "") -> Any:
+    """What shakes one output: its amplitude over frequency by each input with the input's own amplitude, and by all
+    together. names: of the inputs; label: of the output, with its unit."""
+    numpy = need("numpy")
+    figure, ((axes,),) = _axes(1, 1, (11, 6))
+    together = numpy.abs(found.transfer(output=output))
+    axes.loglog(found.frequencies, together, color="#6b7280", linewidth=2.6, alpha=0.55, label="all together")
+    for number, name in enumerate(names):
+        axes.loglog(found.frequencies, found.amplitudes[number] * numpy.abs(found.transfer(number, output)), label=name,
+                    **_style(number))
+    axes.set(xlabel="frequency [Hz]", ylabel=label)
+    _legend(axes)
+    figure.suptitle(title)
+    return figure
+
+
+def frequencies(found: Modes, title: str = "") -> Any:
+    """All natural frequencies by their number, along, around and across apart by what moves most."""
+    figure, ((axes,),) = _axes(1, 1, (9, 5))
+    elastic = [(number, mode.frequency, max(range(3), key=list(mode.share).__getitem__)) for number, mode in enumerate(found)
+               if not mode.rigid]
+    for kind, name in enumerate(("along", "around", "across")):
+        shown = [(number, frequency) for number, frequency, most in elastic if most == kind]
+        axes.plot([one for one, _ in shown], [one for _, one in shown], "os^"[kind], color=COLOURS[1 + kind], markersize=4,
+                  label=name)
+    axes.set(xlabel="mode [-]", ylabel="natural frequency [Hz]", yscale="log" if elastic else "linear")
+    _legend(axes)
+    figure.suptitle(title)
+    return figure
+
+
+def study(values: Sequence[float], columns: dict[str, Sequence[float]], parameter: str, title: str = "",
+          log: bool = False) -> Any:
+    """What depends on one parameter: columns by name with unit, as "first bending [Hz]", those of one unit in one panel.
+    parameter: its name with unit; log: both axes logarithmic, for frequencies against lengths."""
+    panels = list(dict.fromkeys(_unit(name) for name in columns))
+    figure, grid = _axes(max(1, len(panels)), 1, (10, 3.0 * max(1, len(panels))), sharex=True)
+    for (axes,), unit in zip(grid, panels):
+        shown = [name for name in columns if _unit(name) == unit]
+        for number, name in enumerate(shown):
+            axes.plot(values, columns[name], marker="o", markersize=4, label=name.split(" [")[0], **_style(number))
+        axes.set_ylabel(f"[{unit}]" if len(shown) > 1 else shown[0])
+        if log:
+            axes.set(xscale="log", yscale="log")
+        _legend(axes)
+    grid[-1][0].set_xlabel(parameter)
+    figure.suptitle(title)
+    return figure
+
+
+def spectrum(table: Any, columns: Sequence[str], title: str = "") -> Any:
+    """Amplitudes of the columns by frequency, of rows at equal times: discrete Fourier transform under a Hann window,
+    without the mean. `table`: shape (rows, columns), its first column time [s]."""
+    numpy = need("numpy")
+    table = numpy.asarray(table, dtype=float)
+    spacing = numpy.diff(table[:, 0])
+    if len(spacing) < 2 or spacing.max() - spacing.min() > 1e-3 * spacing.mean():
+        raise ValueError("a spectrum needs 3 rows or more at equal times: record with an interval, or step equally")
+    window = numpy.hanning(len(table))
+    frequency = numpy.fft.rfftfreq(len(table), spacing.mean())
+    figure, grid = _axes(len(columns) - 1, 1, (11, 2.6 * (len(columns) - 1)), sharex=True)
+    for number, (axes,) in enumerate(grid):
+        values = table[:, 1 + number] - table[:, 1 + number].mean()
+        size = 2.0 * numpy.abs(numpy.fft.rfft(values * window)) / window.sum()
+        axes.plot(frequency[1:], size[1:], linewidth=1.0, **SINGLE)
+        axes.set(ylabel=columns[1 + number], yscale="log" if size[1:].max() > 0.0 else "linear")
+    grid[-1][0].set_xlabel("frequency [Hz]")
+    figure.suptitle(title)
+    return figure
+
+
+def orbit(y: Any, z: Any, clearance: float | None = None, title: str = "") -> Any:
+    """The way of a point of the string across the hole, seen along it: displacements y, z [m], shape (n), and the circle
+    that `clearance` [m] leaves, half the difference of the diameters of hole and pipe."""
+    numpy = need("numpy")
+    figure, ((axes,),) = _axes(1, 1, (6.5, 6))
+    axes.plot(1e3 * numpy.asarray(y), 1e3 * numpy.asarray(z), linewidth=0.9, label="way", **SINGLE)
+    axes.plot(1e3 * float(y[-1]), 1e3 * float(z[-1]), "o", color=COLOURS[2], label="end")
+    if clearance is not None:
+        angle = numpy.linspace(0.0, 2.0 * math.pi, 181)
+        axes.plot(1e3 * clearance * numpy.cos(angle), 1e3 * clearance * numpy.sin(angle), color="#999999", linewidth=1.0,
+                  label=f"free way {1e3 * clearance:.3g} mm")
+    axes.set(xlabel="y [mm]", ylabel="z, up [mm]")
+    axes.set_aspect("equal", adjustable="datalim")
+    _legend(axes)
+    figure.suptitle(title)
+    return figure
+
+
+def over_time(recorder: ProfileRecorder, quantity: int = 0, title: str = "") -> Any:
+    """One quantity of a ProfileRecorder along the string over time, as a map; quantity: its number among the recorder's."""
+    numpy = need("numpy")
+    values = recorder.values[:, :, quantity]
+    figure, ((axes,),) = _axes(1, 1, (11, 5))
+    picture = axes.pcolormesh(recorder.time, recorder.along, values.T, cmap="cividis", shading="nearest")
+    figure.colorbar(picture, ax=axes, label=recorder.columns[quantity])
+    axes.set(xlabel="time [s]", ylabel="along the string [m]")
+    axes.grid(visible=False)
+    axes.invert_yaxis()
     figure.suptitle(title)
     return figure

@@ -12,9 +12,9 @@ from ._optional import need, numpy
 from ._structs import Channel, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .channels import channel_name, channel_quantity, channel_unit
-from .enums import CHANNEL_PROFILE, PROFILE_COUNT
+from .enums import CHANNEL_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
 
-from .profile import unit_of
+from .profile import unit_of, values_of
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -128,6 +128,10 @@ class ProfileRecorder:
         if not isinstance(stations, int):
             self._distance = (c_double * count)(*stations)
             self._profile.distance = ctypes.cast(self._distance, POINTER(c_double))
+        self._along: Any = stations
+        if numpy is not None:
+            self._along = (values_of(sim, as_id(string), [PROFILE_DISTANCE], count=count)[:, 0] if isinstance(stations, int)
+                           else numpy.array(stations))
         self._memory = (c_double * (capacity * self._width))()
         self._struct = ProfileRecorderStruct(capacity=capacity, interval=interval)
         self._struct.profile = ctypes.pointer(self._profile)
@@ -145,6 +149,20 @@ class ProfileRecorder:
     def columns(self) -> list[str]:
         """Names of the quantities with their units."""
         return [f"{channel_name(CHANNEL_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]" for quantity in self._quantities]
+
+    @property
+    def along(self) -> Any:
+        """[m] distances of the stations from the rig end, a numpy array of shape (stations)"""
+        need("numpy")
+        return self._along
+
+    def frame(self) -> Any:
+        """A pandas frame with a row for each time and station, units in the names of its columns."""
+        rows, stations = len(self), self._shape[0]
+        values = self.values.reshape(rows * stations, self._shape[1])
+        table = {"time [s]": self.time.repeat(stations), "along the string [m]": need("numpy").tile(self.along, rows)}
+        table.update((name, values[:, number]) for number, name in enumerate(self.columns))
+        return need("pandas").DataFrame(table)
 
     @property
     def time(self) -> Any:
