@@ -240,6 +240,32 @@ def python_type(kind):
     return kind if re.match(r"[A-Z][a-z]\w*$", kind) else "Any"
 
 
+# What the classes of _record.py take besides fields, and the fields that it stands for.
+MORE_KEYS = {"Term": ("table", "function"), "WallDef": ("stations",), "SpringDef": ("table",), "Motor": ("table",),
+             "DriveDef": ("curve", "gain_table"), "ForceDef": ("places", "function"), "ConstraintDef": ("places", "function")}
+
+
+def given_type(kind):
+    """The type of what may be given for a field: more than what is read from it."""
+    if re.match(r"c_char \*", kind):
+        return "str | bytes"
+    if re.match(r"c_double \*", kind):
+        return "Iterable[float]"
+    return {"Place": "Place | Id | None", "Id": "Id | None", "Channel": "Channel | tuple[Any, Any]",
+            "c_double": "SupportsFloat"}.get(kind, python_type(kind).replace("'", ""))
+
+
+def constructor_lines(name, fields):
+    """The constructor as type checkers and editors see it: misspelt fields and texts for numbers are found there."""
+    keys = [f"{key}: Any = ..." for key in MORE_KEYS.get(name, ())]
+    keys += ["*"] + [f"{field}: {given_type(kind)} = ..." for field, kind, _, _ in fields
+                     if field != "struct_size" and not re.search(r"reserved\d*$", field)]
+    if keys[-1] == "*":
+        keys.pop()
+    yield "    if TYPE_CHECKING:"
+    yield f"        def __init__(self, {', '.join(keys)}) -> None: ..."
+
+
 def struct_lines(reader, c_name, fields, text):
     name = class_name(c_name)
     bases = ([MIXINS[name]] if name in MIXINS else []) + ["Sized" if c_name in reader.sized else "Record"]
@@ -248,6 +274,8 @@ def struct_lines(reader, c_name, fields, text):
     yield f"    c_name, about = {quoted(c_name)}, {quoted(text if len(text.split()) > 2 else reader.users(name))}"
     for field, kind, _, _ in fields:
         yield f"    {field}: {python_type(kind)}"
+    if c_name in reader.sized:
+        yield from constructor_lines(name, fields)
     yield "    _fields_: ClassVar[Any] = ["
     for field, kind, _, _ in fields:
         yield f"        ({quoted(field)}, {kind}),"
@@ -264,9 +292,10 @@ MADE = '"""{} Made from the headers by generate.py: do not edit, run that instea
 STRUCTS_HEAD = MADE.format("The structs and types of callbacks of the C interface.") + '''# mypy: disable-error-code="misc"
 from __future__ import annotations
 
+from collections.abc import Iterable
 from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
                     c_void_p)
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
 from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
 

@@ -134,6 +134,26 @@ class NamesTest(unittest.TestCase):
                                   capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
         self.assertEqual(done.returncode, 0, done.stdout)
 
+    def test_types_of_a_users_program(self):
+        """What is right passes the strictest check; a misspelt field and a text for a number are found by it."""
+        try:
+            import mypy  # noqa: F401
+        except ImportError:
+            self.skipTest("not there: mypy")
+        right = (HERE.parents[1] / "examples" / "README.md").read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
+        right += ('definition = mbd.PipeDef(length=3, name="rods", kind=mbd.PIPE_FLEXIBLE, curvature=(0.0, 0.0, 0.01))\n'
+                  "frame, force = sim.profile(string, 30).frame(), sim.drive(table).force + 1.0\n"
+                  "done = sim.run(2.1, step=1e-3, progress=lambda at: at.fraction > 0.5)\n")
+        wrong = 'mbd.PipeDef(lenght=3.0)\nmbd.PipeDef(length="3")\nsim.step("1")\nmbd.DriveDef(part="rods")\n'
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "program.py")
+            for text, errors in ((right, 0), (right + wrong, 4)):
+                path.write_text(text, encoding="utf-8")
+                done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", folder, path],
+                                      capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+                self.assertEqual(done.stdout.count(": error:"), errors, done.stdout)
+        self.assertIn('did you mean "length"', done.stdout)
+
     def test_library_that_is_not_there_or_no_library(self):
         for name in ("/nonexistent/libdrillmbd.so", __file__):
             done = subprocess.run([sys.executable, "-c", "import drillmbd"], capture_output=True, text=True,

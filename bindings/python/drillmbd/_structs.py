@@ -2,9 +2,10 @@
 # mypy: disable-error-code="misc"
 from __future__ import annotations
 
+from collections.abc import Iterable
 from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
                     c_void_p)
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
 from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
 
@@ -30,6 +31,8 @@ class Allocator(Sized):
     context: Any
     allocate: Any
     release: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, context: Any = ..., allocate: Any = ..., release: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -60,6 +63,8 @@ class EnvironmentDef(Sized):
     flow_exponent: float
     nozzle_area: float
     flow_eccentricity: float
+    if TYPE_CHECKING:
+        def __init__(self, *, gravity: Iterable[float] = ..., fluid_density: SupportsFloat = ..., lateral_damping: SupportsFloat = ..., axial_damping: SupportsFloat = ..., torsional_damping: SupportsFloat = ..., inner_density: SupportsFloat = ..., added_mass: SupportsFloat = ..., flow_rate: SupportsFloat = ..., consistency: SupportsFloat = ..., flow_exponent: SupportsFloat = ..., nozzle_area: SupportsFloat = ..., flow_eccentricity: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -119,6 +124,8 @@ class WallDef(WallPart, Sized):
     cut_spacing: float
     cut_start: float
     cut_end: float
+    if TYPE_CHECKING:
+        def __init__(self, stations: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("survey_count", c_uint32),
@@ -186,6 +193,8 @@ class StringDef(Sized):
     start_free: int
     end_free: int
     name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, follows_hole: int = ..., start_depth: SupportsFloat = ..., offset: Iterable[float] = ..., position: Iterable[float] = ..., rotation: Iterable[float] = ..., velocity: Iterable[float] = ..., start_free: int = ..., end_free: int = ..., name: str | bytes = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("follows_hole", c_int32),
@@ -217,6 +226,8 @@ class CompileOptions(Sized):
     features: int
     pipe_kind: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, features: int = ..., pipe_kind: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("features", c_int32),
@@ -249,6 +260,8 @@ class ModelInfo(Sized):
     constraint_rows: int
     clusters: int
     reduced_nodes: int
+    if TYPE_CHECKING:
+        def __init__(self, *, strings: int = ..., pipes: int = ..., rigid_bodies: int = ..., nodes: int = ..., elements: int = ..., contact_sites: int = ..., degrees_of_freedom: int = ..., prescribed: int = ..., structural_joints: int = ..., model_bytes: int = ..., sim_bytes: int = ..., mass: SupportsFloat = ..., length: SupportsFloat = ..., joints: int = ..., constraint_rows: int = ..., clusters: int = ..., reduced_nodes: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("strings", c_uint32),
@@ -301,6 +314,8 @@ class StepReport(Sized):
     time: float
     residual: float
     last_step: float
+    if TYPE_CHECKING:
+        def __init__(self, *, steps: int = ..., iterations: int = ..., rejected: int = ..., most_iterations: int = ..., time: SupportsFloat = ..., residual: SupportsFloat = ..., last_step: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("steps", c_uint32),
@@ -331,6 +346,8 @@ class Pose(Sized):
     rotation: 'Array[c_double]'
     displacement: 'Array[c_double]'
     depth: float
+    if TYPE_CHECKING:
+        def __init__(self, *, position: Iterable[float] = ..., rotation: Iterable[float] = ..., displacement: Iterable[float] = ..., depth: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -353,6 +370,8 @@ class Motion(Sized):
     frame: int
     velocity: 'Array[c_double]'
     acceleration: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, frame: int = ..., velocity: Iterable[float] = ..., acceleration: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -372,6 +391,8 @@ class Section(Sized):
     reserved: int
     force: 'Array[c_double]'
     strain: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, force: Iterable[float] = ..., strain: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -391,6 +412,8 @@ class ContactTotal(Sized):
     normal_force: float
     friction: 'Array[c_double]'
     deepest: float
+    if TYPE_CHECKING:
+        def __init__(self, *, closed: int = ..., normal_force: SupportsFloat = ..., friction: Iterable[float] = ..., deepest: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("closed", c_uint32),
@@ -425,6 +448,8 @@ class Energy(Sized):
     balance: float
     unexplained: float
     error: float
+    if TYPE_CHECKING:
+        def __init__(self, *, kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., gravity: SupportsFloat = ..., contact: SupportsFloat = ..., drives: SupportsFloat = ..., loads: SupportsFloat = ..., friction: SupportsFloat = ..., impact: SupportsFloat = ..., damping: SupportsFloat = ..., rock: SupportsFloat = ..., scheme: SupportsFloat = ..., input: SupportsFloat = ..., balance: SupportsFloat = ..., unexplained: SupportsFloat = ..., error: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_int32),
@@ -471,6 +496,8 @@ class Momentum(Sized):
     angular: 'Array[c_double]'
     mass: float
     centre: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, linear: Iterable[float] = ..., angular: Iterable[float] = ..., mass: SupportsFloat = ..., centre: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -499,6 +526,8 @@ class DriveState(Sized):
     work: float
     command: float
     made: float
+    if TYPE_CHECKING:
+        def __init__(self, *, target: SupportsFloat = ..., position: SupportsFloat = ..., speed: SupportsFloat = ..., force: SupportsFloat = ..., power: SupportsFloat = ..., work: SupportsFloat = ..., command: SupportsFloat = ..., made: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -537,6 +566,8 @@ class JointState(Sized):
     reaction: 'Array[c_double]'
     action: 'Array[c_double]'
     violation: float
+    if TYPE_CHECKING:
+        def __init__(self, *, frame: int = ..., state: int = ..., constraint_rows: int = ..., redundant: int = ..., position: Iterable[float] = ..., speed: Iterable[float] = ..., acceleration: Iterable[float] = ..., reaction: Iterable[float] = ..., action: Iterable[float] = ..., violation: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -577,6 +608,8 @@ class BitState(Sized):
     load: float
     side_force: 'Array[c_double]'
     side_speed: float
+    if TYPE_CHECKING:
+        def __init__(self, *, on_bottom: int = ..., advance: SupportsFloat = ..., bottom: SupportsFloat = ..., depth_of_cut: SupportsFloat = ..., weight: SupportsFloat = ..., torque: SupportsFloat = ..., load: SupportsFloat = ..., side_force: Iterable[float] = ..., side_speed: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("on_bottom", c_int32),
@@ -618,6 +651,8 @@ class Statistics(Sized):
     dependent: int
     redundant: int
     violation: float
+    if TYPE_CHECKING:
+        def __init__(self, *, most_iterations: int = ..., steps: int = ..., rejected: int = ..., iterations: int = ..., limited_steps: int = ..., bytes: int = ..., largest_residual: SupportsFloat = ..., projection: Iterable[float] = ..., assembly: Iterable[float] = ..., switches: int = ..., dependent: int = ..., redundant: int = ..., violation: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("most_iterations", c_uint32),
@@ -672,6 +707,8 @@ class HolePoint(Sized):
     section: int
     reserved: int
     section_name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, beyond: int = ..., position: Iterable[float] = ..., tangent: Iterable[float] = ..., normal: Iterable[float] = ..., curvature: SupportsFloat = ..., dogleg_severity: SupportsFloat = ..., inclination: SupportsFloat = ..., azimuth: SupportsFloat = ..., diameter: SupportsFloat = ..., stiffness: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., strength: SupportsFloat = ..., section: int = ..., section_name: str | bytes = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("beyond", c_int32),
@@ -730,6 +767,8 @@ class FlowState(Sized):
     bore_reynolds: float
     annulus_reynolds: float
     motor_loss: float
+    if TYPE_CHECKING:
+        def __init__(self, *, rate: SupportsFloat = ..., pump_pressure: SupportsFloat = ..., bore_loss: SupportsFloat = ..., bit_loss: SupportsFloat = ..., annulus_loss: SupportsFloat = ..., column: SupportsFloat = ..., drag: SupportsFloat = ..., thrust: SupportsFloat = ..., pressure_stretch: SupportsFloat = ..., bore_reynolds: SupportsFloat = ..., annulus_reynolds: SupportsFloat = ..., motor_loss: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -773,6 +812,8 @@ class StaticOptions(Sized):
     lay_on_wall: int
     steady: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, max_iterations: int = ..., tolerance: SupportsFloat = ..., slip_axial: SupportsFloat = ..., slip_rotation: SupportsFloat = ..., load_steps: int = ..., lay_on_wall: int = ..., steady: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("max_iterations", c_uint32),
@@ -810,6 +851,8 @@ class StaticReport(Sized):
     stiffness: int
     steady: int
     steady_reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, iterations: int = ..., load_steps: int = ..., method: int = ..., residual: SupportsFloat = ..., largest_force: SupportsFloat = ..., lateral_move: SupportsFloat = ..., cuts: int = ..., line_searches: int = ..., negative: int = ..., stiffness: int = ..., steady: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("iterations", c_uint32),
@@ -855,6 +898,8 @@ class BucklingInfo(Sized):
     reached: float
     flutter_factor: float
     flutter_root: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., confirmed: int = ..., linearisations: int = ..., points: int = ..., stiffness: int = ..., end: int = ..., flutter: int = ..., estimate: SupportsFloat = ..., linearised_at: SupportsFloat = ..., reached: SupportsFloat = ..., flutter_factor: SupportsFloat = ..., flutter_root: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -898,6 +943,8 @@ class PathPoint(Sized):
     rate: float
     arc: float
     displacement: float
+    if TYPE_CHECKING:
+        def __init__(self, *, number: int = ..., kind: int = ..., negative: int = ..., iterations: int = ..., stiffness: int = ..., factor: SupportsFloat = ..., rate: SupportsFloat = ..., arc: SupportsFloat = ..., displacement: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("number", c_uint32),
@@ -935,6 +982,8 @@ class PathReport(Sized):
     displacement: float
     first_limit: float
     first_bifurcation: float
+    if TYPE_CHECKING:
+        def __init__(self, *, points: int = ..., limits: int = ..., bifurcations: int = ..., iterations: int = ..., cuts: int = ..., factor: SupportsFloat = ..., displacement: SupportsFloat = ..., first_limit: SupportsFloat = ..., first_bifurcation: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -992,6 +1041,8 @@ class CheckReport(Sized):
     gruebler: int
     largest_violation: float
     condition: float
+    if TYPE_CHECKING:
+        def __init__(self, *, rigid_parts: int = ..., flexible_parts: int = ..., elements: int = ..., structural_joints: int = ..., joints: Array[c_uint32] = ..., open_joints: int = ..., locked_joints: int = ..., couplings: int = ..., constraints: int = ..., motion_drives: int = ..., other_drives: int = ..., loads: int = ..., coordinates: int = ..., held: int = ..., prescribed: int = ..., constraint_rows: int = ..., rank: int = ..., degrees_of_freedom: int = ..., redundant: int = ..., tridiagonal_nodes: int = ..., sparse_nodes: int = ..., blocks: int = ..., fill: int = ..., clusters: int = ..., largest_cluster: int = ..., warnings: int = ..., gruebler: int = ..., largest_violation: SupportsFloat = ..., condition: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rigid_parts", c_uint32),
@@ -1063,6 +1114,8 @@ class WindowOptions(Sized):
     slots: int
     length: float
     levels: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, slots: int = ..., length: SupportsFloat = ..., levels: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("slots", c_uint32),
@@ -1088,6 +1141,8 @@ class WindowResult(Sized):
     rms: float
     index: float
     low_share: float
+    if TYPE_CHECKING:
+        def __init__(self, *, samples: int = ..., time: SupportsFloat = ..., minimum: SupportsFloat = ..., maximum: SupportsFloat = ..., mean: SupportsFloat = ..., rms: SupportsFloat = ..., index: SupportsFloat = ..., low_share: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -1120,6 +1175,8 @@ class InputState(Sized):
     present: float
     rate: float
     arrives: float
+    if TYPE_CHECKING:
+        def __init__(self, *, is_set: int = ..., value: SupportsFloat = ..., present: SupportsFloat = ..., rate: SupportsFloat = ..., arrives: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("is_set", c_int32),
@@ -1164,6 +1221,8 @@ class EventReport(Sized):
     events: int
     time: float
     located: float
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., events: int = ..., time: SupportsFloat = ..., located: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -1187,6 +1246,8 @@ class StuckState(Sized):
     force: 'Array[c_double]'
     share: float
     energy: float
+    if TYPE_CHECKING:
+        def __init__(self, *, stuck: int = ..., offset: Iterable[float] = ..., force: Iterable[float] = ..., share: SupportsFloat = ..., energy: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("stuck", c_int32),
@@ -1219,6 +1280,8 @@ class Motor(MotorPart, Sized):
     reserved: int
     table_speed: 'Array[c_double]'
     table_torque: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, table: Any = ..., *, brakes: int = ..., stall_torque: SupportsFloat = ..., displacement: SupportsFloat = ..., flow: SupportsFloat = ..., pressure: SupportsFloat = ..., efficiency: SupportsFloat = ..., table_flow: SupportsFloat = ..., table_pressure: SupportsFloat = ..., table_count: int = ..., table_speed: Iterable[float] = ..., table_torque: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("brakes", c_int32),
@@ -1257,6 +1320,8 @@ class Operation(Sized):
     rotary_speed: float
     weight_on_bit: float
     torque_on_bit: float
+    if TYPE_CHECKING:
+        def __init__(self, *, axial_speed: SupportsFloat = ..., rotary_speed: SupportsFloat = ..., weight_on_bit: SupportsFloat = ..., torque_on_bit: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -1292,6 +1357,8 @@ class TorqueDragRow(Sized):
     stretch: float
     wind_up: float
     wall_force: float
+    if TYPE_CHECKING:
+        def __init__(self, *, locked: int = ..., depth: SupportsFloat = ..., hook_load: SupportsFloat = ..., torque: SupportsFloat = ..., transfer: SupportsFloat = ..., lowest_force: SupportsFloat = ..., lowest_at: SupportsFloat = ..., sinusoidal_share: SupportsFloat = ..., helical_share: SupportsFloat = ..., buckled_at: SupportsFloat = ..., helix_length: SupportsFloat = ..., yield_share: SupportsFloat = ..., yield_at: SupportsFloat = ..., stretch: SupportsFloat = ..., wind_up: SupportsFloat = ..., wall_force: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("locked", c_int32),
@@ -1344,6 +1411,8 @@ class FatigueOptions(Sized):
     slope: float
     endurance: float
     tensile_strength: float
+    if TYPE_CHECKING:
+        def __init__(self, *, classes: int = ..., points: int = ..., stress_range: SupportsFloat = ..., concentration: SupportsFloat = ..., curve_stress: SupportsFloat = ..., curve_cycles: SupportsFloat = ..., slope: SupportsFloat = ..., endurance: SupportsFloat = ..., tensile_strength: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("classes", c_uint32),
@@ -1383,6 +1452,8 @@ class FatigueResult(Sized):
     highest: float
     time: float
     life: float
+    if TYPE_CHECKING:
+        def __init__(self, *, point: int = ..., samples: int = ..., clipped: int = ..., damage: SupportsFloat = ..., cycles: SupportsFloat = ..., largest_range: SupportsFloat = ..., lowest: SupportsFloat = ..., highest: SupportsFloat = ..., time: SupportsFloat = ..., life: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("point", c_uint32),
@@ -1424,6 +1495,8 @@ class SpringState(Sized):
     direction: 'Array[c_double]'
     point_a: 'Array[c_double]'
     point_b: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, length: SupportsFloat = ..., elongation: SupportsFloat = ..., speed: SupportsFloat = ..., force: SupportsFloat = ..., elastic: SupportsFloat = ..., damper: SupportsFloat = ..., energy: SupportsFloat = ..., direction: Iterable[float] = ..., point_a: Iterable[float] = ..., point_b: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -1466,6 +1539,8 @@ class HoleSection(Sized):
     mu_dynamic: float
     strength: float
     name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, shape: int = ..., depth: SupportsFloat = ..., transition: SupportsFloat = ..., diameter: SupportsFloat = ..., stiffness: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., strength: SupportsFloat = ..., name: str | bytes = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("shape", c_int32),
@@ -1509,6 +1584,8 @@ class ModesOptions(Sized):
     axes: int
     reserved: int
     spin: float
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., select: int = ..., count: int = ..., band: Iterable[float] = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., axes: int = ..., spin: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1550,6 +1627,8 @@ class ModesInfo(Sized):
     residual: float
     double_roots: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., rigid: int = ..., coordinates: int = ..., dense: int = ..., solves: int = ..., residual_of_state: SupportsFloat = ..., asymmetry: SupportsFloat = ..., residual: SupportsFloat = ..., double_roots: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -1590,6 +1669,8 @@ class Mode(Sized):
     effective_mass: 'Array[c_double]'
     whirl: float
     strain_share: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, rigid: int = ..., frequency: SupportsFloat = ..., damping: SupportsFloat = ..., eigenvalue: Iterable[float] = ..., kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., share: Iterable[float] = ..., participation: Iterable[float] = ..., effective_mass: Iterable[float] = ..., whirl: SupportsFloat = ..., strain_share: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rigid", c_int32),
@@ -1625,6 +1706,8 @@ class ModeShape(Sized):
     frame: int
     re: 'Array[c_double]'
     im: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, frame: int = ..., re: Iterable[float] = ..., im: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -1655,6 +1738,8 @@ class ResponseOptions(Sized):
     axes: int
     reserved: int
     spin: float
+    if TYPE_CHECKING:
+        def __init__(self, *, points: int = ..., frequency_low: SupportsFloat = ..., frequency_high: SupportsFloat = ..., frequencies: Any = ..., logarithmic: int = ..., refinement: int = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., axes: int = ..., spin: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -1699,6 +1784,8 @@ class SteppedSineOptions(Sized):
     reserved: int
     tolerance: float
     floor: float
+    if TYPE_CHECKING:
+        def __init__(self, *, steps_per_period: int = ..., periods: int = ..., windows: int = ..., harmonics: int = ..., tolerance: SupportsFloat = ..., floor: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("steps_per_period", c_uint32),
@@ -1729,6 +1816,8 @@ class SteppedSineReport(Sized):
     change: float
     remaining: float
     time: float
+    if TYPE_CHECKING:
+        def __init__(self, *, settled: int = ..., windows: int = ..., rejected: int = ..., steps: int = ..., change: SupportsFloat = ..., remaining: SupportsFloat = ..., time: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("settled", c_int32),
@@ -1758,6 +1847,8 @@ class SpeedsReport(Sized):
     undamped: int
     truncated: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, bands: int = ..., silent_orders: int = ..., undamped: int = ..., truncated: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("bands", c_uint32),
@@ -1787,6 +1878,8 @@ class SpeedBand(Sized):
     frequency: float
     truncated: int
     reserved1: int
+    if TYPE_CHECKING:
+        def __init__(self, *, order: int = ..., output: int = ..., low: SupportsFloat = ..., high: SupportsFloat = ..., speed: SupportsFloat = ..., severity: SupportsFloat = ..., frequency: SupportsFloat = ..., truncated: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("order", c_uint32),
@@ -1820,6 +1913,8 @@ class Parameter(Sized):
     low: Any
     high: Any
     name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, one_sided: int = ..., step: SupportsFloat = ..., low: Any = ..., high: Any = ..., name: str | bytes = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("one_sided", c_int32),
@@ -1852,6 +1947,8 @@ class StateSpaceOptions(Sized):
     contact_gap: float
     equilibrium_tolerance: float
     shift: float
+    if TYPE_CHECKING:
+        def __init__(self, *, form: int = ..., motion: int = ..., static_correction: int = ..., modes: Any = ..., mode_list: Any = ..., mode_count: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., shift: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("form", c_int32),
@@ -1896,6 +1993,8 @@ class StateSpaceInfo(Sized):
     constraint_rows: int
     residual_of_state: float
     largest_force: float
+    if TYPE_CHECKING:
+        def __init__(self, *, states: int = ..., inputs: int = ..., outputs: int = ..., coordinates: int = ..., mode_shapes: int = ..., input_states: int = ..., rows: int = ..., independent: int = ..., constraint_rows: int = ..., residual_of_state: SupportsFloat = ..., largest_force: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("states", c_uint32),
@@ -1975,6 +2074,8 @@ class ModelOptions(Sized):
     allocator: Any
     log: Any
     log_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, allocator: Any = ..., log: Any = ..., log_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -2005,6 +2106,8 @@ class Term(TermPart, Sized):
     provides: int
     callback: Any
     callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, table: Any = ..., function: Any = ..., *, kind: int = ..., x0: SupportsFloat = ..., x1: SupportsFloat = ..., h0: SupportsFloat = ..., h1: SupportsFloat = ..., omega: SupportsFloat = ..., phase: SupportsFloat = ..., table_time: Any = ..., table_value: Any = ..., table_count: int = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2070,6 +2173,8 @@ class PipeDef(Sized):
     name: bytes
     contact_points: int
     contact_reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., string: Id | None = ..., elements: int = ..., seed: int = ..., length: SupportsFloat = ..., outer_diameter: SupportsFloat = ..., inner_diameter: SupportsFloat = ..., young_modulus: SupportsFloat = ..., poisson_ratio: SupportsFloat = ..., density: SupportsFloat = ..., shear_factor: SupportsFloat = ..., damping_time: SupportsFloat = ..., joint_length: SupportsFloat = ..., joint_outer_diameter: SupportsFloat = ..., joint_inner_diameter: SupportsFloat = ..., joint_mass: SupportsFloat = ..., joint_inertia: Iterable[float] = ..., eccentricity: SupportsFloat = ..., eccentricity_angle: SupportsFloat = ..., eccentricity_spread: SupportsFloat = ..., angle_spread: SupportsFloat = ..., curvature: Iterable[float] = ..., section_stiffness: Iterable[float] = ..., section_mass: SupportsFloat = ..., section_inertia: Iterable[float] = ..., yield_strength: SupportsFloat = ..., name: str | bytes = ..., contact_points: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2152,6 +2257,8 @@ class BodyDef(Sized):
     name: bytes
     displaced_volume: float
     added_mass: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, attach: int = ..., string: Id | None = ..., mass: SupportsFloat = ..., centre: Iterable[float] = ..., inertia: Iterable[float] = ..., position: Iterable[float] = ..., rotation: Iterable[float] = ..., velocity: Iterable[float] = ..., free_mask: int = ..., contact_diameter: SupportsFloat = ..., contact_length: SupportsFloat = ..., name: str | bytes = ..., displaced_volume: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("attach", c_int32),
@@ -2215,6 +2322,8 @@ class BitDef(Sized):
     ring: Id
     inner_radius: float
     added_mass: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, rock_law: int = ..., string: Id | None = ..., load: Id | None = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., diameter: SupportsFloat = ..., length: SupportsFloat = ..., radius: SupportsFloat = ..., intrinsic_energy: SupportsFloat = ..., cutting_ratio: SupportsFloat = ..., contact_strength: SupportsFloat = ..., wear_length: SupportsFloat = ..., contact_friction: SupportsFloat = ..., intrusion_depth: SupportsFloat = ..., bottom: SupportsFloat = ..., blades: int = ..., history: int = ..., name: str | bytes = ..., side_cutting: SupportsFloat = ..., walk_angle: SupportsFloat = ..., displaced_volume: SupportsFloat = ..., ring: Id | None = ..., inner_radius: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2299,6 +2408,8 @@ class DriveDef(DrivePart, Sized):
     gain_error: 'Array[c_double]'
     gain_force: 'Array[c_double]'
     mud_pressure: float
+    if TYPE_CHECKING:
+        def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., programme: Id | None = ..., excitation: Id | None = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2372,6 +2483,8 @@ class Contact(Sized):
     friction: 'Array[c_double]'
     slip: 'Array[c_double]'
     along: float
+    if TYPE_CHECKING:
+        def __init__(self, *, closed: int = ..., sticks: int = ..., site: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("closed", c_int32),
@@ -2418,6 +2531,8 @@ class ProfileStruct(Sized):
     values: Any
     station_stride: int
     quantity_stride: int
+    if TYPE_CHECKING:
+        def __init__(self, *, station_count: int = ..., string: Id | None = ..., distance: Any = ..., quantities: Any = ..., quantity_count: int = ..., values: Any = ..., station_stride: int = ..., quantity_stride: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("station_count", c_uint32),
@@ -2454,6 +2569,8 @@ class BucklingOptions(Sized):
     step: float
     slip_axial: float
     slip_rotation: float
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., scale: int = ..., follow: int = ..., part: Id | None = ..., factor_max: SupportsFloat = ..., tolerance: SupportsFloat = ..., step: SupportsFloat = ..., slip_axial: SupportsFloat = ..., slip_rotation: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -2492,6 +2609,8 @@ class InputDef(Sized):
     slope_limit: float
     outside: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, target: int = ..., name: str | bytes = ..., part: Id | None = ..., initial: SupportsFloat = ..., low: SupportsFloat = ..., high: SupportsFloat = ..., rate_limit: SupportsFloat = ..., slope_limit: SupportsFloat = ..., outside: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("target", c_int32),
@@ -2530,6 +2649,8 @@ class InputInfo(Sized):
     high: float
     rate_limit: float
     slope_limit: float
+    if TYPE_CHECKING:
+        def __init__(self, *, target: int = ..., input: Id | None = ..., part: Id | None = ..., name: str | bytes = ..., unit: str | bytes = ..., low: SupportsFloat = ..., high: SupportsFloat = ..., rate_limit: SupportsFloat = ..., slope_limit: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("target", c_int32),
@@ -2569,6 +2690,8 @@ class CouplingDef(Sized):
     fourth_component: int
     third_ratio: float
     fourth_ratio: float
+    if TYPE_CHECKING:
+        def __init__(self, *, name: str | bytes = ..., joint: Array[Id] = ..., component: Array[c_int32] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_int32),
@@ -2606,6 +2729,8 @@ class TorqueDragOptions(Sized):
     depths: Any
     depth_count: int
     friction_by_depth: int
+    if TYPE_CHECKING:
+        def __init__(self, *, post_buckling: int = ..., string: Id | None = ..., friction: SupportsFloat = ..., depths: Any = ..., depth_count: int = ..., friction_by_depth: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("post_buckling", c_int32),
@@ -2642,6 +2767,8 @@ class SpeedsOptions(Sized):
     equilibrium_tolerance: float
     report: Any
     unused: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, points: int = ..., speed_low: SupportsFloat = ..., speed_high: SupportsFloat = ..., threshold: SupportsFloat = ..., margin: SupportsFloat = ..., refinement: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., report: Any = ..., unused: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -2689,6 +2816,8 @@ class RingDef(Sized):
     density: float
     name: bytes
     added_mass: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, pipe: int = ..., string: Id | None = ..., fraction: SupportsFloat = ..., outer_diameter: SupportsFloat = ..., length: SupportsFloat = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., density: SupportsFloat = ..., name: str | bytes = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("pipe", c_uint32),
@@ -2725,6 +2854,8 @@ class Row(Sized):
     node: int
     state: int
     reserved: int
+    if TYPE_CHECKING:
+        def __init__(self, *, component: int = ..., part: Id | None = ..., pipe: int = ..., node: int = ..., state: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("component", c_int32),
@@ -2761,6 +2892,8 @@ class LoadDef(Sized):
     programme: Id
     name: bytes
     offset: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, frame: int = ..., place: Place | Id | None = ..., force: Iterable[float] = ..., moment: Iterable[float] = ..., programme: Id | None = ..., name: str | bytes = ..., offset: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -2805,6 +2938,8 @@ class SimOptions(Sized):
     parallel_context: Any
     parallel_parts: int
     parallel_least: int
+    if TYPE_CHECKING:
+        def __init__(self, *, max_iterations: int = ..., allocator: Any = ..., log: Any = ..., log_context: Any = ..., spectral_radius: SupportsFloat = ..., newton_tolerance: SupportsFloat = ..., tolerance_translation: SupportsFloat = ..., tolerance_rotation: SupportsFloat = ..., step_min: SupportsFloat = ..., step_max: SupportsFloat = ..., max_cuts: int = ..., bounded_work: int = ..., energy_ledger: int = ..., max_steps: int = ..., constraint_method: int = ..., parallel: Any = ..., parallel_context: Any = ..., parallel_parts: int = ..., parallel_least: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("max_iterations", c_uint32),
@@ -2887,6 +3022,8 @@ class PathOptions(Sized):
     slip_rotation: float
     callback: Any
     callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, max_points: int = ..., max_iterations: int = ..., scale: int = ..., part: Id | None = ..., place: Place | Id | None = ..., component: int = ..., branch: int = ..., factor_end: SupportsFloat = ..., displacement_end: SupportsFloat = ..., first_step: SupportsFloat = ..., step_max: SupportsFloat = ..., branch_size: SupportsFloat = ..., tolerance: SupportsFloat = ..., slip_axial: SupportsFloat = ..., slip_rotation: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("max_points", c_uint32),
@@ -2937,6 +3074,8 @@ class ProfileRecorderStruct(Sized):
     capacity: int
     row_count: int
     interval: float
+    if TYPE_CHECKING:
+        def __init__(self, *, profile: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -2984,6 +3123,8 @@ class JointDef(Sized):
     reserved: int
     initial_position: 'Array[c_double]'
     initial_speed: 'Array[c_double]'
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., origin_a: Iterable[float] = ..., axis_a: Iterable[float] = ..., normal_a: Iterable[float] = ..., origin_b: Iterable[float] = ..., axis_b: Iterable[float] = ..., normal_b: Iterable[float] = ..., match: int = ..., state: int = ..., length: SupportsFloat = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., rest: Iterable[float] = ..., friction: Iterable[float] = ..., friction_speed: SupportsFloat = ..., stop_low: Iterable[float] = ..., stop_high: Iterable[float] = ..., stop_stiffness: SupportsFloat = ..., stop_damping: SupportsFloat = ..., initial_mask: int = ..., initial_position: Iterable[float] = ..., initial_speed: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -3054,6 +3195,8 @@ class ConstraintDef(ConstraintPart, Sized):
     reserved: int
     callback: Any
     callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, places: Any = ..., function: Any = ..., *, kind: int = ..., name: str | bytes = ..., row_count: int = ..., place_count: int = ..., place: Array[Place] = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -3090,6 +3233,8 @@ class StuckDef(Sized):
     damping: 'Array[c_double]'
     overpull: float
     overtorque: float
+    if TYPE_CHECKING:
+        def __init__(self, *, holds: int = ..., name: str | bytes = ..., place: Place | Id | None = ..., stuck: int = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., overpull: SupportsFloat = ..., overtorque: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("holds", c_int32),
@@ -3123,6 +3268,8 @@ class Sub(Sized):
     before: Id
     after: Id
     end: Place
+    if TYPE_CHECKING:
+        def __init__(self, *, body: Id | None = ..., section: Id | None = ..., before: Id | None = ..., after: Id | None = ..., end: Place | Id | None = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -3158,6 +3305,8 @@ class SpringDef(SpringPart, Sized):
     table_force: Any
     table_count: int
     table_kind: int
+    if TYPE_CHECKING:
+        def __init__(self, table: Any = ..., *, acts: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., offset_a: Iterable[float] = ..., offset_b: Iterable[float] = ..., free_length: SupportsFloat = ..., stiffness: SupportsFloat = ..., damping: SupportsFloat = ..., preload: SupportsFloat = ..., table_elongation: Any = ..., table_force: Any = ..., table_count: int = ..., table_kind: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("acts", c_int32),
@@ -3207,6 +3356,8 @@ class ForceDef(ForcePart, Sized):
     speed_step: float
     callback: Any
     callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Array[Place] = ..., offset: Iterable[float] = ..., component: Array[c_int32] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -3245,6 +3396,8 @@ class Input(Sized):
     frame: int
     amplitude: float
     phase: float
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., place: Place | Id | None = ..., component: int = ..., frame: int = ..., amplitude: SupportsFloat = ..., phase: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -3271,6 +3424,8 @@ class Output(Sized):
     place: Place
     component: int
     frame: int
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., place: Place | Id | None = ..., component: int = ..., frame: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -3296,6 +3451,8 @@ class RecorderStruct(Sized):
     row_count: int
     interval: float
     window: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, channel_count: int = ..., channels: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ..., window: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("channel_count", c_uint32),
@@ -3326,6 +3483,8 @@ class EventDef(Sized):
     level: float
     hold: float
     tolerance: float
+    if TYPE_CHECKING:
+        def __init__(self, *, direction: int = ..., name: str | bytes = ..., output: Channel | tuple[Any, Any] = ..., level: SupportsFloat = ..., hold: SupportsFloat = ..., tolerance: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("direction", c_int32),
@@ -3355,6 +3514,8 @@ class SubDef(Sized):
     before: Any
     after: Any
     section: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, string: Id | None = ..., length: SupportsFloat = ..., body: Any = ..., before: Any = ..., after: Any = ..., section: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -3381,6 +3542,8 @@ class Order(Sized):
     reserved: int
     order: float
     input: Input
+    if TYPE_CHECKING:
+        def __init__(self, *, order: SupportsFloat = ..., input: Input = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
