@@ -53,6 +53,28 @@ class GuideTest(unittest.TestCase):
         self.assertIn("displacement up to 10.5", told["static"])
         self.assertRegex(told["torque-drag"], r"rotate at 90 m: .*torque 79\.\d+ N m|rotate at 90 m: .*torque 80")
 
+    def test_lines_that_a_question_needs(self):
+        """A question whose table the scene lacks tells the least lines; the scene with them is answered."""
+        try:
+            import pint  # noqa: F401
+        except ImportError as error:
+            self.skipTest(f"not there: {error.name}")
+        from drillmbd.command import main
+        scene = block("toml").replace('count = 30', 'count = 6\neccentricity = "1 mm"')
+        for question in ("response", "speeds", "buckle"):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "hole.toml")
+                path.write_text(scene, encoding="utf-8")
+                told = io.StringIO()
+                with contextlib.redirect_stderr(told):
+                    self.assertEqual(main([question, str(path)]), 2)
+                lines = told.getvalue().split("the least is\n")[1]
+                path.write_text(scene + lines, encoding="utf-8")
+                if question == "buckle":  # whether it buckles is the scene's affair
+                    output_of(lambda: self.assertEqual(main(["check", str(path)]), 0))
+                else:
+                    output_of(lambda: self.assertEqual(main([question, str(path)]), 0, question))
+
     def test_program(self):
         told = output_of(exec, compile(block("python"), "guide", "exec"), {})
         torque = float(re.search(r"rig ([\d.]+) N m", told).group(1))

@@ -164,12 +164,44 @@ static void strings_on_the_axis_miss_no_wall(void **state)
     rig_close(&s);
 }
 
+/* ---- Units ------------------------------------------------------------------------------------------------------- */
+
+/* Millimetres, GPa and g/cm3 where m, Pa and kg/m3 belong are told; what is right is not. */
+static void values_in_other_units(void **state)
+{
+    rig s;
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    (void)state;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    wall.diameter *= 1e3;
+    (void)add_wall(&s, &wall);
+    (void)add_pipes(&s, &pipe, 1);
+    pipe.outer_diameter *= 1e3;
+    pipe.inner_diameter *= 1e3;
+    (void)add_pipes(&s, &pipe, 1);
+    pipe = s1_pipe();
+    pipe.young_modulus *= 1e-9;
+    pipe.density *= 1e-3;
+    (void)add_pipes(&s, &pipe, 1);
+    (void)rig_start(&s, NULL);
+    expect_line(&s, "wall: diameter = 94 m, which is unusual; fields are in SI units, was mm meant?");
+    expect_line(&s, "outer_diameter = 73 m, which is unusual");
+    expect_line(&s, "young_modulus = 210 Pa, which is unusual; fields are in SI units, was GPa meant?");
+    expect_line(&s, "density = 7.85 kg/m3, which is unusual; fields are in SI units, was g/cm3 meant?");
+    int told = 0;
+    for (const char *at = text_of(&s); (at = strstr(at, "which is unusual")) != NULL; at++) told++;
+    assert_int_equal(told, 4);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(joints_at_a_right_angle), cmocka_unit_test(rim_that_lies_flat),
         cmocka_unit_test(drive_of_a_locked_joint), cmocka_unit_test(locked_free_joint_holds),
         cmocka_unit_test(strings_past_the_start),  cmocka_unit_test(strings_on_the_axis_miss_no_wall),
+        cmocka_unit_test(values_in_other_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -225,6 +225,28 @@ def _fmu(options: Any) -> int:
     return 0
 
 
+LEAST = {"response": """[[response.input]]
+kind = "eccentricity"          # what shakes: eccentric pipes; or "drive", "load", "force" with a place
+[[response.output]]
+component = "z"
+place = {place}
+""", "speeds": """[speeds]
+[[speeds.order]]               # eccentric pipes shake once a revolution
+[[speeds.output]]
+component = "z"
+place = {place}
+limit = "1 mm"                 # the amplitude that may be
+""", "buckling": """[buckling]
+scale = "all"                  # weight and all loads grow; or "part" with the load or load drive that does
+"""}
+
+
+def least(name: str, scene: Any) -> str:
+    """The lines that a scene file needs for an analysis, at the least, about the middle of its first string."""
+    string, pipes = next(iter(scene.pipes.items()), ("name", 1))
+    return LEAST[name].replace("{place}", f'{{part = "{string}", pipe = {pipes // 2}, fraction = 0.5}}')
+
+
 def _ask(options: Any) -> int:
     from . import scene
     from .answers import Output
@@ -251,7 +273,8 @@ def _ask(options: Any) -> int:
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
     loaded = scene.load(options.scene)
     if needed and needed not in loaded.analyses:
-        raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about")
+        raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about; the least is\n\n"
+                    + least(needed, loaded))
     output = Output(options.output, options.scene, loaded, options.command, options.quiet)
     return QUESTIONS[options.command](loaded, output, options)
 

@@ -97,7 +97,7 @@ class Sweep:
             self.failed += 1
             row.update(status="failed", message=str(error))
         self.rows.append(row)
-        told = ", ".join(f"{key} = {value}" for key, value in changes.items())
+        told = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}" for key, value in changes.items())
         self.say(f"case {number}: {told}: {row['status']}" + (f": {row['message']}" if row["message"] else ""))
 
     def write(self, path: pathlib.Path) -> None:

@@ -4,6 +4,7 @@
 
 #include "analysis/model_check/model_check.h"
 #include "math/vec3.h"
+#include "model/model.h"
 #include "sim/node.h"
 #include "system/constrain/constrain.h"
 
@@ -13,6 +14,8 @@
 #define DMB_NEARLY_SQUARE 0.05   /* [rad] this near to where coordinates or equations lose their meaning */
 #define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part that lies on the wall */
 #define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
+#define DMB_WIDE_PIPE 10.0       /* [m] no pipe or hole is this wide, but some are in millimetres */
+#define DMB_WIDE_HOLE 20.0       /* [m] */
 
 /* The buffer that lines are written to. */
 typedef struct sink {
@@ -206,6 +209,46 @@ static void small_masses(const sink *to)
     }
 }
 
+/* ---- Units --------------------------------------------------------------------------------------------------------*/
+
+static void odd_value(const sink *to, const char *part, const char *field, double value, const char *unit,
+                      const char *meant)
+{
+    dmb_message text;
+    dmb_message_set(&text, "%s: %s = %g %s, which is unusual; fields are in SI units, was %s meant?", part, field,
+                    value, unit, meant);
+    say(to, &text);
+}
+
+static int is_within(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
+/* Values that no pipe has, but that are those of a usual one in another unit: softer than rubber, lighter than foam. */
+static void odd_pipes(const sink *to)
+{
+    const dmb_list *runs = &to->sim->model->runs;
+    for (uint32_t i = 0; i < runs->count; i++) {
+        const dmb_pipe_run *run = DMB_LIST_AT(dmb_pipe_run, *runs, i);
+        const dmb_pipe_def *pipe = &run->def;
+        dmb_message name;
+        dmb_pipes_text(&name, run->string, pipe);
+        if (pipe->outer_diameter > DMB_WIDE_PIPE)
+            odd_value(to, name.text, "outer_diameter", pipe->outer_diameter, "m", "mm");
+        if (pipe->kind == DMB_PIPE_RIGID) continue;
+        if (is_within(pipe->young_modulus, 30.0, 500.0))
+            odd_value(to, name.text, "young_modulus", pipe->young_modulus, "Pa", "GPa");
+        if (is_within(pipe->density, 1.2, 20.0)) odd_value(to, name.text, "density", pipe->density, "kg/m3", "g/cm3");
+    }
+}
+
+static void odd_hole(const sink *to)
+{
+    const double diameter = 2.0 * dmb_hole_radius(&to->scene->hole, 0.0);
+    if (diameter > DMB_WIDE_HOLE) odd_value(to, "wall", "diameter", diameter, "m", "mm");
+}
+
 /* ---- Hole -------------------------------------------------------------------------------------------------------- */
 
 /* Where parts still stand as described, any overlap is one; later the wall gives way under what lies on it. */
@@ -305,7 +348,9 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     idle_drives(&to);
     loose_parts(&to);
     small_masses(&to);
+    odd_pipes(&to);
     if (!to.scene->has_hole) return;
+    odd_hole(&to);
     outside_sideways(&to);
     outside_lengthwise(&to, 0);
     outside_lengthwise(&to, 1);
