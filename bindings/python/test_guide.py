@@ -1,6 +1,7 @@
 """The user's guide, examples/README.md, does what it says: its scene, its commands and its program run."""
 import contextlib
 import io
+import math
 import os
 import pathlib
 import re
@@ -78,7 +79,22 @@ class GuideTest(unittest.TestCase):
     def test_program(self):
         told = output_of(exec, compile(block("python"), "guide", "exec"), {})
         torque = float(re.search(r"rig ([\d.]+) N m", told).group(1))
-        self.assertTrue(80.0 < torque < 90.0, torque)  # "settles near 85 N m"
+        model = mbd.Model()
+        model.add_wall(diameter=0.094, mu_dynamic=0.25)
+        string = model.add_pipes(30, length=3.0, outer_diameter=0.073, inner_diameter=0.061)
+        bit = mbd.BitDef(mass=5.0)
+        model.add_bit(bit)
+        model.compile()
+        with model.sim() as sim:
+            sim.static()
+            on_the_wall = sum(sim.contact(site).normal_force for site in range(model.info().contact_sites)
+                              if sim.contact(site).part == string)
+            below_the_bit = sim.contact_total().normal_force - on_the_wall
+        self.assertAlmostEqual(on_the_wall, 8186.0, delta=1.0)  # "leave 8.2 kN to it"
+        climbed = 0.25 / math.sqrt(1.0 + 0.25 ** 2)  # friction on the side that the turning string climbs to
+        wanted = climbed * (0.5 * 0.073 * on_the_wall + 0.5 * bit.diameter * below_the_bit)
+        self.assertAlmostEqual(torque, wanted, delta=0.01 * wanted)  # "swings about 75 N m"
+        self.assertAlmostEqual(torque, 75.0, delta=1.0)
 
     def test_names_exist(self):
         """Functions, commands, tests and files that the guide names."""
