@@ -263,6 +263,9 @@ class CommandTest(FolderTest):
         no_end = self.write("end.toml", SCENE.replace('end = "20 ms"\n', ""))
         self.assertIn("--until", self.ask("run", no_end, status=2))
 
+    def test_unit_needs_a_file(self):
+        self.assertIn("is a folder", self.ask("fmu", self.scene, "-o", self.folder, status=2))
+
     def test_folder_that_cannot_be_written(self):
         for target in ("/dev/null/out", self.scene, "/proc/out"):
             self.ask("static", self.scene, "--output", target, status=3)

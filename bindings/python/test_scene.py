@@ -778,5 +778,53 @@ class BadFilesTest(unittest.TestCase):
                     problems("\n".join(rows[:number] + [row.split("=")[0] + "= " + value] + rows[number + 1:]))
 
 
+
+class UnitOfDriveTest(unittest.TestCase):
+    """"N or N m" of a channel goes by the drive that it is about: a torque on a rotary drive was asked for in N."""
+    SCENE = """
+[[string]]
+name = "rods"
+[[string.pipes]]
+count = 2
+[[drive]]
+name = "table"
+component = "rx"
+programme = "0 rpm"
+[[drive]]
+name = "feed"
+component = "x"
+programme = "0 mm/s"
+[[event]]
+name = "torque"
+quantity = "drive-force"
+place = "table"
+level = "100 N m"
+[[event]]
+name = "push"
+quantity = "drive-force"
+place = "feed"
+level = "2 kN"
+[speeds]
+[[speeds.order]]
+[[speeds.output]]
+quantity = "drive-force"
+place = "table"
+limit = "5 N m"
+"""
+
+    def test_levels_and_limits(self):
+        from drillmbd import scene
+        made = scene.loads(self.SCENE)
+        self.assertEqual([arguments[0]["level"] for name, arguments in made.model.calls if name == "add_event"],
+                         [100.0, 2000.0])
+        self.assertEqual(made.analyses["speeds"]["output"][0]["limit"], 5.0)
+        saved = scene.saves(made)
+        self.assertIn('level = "100.0 N m"', saved)
+        self.assertTrue(scene.loads(saved).model.same_scene(made.model))
+        for wrong in (self.SCENE.replace("100 N m", "100 N"), self.SCENE.replace("2 kN", "2 N m"), self.SCENE.replace("5 N m", "5 N")):
+            with self.assertRaisesRegex(scene.SceneError, "has the unit"):
+                scene.loads(wrong)
+
+
 if __name__ == "__main__":
     unittest.main()

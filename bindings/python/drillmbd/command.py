@@ -215,6 +215,8 @@ def _sweep(options: Any) -> int:
 def _fmu(options: Any) -> int:
     from . import fmu, scene
     target = options.output or os.path.splitext(options.scene)[0] + ".fmu"
+    if os.path.isdir(target):
+        raise Usage(f"--output {target}: is a folder, must be the file of the unit")
     loaded = scene.load(options.scene)
     notes = fmu.export(loaded, target, options.fmi, options.sources)
     if not options.quiet:

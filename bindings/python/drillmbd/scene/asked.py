@@ -140,6 +140,8 @@ class Asked:
         if "quantity" in values:
             values["kind"], values["component"] = enums.OUTPUT_CHANNEL, values.pop("quantity")
         unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
+        if values.get("kind") == enums.OUTPUT_CHANNEL and values.get("component") is not None:
+            unit = self.loader.channel_unit(values["component"], table.get("place"))
         values["name"] = str(table.get("name", f"output-{path[-1]}"))
         if limited:
             try:

@@ -226,9 +226,12 @@ def event_fields() -> dict[str, Field]:
     return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
 
 
-def unit_of_setting(unit: str, setting: str | None) -> str:
-    """The unit of a channel, that of the input it reads where it goes by that."""
-    return unit.replace("unit of the input", setting or "-")
+def unit_of_channel(quantity: int, setting: str | None, component: int | None) -> str:
+    """The unit of a channel. setting: of the input that it reads, where it goes by that; component: of the drive that it
+    is about, by which "N or N m" is a force or a torque."""
+    unit = channel_unit(quantity) if quantity >= 0 else "-"
+    listed = unit.replace("unit of the input", setting or "-").split(" or ")
+    return listed[-1 if component is not None and component >= enums.RX else 0].split(",")[0]
 
 
 def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:

@@ -10,7 +10,6 @@ from typing import Any
 from .. import enums
 from .._keep import station
 from .._structs import Channel, Id, Motor, Place, Term
-from ..channels import channel_unit
 from ..errors import Error
 from ..model import Model, motor_drive
 from . import failure, fields, survey, units, variability
@@ -491,9 +490,7 @@ class Loader:
         """quantity and place are the channel, whose unit the level has."""
         known, before = fields.event_fields(), len(self.problems.found)
         quantity = self.word(known["quantity"], table.get("quantity"), -1)
-        unit = channel_unit(quantity) if quantity >= 0 else "-"
-        unit = fields.unit_of_setting(unit, self.setting_unit(table.get("place")))
-        values = self.read(path, table, known, ("name",), {"level": unit.split(" or ")[0].split(",")[0]}.get)
+        values = self.read(path, table, known, ("name",), {"level": self.channel_unit(quantity, table.get("place"))}.get)
         if "quantity" not in table:
             self.problems.add(path, None, "must have a quantity, that of a channel")
         self.put(name, "event", None)
@@ -502,6 +499,16 @@ class Loader:
         output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
         values["name"] = name
         self.put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
+
+    def channel_unit(self, quantity: int, place: Any) -> str:
+        """The unit of a channel at a place as the file names it."""
+        return fields.unit_of_channel(quantity, self.setting_unit(place), self._component(place))
+
+    def _component(self, place: Any) -> int | None:
+        """The component of the drive that a place names."""
+        name, known = place.get("part") if isinstance(place, dict) else place, fields_of(DEFINITIONS["drive"])
+        return next((self.word(known["component"], drive.get("component"), 0) for number, (_, drive)
+                     in enumerate(self.parts("drive")) if self.name("drive", number, drive) == name), None)
 
     def setting_unit(self, place: Any) -> str | None:
         """The unit of the input that a place names."""

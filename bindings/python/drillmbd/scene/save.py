@@ -9,7 +9,7 @@ from typing import Any
 
 from .. import enums
 from .._structs import Channel, Id, Place
-from ..channels import Named, channel_unit
+from ..channels import Named
 from ..model import Model
 from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
@@ -225,8 +225,9 @@ class Writer:
     def _event(self, description: dict[str, Any]) -> None:
         output = description.get("output", Channel())
         known = fields.event_fields()
-        unit = channel_unit(output.quantity).split(" or ")[0].split(",")[0]
-        unit = fields.unit_of_setting(unit, self._setting_unit(output.place))
+        drive = next((one for made, one in self.parts.get("drive", []) if output.place.part == made), None)
+        unit = fields.unit_of_channel(output.quantity, self._setting_unit(output.place),
+                                      None if drive is None else drive.get("component", 0))
         self._key("quantity", fields.write(known["quantity"], output.quantity))
         if output.place.part:
             self._key("place", self._place(output.place))
