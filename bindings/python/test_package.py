@@ -365,6 +365,24 @@ class RunTest(unittest.TestCase):
         self.sim.step(1e-3)
         self.assertGreater(self.sim.time, reached)
 
+    def test_interrupt_in_functions(self):
+        """Ctrl-C as a Python function begins was lost: the step failed with ERR_CALLBACK, or went on."""
+        model = mbd.Model()
+        body = model.add_body(mass=1.0)
+        model.add_load(place=body, force=(1, 0, 0), programme=model.add_programme(*[lambda time: 0.1] * 20))
+        model.compile()
+        for _ in range(15):
+            with model.sim(energy_ledger=0) as sim:
+                timer = threading.Timer(0.02, lambda: os.kill(os.getpid(), signal.SIGINT))
+                timer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    sim.run(1e3, step=1e-3)
+                reached = sim.time
+                sim.step(1e-3)
+                self.assertGreater(sim.time, reached)
+                timer.join()
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
     @there("numpy")
     def test_table_shares_memory(self):
         recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X)], capacity=5)

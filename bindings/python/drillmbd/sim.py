@@ -110,7 +110,10 @@ class Sim(Handle, analysis.Analyses):
         """Advances by duration [s]; returns the report, whose status may be a note."""
         report: StepReport = StepReport.blank()
         try:
-            status = _step(self._handle, duration, byref(report))
+            if self._scene.references:  # Python's handler would raise where C has called, and be lost there
+                status = self._teller.long_call(self._handle, _step, real(duration, "step", "duration", "s"), byref(report))
+            else:
+                status = _step(self._handle, duration, byref(report))
         except ctypes.ArgumentError:
             status = _step(self._handle, real(duration, "step", "duration", "s"), byref(report))
         _set_status(report, "status", self._check(status))
