@@ -67,7 +67,7 @@ class InstallTest(unittest.TestCase):
         self.finds_units(python, self.folder / "env")
 
     def test_backend(self):
-        """What it makes: a wheel for this machine with the library, one for all without, the sources, a path to them."""
+        """It makes a wheel for this machine with the library, one for all without, the sources, a path to them."""
         sys.path.insert(0, str(HERE))
         self.addCleanup(sys.path.remove, str(HERE))
         import backend

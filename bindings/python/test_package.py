@@ -135,7 +135,7 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_types_of_a_users_program(self):
-        """What is right passes the strictest check; a misspelt field and a text for a number are found by it."""
+        """A right program passes the strictest check; a misspelt field and a text for a number are found by it."""
         try:
             import mypy  # noqa: F401
         except ImportError:

@@ -266,7 +266,7 @@ class TakerTest(Refusals):
 
 
 class ClosedTest(Refusals):
-    """What was given back says so; the memory of arrays stays."""
+    """Objects that were given back say so; the memory of arrays stays."""
 
     def closed(self, kind, *functions):
         for function in functions:

@@ -27,7 +27,7 @@ class Parts:
             self.pipes[part.index] = self.pipes.get(part.index, 0) + pipes
 
     def why_part(self, word: str, part: Id, wanted: str) -> str:
-        """What is wrong with a part where one of the kinds `wanted` is needed; "" where nothing is."""
+        """The message of a part where one of the kinds `wanted` is needed; "" where nothing is wrong."""
         if not part:
             return f"{word}: part = none, must be {wanted} of this model"
         if part.generation != self.stamp:
@@ -37,7 +37,7 @@ class Parts:
         return "" if kind in wanted else f"{word}: part = {named(part)}, must be {wanted} of this model"
 
     def why_place(self, word: str, place: Place) -> str:
-        """What is wrong with a place; "" where nothing is."""
+        """The message of a place that does not fit; "" where nothing is wrong."""
         wrong = self.why_part(word, place.part, "a string, body, bit or ring")
         if wrong or place.part.index not in self.pipes:
             return wrong

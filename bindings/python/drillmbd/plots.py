@@ -215,7 +215,7 @@ def fatigue(found: StringFatigue, title: str = "") -> Any:
 
 
 def causes(found: Response, names: Sequence[str], output: int = 0, label: str = "amplitude", title: str = "") -> Any:
-    """What shakes one output: its amplitude over frequency by each input with the input's own amplitude, and by all
+    """The causes that shake one output: its amplitude over frequency by each input with the input's own amplitude, and by all
     together. names: of the inputs; label: of the output, with its unit."""
     numpy = need("numpy")
     figure, ((axes,),) = _axes(1, 1, (11, 6))
@@ -247,7 +247,7 @@ def frequencies(found: Modes, title: str = "") -> Any:
 
 def study(values: Sequence[float], columns: dict[str, Sequence[float]], parameter: str, title: str = "",
           log: bool = False) -> Any:
-    """What depends on one parameter: columns by name with unit, as "first bending [Hz]", those of one unit in one panel.
+    """Columns that depend on one parameter, by name with unit, as "first bending [Hz]", those of one unit in one panel.
     parameter: its name with unit; log: both axes logarithmic, for frequencies against lengths."""
     panels = list(dict.fromkeys(_unit(name) for name in columns))
     figure, grid = _axes(max(1, len(panels)), 1, (10, 3.0 * max(1, len(panels))), sharex=True)

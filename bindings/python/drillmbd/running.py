@@ -70,8 +70,8 @@ class Lengths:
 
 
 class Bar:
-    """A progress function that shows a bar on the terminal: by tqdm where it is there, else a line of its own. Where
-    nobody looks it shows nothing."""
+    """A progress function that shows a bar on the terminal: by tqdm where it is there, else a line of its own. It shows
+    nothing where nobody looks."""
 
     def __init__(self, begin: float, end: float, stream: IO[str] | None = None) -> None:
         self.bar: Any = None
