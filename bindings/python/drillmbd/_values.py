@@ -1,7 +1,6 @@
 """Values as they come from Python: numbers, texts, parts and places, or an error that tells part, field, value and bound."""
 from __future__ import annotations
 
-import math
 import numbers as kinds
 import operator
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -115,8 +114,3 @@ def points(table: Any, part: str, field: str = "table") -> tuple[list[float], li
     if len(one) != len(other):
         refuse_value(part, field, table, f"{bound}: {len(one)} and {len(other)} are given")
     return reals(one, part, field), reals(other, part, field)
-
-
-def is_nan(value: float) -> bool:
-    """Whether a number is none."""
-    return math.isnan(value)
