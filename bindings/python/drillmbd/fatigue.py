@@ -51,7 +51,7 @@ class Fatigue(Handle):
 
     def frame(self) -> Any:
         """The places as a pandas frame, one row each, units in the names of its columns."""
-        from .analysis import frame_of
+        from .frames import frame_of
         return frame_of(FatigueResult, [self.result(place) for place in range(self._count)])
 
     @mirrors("dmb_fatigue_histogram")
@@ -83,7 +83,7 @@ class StringFatigue:
 
     def frame(self) -> Any:
         """The pipes as a pandas frame, one row each, units in the names of its columns."""
-        from .analysis import frame_of
+        from .frames import frame_of
         return frame_of(FatigueResult, self.results, {"pipe": self.pipes})
 
     @property

@@ -3,11 +3,14 @@ from __future__ import annotations
 
 import math
 import sys
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import IO, Any, Protocol
 
 from ._optional import need
-from ._values import refuse_value
+from ._values import refuse_type, refuse_value
+from .enums import NOTE_FULL
 
 
 class Taker(Protocol):
@@ -103,3 +106,23 @@ class Bar:
             self.bar.close()
         elif self.looked_at:
             self.stream.write("\n")
+
+
+def own_takers(sim: Any, recorder: Any, counters: Sequence[Taker]) -> list[Taker]:
+    """Recorder and counters, which must be of this sim: of another they would take its state again and again."""
+    takers = [*([] if recorder is None else [recorder]), *counters]
+    for one in takers:
+        if not hasattr(one, "take"):
+            refuse_type("run", "recorder" if one is recorder else "counters", one, "have a take()")
+        if getattr(one, "sim", sim) is not sim:
+            refuse_value("run", "recorder" if one is recorder else "counters", one, "be of this sim")
+    return takers
+
+
+def take_all(takers: list[Taker], at: Progress) -> None:
+    """A sample of each; a recorder that is full warns once in a run."""
+    for one in takers:
+        if one.take() == NOTE_FULL and at.status != NOTE_FULL:
+            at.status = NOTE_FULL
+            warnings.warn("the recorder of a run is full: later rows are lost; give it more capacity, or an interval",
+                          RuntimeWarning, stacklevel=3)

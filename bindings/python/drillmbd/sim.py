@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes
 import math
 import time as clock
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any
@@ -21,11 +20,11 @@ from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, 
 from ._structs import EventReport
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .channels import channel_quantity
-from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_FULL, NOTE_STOPPED, OK
+from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import Error, check
 from .inputs import InputLog, Inputs
 from .recorder import ProfileRecorder, Recorder
-from .running import Bar, Lengths, Progress, Taker
+from .running import Bar, Lengths, Progress, Taker, own_takers, take_all
 
 if TYPE_CHECKING:
     from .model import Model
@@ -147,7 +146,7 @@ class Sim(Handle, analysis.Analyses):
         and the recorder has all rows so far. A full recorder warns, and status of the answer is NOTE_FULL."""
         begin, started, end = self.time, clock.monotonic(), real(end, "run", "end", "s")
         lengths = Lengths(begin, end, None if step is None else real(step, "run", "step", "s"))
-        takers = self._own_takers(recorder, counters)
+        takers = own_takers(self, recorder, counters)
         if progress is not None and progress is not True and not callable(progress):
             refuse_type("run", "progress", progress, "be a function of a Progress, or True for a bar")
         bar = Bar(begin, end) if progress is True else None
@@ -164,7 +163,7 @@ class Sim(Handle, analysis.Analyses):
                     break
                 if report.status == NOTE_STOPPED:  # max_steps of one call; go on
                     number -= 1
-                self._take(takers, at)
+                take_all(takers, at)
                 now = clock.monotonic()
                 at.time, at.elapsed = self.time, now - started
                 if tell and (now - told >= every or number == lengths.count):
@@ -176,24 +175,6 @@ class Sim(Handle, analysis.Analyses):
                 bar.close()
         at.time, at.elapsed = self.time, clock.monotonic() - started
         return at
-
-    def _own_takers(self, recorder: Recorder | None, counters: Sequence[Taker]) -> list[Taker]:
-        """Recorder and counters, which must be of this sim: of another they would take its state again and again."""
-        takers = [*([] if recorder is None else [recorder]), *counters]
-        for one in takers:
-            if not hasattr(one, "take"):
-                refuse_type("run", "recorder" if one is recorder else "counters", one, "have a take()")
-            if getattr(one, "sim", self) is not self:
-                refuse_value("run", "recorder" if one is recorder else "counters", one, "be of this sim")
-        return takers
-
-    @staticmethod
-    def _take(takers: list[Taker], at: Progress) -> None:
-        for one in takers:
-            if one.take() == NOTE_FULL and at.status != NOTE_FULL:
-                at.status = NOTE_FULL
-                warnings.warn("the recorder of a run is full: later rows are lost; give it more capacity, or an interval",
-                              RuntimeWarning, stacklevel=4)
 
     @mirrors("dmb_sim_set_drive")
     def set_drive(self, drive: Id, value: float | None) -> None:
