@@ -6,6 +6,7 @@
 
 #include "drillmbd/drillmbd.h"
 #include "random_bytes.h"
+#include "random_fields.h"
 
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
@@ -20,20 +21,38 @@ enum {
 #else
 enum { DRAW_PIPES = 24, DRAW_ELEMENTS = 3, DRAW_ITERATIONS = 30, DRAW_CUTS = 8, DRAW_STEPS = 1000 };
 #endif
-enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4 };
+enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_INPUTS = 4, DRAW_ANY = 40 };
+/* Bits of `more`. */
+enum { MORE_PARTS = 1, MORE_ACTIONS = 6 };
 
 typedef struct random_scene {
     byte_source source;
+    uint32_t
+        more; /* last byte of the input: what there is beyond what inputs without it have, which stay what they are */
     dmb_model *model;
-    dmb_id programme[DRAW_PROGRAMMES], string[DRAW_STRINGS], body[DRAW_BODIES], bit, drive[DRAW_DRIVES];
-    uint32_t programmes, strings, bodies, bits, drives, pipes;
-    uint32_t pipes_of[DRAW_STRINGS];
-    int32_t free_of[DRAW_STRINGS];
+    dmb_id programme[DRAW_PROGRAMMES], string[DRAW_STRINGS + 1], body[DRAW_BODIES], bit, drive[DRAW_DRIVES + 1];
+    dmb_id input[DRAW_INPUTS], event, any[DRAW_ANY]; /* any: of all kinds, to ask about */
+    uint32_t programmes, strings, bodies, bits, drives, pipes, inputs, events, anys;
+    uint32_t pipes_of[DRAW_STRINGS + 1];
+    int32_t free_of[DRAW_STRINGS + 1];
     int32_t has_wall;
     int32_t callback_status;
     uint32_t evaluations; /* left for the statics of this input */
     double callback_scale;
+    dmb_sim_options options; /* of the sim that is run */
 } random_scene;
+
+static inline int has_more(const random_scene *scene)
+{
+    return (scene->more & MORE_PARTS) != 0;
+}
+
+/* To be asked about. Returns 1, or 0 of what was refused. */
+static inline uint32_t keep_id(random_scene *scene, int32_t status, dmb_id id)
+{
+    if (status >= 0 && scene->anys < DRAW_ANY) scene->any[scene->anys++] = id;
+    return status >= 0;
+}
 
 static inline int32_t draw_callback(void *context, double time, double out[3])
 {
@@ -46,13 +65,14 @@ static inline void draw_environment(random_scene *scene)
 {
     byte_source *s = &scene->source;
     dmb_environment_def def = dmb_environment_def_default();
-    if (draw_chance(s, 128)) return;
+    if (draw_chance(s, 128) && !has_more(scene)) return;
     def.gravity[draw_below(s, 3)] = draw_number(s, -20.0, 20.0);
     def.fluid_density = draw_number(s, 0.0, 2000.0);
     def.lateral_damping = draw_number(s, 0.0, 100.0);
     def.axial_damping = draw_number(s, 0.0, 100.0);
     def.torsional_damping = draw_number(s, 0.0, 1.0);
     draw_spoil(s, def.gravity, 7);
+    if (has_more(scene)) draw_more_environment(s, &def);
     (void)dmb_model_set_environment(scene->model, &def);
 }
 
@@ -128,7 +148,10 @@ static inline void draw_wall(random_scene *scene)
     wall.smoothing_speed = draw_size(s, 1e-5, 9e-3);
     draw_spoil(s, &wall.stiffness, 12);
     if (draw_chance(s, 3)) wall.diameter = draw_nonsense(s);
-    scene->has_wall = dmb_model_add_wall(scene->model, &wall, NULL) >= 0;
+    if (has_more(scene)) draw_more_wall(s, &wall);
+    dmb_id id = {0, 0};
+    const int32_t status = dmb_model_add_wall(scene->model, &wall, &id);
+    scene->has_wall = (int32_t)keep_id(scene, status, id);
 }
 
 static inline void draw_pipes(random_scene *scene, uint32_t string)
@@ -152,10 +175,58 @@ static inline void draw_pipes(random_scene *scene, uint32_t string)
         if (draw_chance(s, 30) && pipe.kind == DMB_PIPE_FLEXIBLE)
             pipe.curvature[draw_below(s, 3)] = draw_number(s, -0.3, 0.3);
         draw_spoil(s, &pipe.length, 30);
+        if (has_more(scene)) draw_more_pipe(s, &pipe);
         if (count == 0 || dmb_model_add_pipes(scene->model, &pipe, count, NULL) < 0) continue;
         scene->pipes += count;
         scene->pipes_of[string] += count;
     }
+    if (!has_more(scene) || scene->pipes_of[string] > 0) return;
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    pipe.string = scene->string[string];
+    scene->pipes_of[string] = dmb_model_add_pipes(scene->model, &pipe, 1, NULL) >= 0;
+}
+
+/* The joint of a mud motor, or what is fixed, between a sub and the section that continues the string. */
+static inline void draw_motor(random_scene *scene, dmb_id joint)
+{
+    byte_source *s = &scene->source;
+    dmb_motor motor = dmb_motor_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_term term = dmb_term_default();
+    motor.brakes = (int32_t)draw_below(s, 2);
+    motor.stall_torque = draw_size(s, 1.0, 1e4);
+    motor.displacement = draw_size(s, 1e-4, 1e-1);
+    motor.flow = draw_size(s, 1e-4, 1e-1);
+    draw_spoil(s, &motor.stall_torque, 7);
+    drive.part = joint;
+    if (dmb_motor_drive(&motor, &drive, &term.h0) < 0) return;
+    if (dmb_model_add_programme(scene->model, &term, 1, &drive.programme) < 0) return;
+    dmb_id *id = &scene->drive[scene->drives];
+    scene->drives += keep_id(scene, dmb_model_add_drive(scene->model, &drive, id), *id);
+}
+
+static inline void draw_sub(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    dmb_sub_def def = dmb_sub_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_sub sub = dmb_sub_default();
+    body.mass = draw_size(s, 0.1, 100.0);
+    joint.kind = draw_chance(s, 128) ? DMB_JOINT_REVOLUTE : (int32_t)draw_below(s, 6);
+    def.string = scene->string[draw_below(s, scene->strings)];
+    def.length = draw_number(s, 0.0, 1.0);
+    def.body = draw_chance(s, 128) ? &body : NULL;
+    def.after = draw_chance(s, 160) ? &joint : NULL;
+    if (dmb_model_add_sub(scene->model, &def, &sub) < 0) return;
+    (void)keep_id(scene, 0, sub.body);
+    (void)keep_id(scene, 0, sub.before);
+    (void)keep_id(scene, 0, sub.after);
+    (void)keep_id(scene, 0, sub.section);
+    scene->free_of[scene->strings] = DMB_FREE_ALL;
+    scene->string[scene->strings] = sub.section;
+    draw_pipes(scene, scene->strings++);
+    if (def.after != NULL && joint.kind == DMB_JOINT_REVOLUTE) draw_motor(scene, sub.after);
 }
 
 static inline void draw_strings(random_scene *scene)
@@ -181,10 +252,13 @@ static inline void draw_strings(random_scene *scene)
         if (draw_chance(s, 30)) def.offset[draw_below(s, 2)] = draw_number(s, -0.01, 0.01);
         if (draw_chance(s, 60)) def.velocity[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
         draw_spoil(s, &def.start_depth, 15);
+        if (has_more(scene)) draw_name(s, def.name);
         scene->free_of[scene->strings] = def.start_free;
         if (dmb_model_add_string(scene->model, &def, &scene->string[scene->strings]) < 0) continue;
+        (void)keep_id(scene, 0, scene->string[scene->strings]);
         draw_pipes(scene, scene->strings++);
     }
+    if (has_more(scene) && scene->strings > 0 && draw_chance(s, 80)) draw_sub(scene);
 }
 
 static inline void draw_bodies(random_scene *scene)
@@ -201,7 +275,9 @@ static inline void draw_bodies(random_scene *scene)
         body.velocity[draw_below(s, 6)] = draw_number(s, -2.0, 2.0);
         if (draw_chance(s, 128)) body.contact_diameter = draw_number(s, 0.01, 0.09);
         draw_spoil(s, &body.mass, 22);
-        if (dmb_model_add_body(scene->model, &body, &scene->body[scene->bodies]) >= 0) scene->bodies++;
+        if (has_more(scene)) draw_more_body(s, &body);
+        dmb_id *id = &scene->body[scene->bodies];
+        scene->bodies += keep_id(scene, dmb_model_add_body(scene->model, &body, id), *id);
     }
 }
 
@@ -219,7 +295,9 @@ static inline void draw_bit(random_scene *scene)
     bit.blades = 1 + draw_below(s, 8);
     bit.history = 64 + draw_below(s, 100);
     draw_spoil(s, &bit.mass, 12);
-    scene->bits = dmb_model_add_bit(scene->model, &bit, &scene->bit) >= 0;
+    if (has_more(scene)) draw_more_bit(s, &bit);
+    const int32_t status = dmb_model_add_bit(scene->model, &bit, &scene->bit);
+    scene->bits = keep_id(scene, status, scene->bit);
 }
 
 static inline dmb_id draw_part(random_scene *scene)
@@ -229,6 +307,15 @@ static inline dmb_id draw_part(random_scene *scene)
     if (scene->bodies > 0 && draw_chance(s, 80)) return scene->body[draw_below(s, scene->bodies)];
     if (scene->strings > 0 && draw_chance(s, 240)) return scene->string[draw_below(s, scene->strings)];
     return scene->bits ? scene->bit : none;
+}
+
+/* The number of a pipe as drawn, nearly always one that the string has; 0 of other parts. */
+static inline uint32_t fitting_pipe(random_scene *scene, dmb_id part, uint32_t drawn)
+{
+    if (draw_chance(&scene->source, 4)) return drawn;
+    for (uint32_t i = 0; i < scene->strings; i++)
+        if (scene->string[i].index == part.index && scene->pipes_of[i] > 0) return drawn % scene->pipes_of[i];
+    return 0;
 }
 
 /* Nearly always one that is free. */
@@ -258,7 +345,9 @@ static inline void draw_drives(random_scene *scene)
         drive.gain = draw_number(s, 0.0, 1e4);
         drive.integral_gain = draw_number(s, 0.0, 1e4);
         draw_spoil(s, &drive.gain, 4);
-        if (dmb_model_add_drive(scene->model, &drive, &scene->drive[scene->drives]) >= 0) scene->drives++;
+        if (has_more(scene)) draw_more_drive(s, &drive);
+        dmb_id *id = &scene->drive[scene->drives];
+        scene->drives += keep_id(scene, dmb_model_add_drive(scene->model, &drive, id), *id);
     }
 }
 
@@ -274,7 +363,13 @@ static inline void draw_loads(random_scene *scene)
         load.moment[draw_below(s, 3)] = draw_number(s, -1.0, 1.0) * draw_size(s, 1.0, 1e3);
         load.programme = draw_programme(scene);
         draw_spoil(s, load.force, 6);
-        (void)dmb_model_add_load(scene->model, &load, NULL);
+        if (has_more(scene)) {
+            load.place.pipe = fitting_pipe(scene, load.place.part, load.place.pipe);
+            draw_more_load(s, &load);
+        }
+        dmb_id id = {0, 0};
+        const int32_t status = dmb_model_add_load(scene->model, &load, &id);
+        (void)keep_id(scene, status, id);
     }
 }
 
@@ -283,7 +378,8 @@ static inline void draw_scene(random_scene *scene, const uint8_t *data, size_t s
 {
     memset(scene, 0, sizeof *scene);
     scene->source.data = data;
-    scene->source.size = size;
+    scene->source.size = size > 0 ? size - 1 : 0;
+    scene->more = size > 0 ? data[size - 1] : 0;
     if (dmb_model_create(NULL, &scene->model) < 0) return;
     draw_environment(scene);
     draw_programmes(scene);

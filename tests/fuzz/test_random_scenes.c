@@ -5,13 +5,10 @@
  * two as many from the first on. As a fuzz target
  * (fuzz/run) it takes its bytes from libFuzzer. */
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "../contract/sanitized.h"
 #include "hash.h"
-#include "random_scene.h"
+#include "random_actions.h"
 
 #if defined(DMB_FUZZER)
 enum { ACTIONS_MAX = 6, STEPS_MAX = 2, STATIC_ITERATIONS = 8, STATIC_EVALUATIONS = 200 };
@@ -23,30 +20,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* ---- Judging ----------------------------------------------------------------------------------------------------- */
 
-static unsigned long long present_seed; /* of the input that is being run, for the message */
-static const char *present_action = "";
-
-#define MUST(condition)                                                                                          \
-    do {                                                                                                         \
-        if (!(condition)) {                                                                                      \
-            fprintf(stderr, "seed %llu, %s: line %d: %s\n", present_seed, present_action, __LINE__, #condition); \
-            abort();                                                                                             \
-        }                                                                                                        \
-    } while (0)
-
 static struct {
     uint64_t steps, failed, compiled, refused, statics;
 } tally;
-
-static void must_be_known(int32_t status)
-{
-    MUST(strcmp(dmb_status_name(status), "DMB_UNKNOWN") != 0);
-}
-
-static void must_be_finite(const double *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++) MUST(isfinite(values[i]));
-}
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
 
@@ -250,6 +226,7 @@ static void run_sim(dmb_sim *sim, random_scene *scene)
         present_action = "questions";
         ask_all(sim, scene);
     }
+    act_more(sim, scene);
 }
 
 /* ---- One input --------------------------------------------------------------------------------------------------- */
@@ -274,11 +251,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     present_action = "description";
     draw_scene(scene, data, size);
     MUST(scene->model != NULL);
+    if (has_more(scene)) draw_more_parts(scene);
     present_action = "compile";
     if (compile(scene) >= 0) {
-        const dmb_sim_options options = draw_options(scene);
+        scene->options = draw_options(scene);
         present_action = "create";
-        const int32_t status = dmb_sim_create(scene->model, &options, &sim);
+        const int32_t status = dmb_sim_create(scene->model, &scene->options, &sim);
         must_be_known(status);
         MUST((status >= 0) == (sim != NULL));
         tally.compiled += status >= 0;
