@@ -34,12 +34,15 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
         [DMB_PART_JOINT] = "joint",
         [DMB_PART_COUPLING] = "coupling",
         [DMB_PART_CONSTRAINT] = "constraint",
-        [DMB_PART_INPUT] = "input",
         [DMB_PART_SPRING] = "spring",
+        [DMB_PART_FORCE] = "force",
         [DMB_PART_STUCK] = "stuck",
+        [DMB_PART_INPUT] = "input",
+        [DMB_PART_EVENT] = "event",
     };
     const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
-    put_numbered(file, kind < sizeof kinds / sizeof kinds[0] ? kinds[kind] : kinds[0], number);
+    const int known = kind < sizeof kinds / sizeof kinds[0] && kinds[kind] != NULL;
+    put_numbered(file, known ? kinds[kind] : kinds[0], number);
     if (kind != DMB_PART_STRING || part_alone) return;
     put_numbered(file, "pipe", place->pipe);
     dmb_text_put(file, " at ");

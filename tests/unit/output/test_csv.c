@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "drillmbd/names.h"
 #include "drillmbd/query.h"
 
 enum { ROWS = 6, CHANNELS = 3, WIDTH = 1 + CHANNELS };
@@ -128,6 +129,42 @@ static void header_names_and_units(void **state)
                               "energy_error [-]\n");
 }
 
+/* Ids of all kinds, and of none, have a word in the header. */
+static void header_has_a_word_for_each_kind(void **state)
+{
+    (void)state;
+    static char text[1 << 16];
+    const char *const words[32] = {
+        [DMB_PART_PROGRAMME] = "programme",
+        [DMB_PART_WALL] = "wall",
+        [DMB_PART_STRING] = "string",
+        [DMB_PART_BODY] = "body",
+        [DMB_PART_BIT] = "bit",
+        [DMB_PART_DRIVE] = "drive",
+        [DMB_PART_LOAD] = "load",
+        [DMB_PART_JOINT] = "joint",
+        [DMB_PART_COUPLING] = "coupling",
+        [DMB_PART_CONSTRAINT] = "constraint",
+        [DMB_PART_SPRING] = "spring",
+        [DMB_PART_FORCE] = "force",
+        [DMB_PART_RING] = "ring",
+        [DMB_PART_STUCK] = "stuck",
+        [DMB_PART_INPUT] = "input",
+        [DMB_PART_EVENT] = "event",
+    };
+    for (uint32_t kind = 0; kind < 32; kind++) {
+        dmb_recorder r = recorder();
+        char *name = temporary(), expected[64];
+        const dmb_id part = {kind << 24 | 7u, 1};
+        r.row_count = 0;
+        channels[1].place.part = part;
+        assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+        read_back(name, text, sizeof text);
+        snprintf(expected, sizeof expected, ",drive_force %s 7 ", words[kind] != NULL ? words[kind] : "part");
+        if (kind != DMB_PART_STRING) assert_non_null(strstr(text, expected));
+    }
+}
+
 /* With a comma as the host's decimal mark the file keeps its points. */
 static void locale_does_not_matter(void **state)
 {
@@ -188,8 +225,11 @@ static void bad_recorders_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_come_back),         cmocka_unit_test(header_names_and_units),
-        cmocka_unit_test(locale_does_not_matter),    cmocka_unit_test(failures_are_told),
+        cmocka_unit_test(numbers_come_back),
+        cmocka_unit_test(header_names_and_units),
+        cmocka_unit_test(header_has_a_word_for_each_kind),
+        cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(failures_are_told),
         cmocka_unit_test(bad_recorders_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
