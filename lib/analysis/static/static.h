@@ -159,6 +159,11 @@ static inline double *dmb_static_stretches(const dmb_sim *sim)
  * since the string is free at both ends or at none. */
 int dmb_static_tensions(dmb_sim *sim, uint32_t string);
 int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node);
+/* Of a full node, in y and z: what something holds sideways is neither laid nor rolled. */
+int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node);
+/* After a full node was moved beside its equations: where it is held or driven along its axis, that part of the way
+ * `back` [m] is gone. */
+void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3]);
 /* From the starting pose, after its evaluation. */
 void dmb_static_lay_by_pull(dmb_static_search *search);
 /* [-] How much softer the wall must be for the pull to press a ring into it by `part` of its clearance, 1 ..

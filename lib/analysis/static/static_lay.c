@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "analysis/static/static.h"
+#include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
@@ -15,10 +16,19 @@ static double sink(const dmb_scene *scene, const dmb_site *site, double depth, d
     return pow(force / (law.stiffness * site->length), 1.0 / law.exponent);
 }
 
-static int free_sideways(const dmb_scene *scene, uint32_t node)
+int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node)
 {
     const uint8_t *solved = scene->solved_row + scene->layout.row[node];
     return scene->layout.size[node] == DMB_NODE_FULL && solved[DMB_Y] && solved[DMB_Z];
+}
+
+void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3])
+{
+    const double x[3] = {1.0, 0.0, 0.0};
+    double axis[3];
+    if (dmb_static_is_free_along(sim->scene, node)) return;
+    dmb_quat_rotate(sim->trial.quaternion + 4 * (size_t)node, x, axis);
+    dmb_vec3_axpy(dmb_vec3_dot(back, axis), axis, sim->trial.displacement + 3 * (size_t)node);
 }
 
 /* A node lies with its first ring, where that stands at the node. */
@@ -27,7 +37,7 @@ static int lies(const dmb_scene *scene, uint32_t s)
     const dmb_site *site = scene->sites + s;
     const int first = s == 0 || scene->sites[s - 1].node != site->node;
     return first && !dmb_is_inside(scene, s) && site->offset == 0.0 && site->clearance >= 0.0 &&
-           free_sideways(scene, site->node);
+           dmb_static_is_free_across(scene, site->node);
 }
 
 /* ---- By weight --------------------------------------------------------------------------------------------------- */
@@ -50,6 +60,8 @@ static void lay_site(dmb_sim *sim, const dmb_site *site)
     dmb_vec3_add(point, down, down);
     dmb_vec3_sub(down, x, down);
     dmb_vec3_add(u, down, u);
+    dmb_vec3_scale(-1.0, down, down);
+    dmb_static_stay_along(sim, node, down);
 }
 
 void dmb_static_lay_on_wall(dmb_sim *sim)
@@ -136,7 +148,11 @@ static void lay_pressed(const dmb_static_search *search, const dmb_site *site, d
     const double across = dmb_vec3_norm(u);
     const double clearance = dmb_site_clearance(scene, site, depth);
     if (across > 0.0) dmb_vec3_axpy((clearance + sink(scene, site, depth, across)) / across, u, point);
-    dmb_vec3_sub(point, scene->reference_position + 3 * (size_t)node, sim->trial.displacement + 3 * (size_t)node);
+    double *moved = sim->trial.displacement + 3 * (size_t)node, back[3];
+    dmb_vec3_sub(point, scene->reference_position + 3 * (size_t)node, point);
+    dmb_vec3_sub(moved, point, back);
+    dmb_vec3_copy(point, moved);
+    dmb_static_stay_along(sim, node, back);
 }
 
 /* Stretch from the end that is held: how far each node goes along. */

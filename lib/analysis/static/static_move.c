@@ -119,11 +119,13 @@ static void roll(const dmb_sim *sim, uint32_t s, const double before[3], const d
     for (int i = 0; i < 3; i++) more[i] = (r[i] - out * n[i] - a * e * b[i]) + 0.5 * along * along * k[i];
 }
 
-/* Ring at a node, which it rolls with, from the ring `s` on; rings stand in the order of their nodes. DMB_NONE. */
+/* Ring at a node, which it rolls with, from the ring `s` on; rings stand in the order of their nodes. DMB_NONE, also of
+ * a node that something holds sideways, whose way is straight. */
 static uint32_t ring_of(const dmb_scene *scene, uint32_t node, uint32_t *s)
 {
     while (*s < scene->site_count && scene->sites[*s].node < node) ++*s;
-    return *s < scene->site_count && scene->sites[*s].node == node && scene->sites[*s].offset == 0.0 ? *s : DMB_NONE;
+    const int at_node = *s < scene->site_count && scene->sites[*s].node == node && scene->sites[*s].offset == 0.0;
+    return at_node && dmb_static_is_free_across(scene, node) ? *s : DMB_NONE;
 }
 
 /* side 1: from where the node is; -1: back to where it came from by this z (rolling: to third order). */
@@ -142,6 +144,8 @@ static void wind(dmb_sim *sim, uint32_t node, uint32_t ring, int side, double z[
         dmb_vec3_sub(side > 0 ? u : before, side > 0 ? before : u, d);
         roll(sim, ring, side > 0 ? before : u, d, more);
         dmb_vec3_axpy(side, more, u);
+        dmb_vec3_scale(-side, more, more);
+        dmb_static_stay_along(sim, node, more);
     }
     if (side > 0) spin(sim, node, angle);
 }
