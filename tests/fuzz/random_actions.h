@@ -226,7 +226,7 @@ static inline void act_twins(dmb_sim *sim, random_scene *c)
 /* ---- Sensitivities ------------------------------------------------------------------------------------------------
  */
 
-/* What is set differs a little, where there is something to set. */
+/* Set differently by a little, where there is something to set. */
 static inline void nudge(dmb_sim *sim, random_scene *c, double by)
 {
     if (c->inputs > 0)

@@ -1,5 +1,5 @@
-/* What else a string meets, out of bytes: springs, stuck places, mud that flows, rings, sections of the hole, forces of
- * the caller's, inputs and events. */
+/* Further parts that a string meets, out of bytes: springs, stuck places, mud that flows, rings, sections of the hole,
+ * forces of the caller's, inputs and events. */
 #ifndef DMB_TESTS_RANDOM_PARTS_H
 #define DMB_TESTS_RANDOM_PARTS_H
 
