@@ -306,6 +306,7 @@ static inline void act_more(dmb_sim *sim, random_scene *c)
         {"questions", ask_anything}, {"inputs", act_inputs},   {"event", act_event}, {"window", act_window},
         {"rows", act_rows},          {"fatigue", act_fatigue}, {"twins", act_twins}, {"sensitivity", act_sensitivity},
     };
+    swap_sources(c);
     for (uint32_t i = (c->more & MORE_ACTIONS) >> 1; i > 0; i--) {
         const uint32_t k = draw_below(&c->source, sizeof actions / sizeof actions[0]);
         present_action = actions[k].name;
@@ -314,6 +315,7 @@ static inline void act_more(dmb_sim *sim, random_scene *c)
         for (uint32_t q = 0; q < 4; q++) ask_anything(sim, c);
         MUST(hash_of(sim) == before);
     }
+    swap_sources(c);
 }
 
 #endif

@@ -10,11 +10,14 @@
 typedef struct byte_source {
     const uint8_t *data;
     size_t size, at;
+    int backward; /* from the end on */
 } byte_source;
 
 static inline uint32_t draw_byte(byte_source *s)
 {
-    return s->at < s->size ? s->data[s->at++] : 0;
+    if (s->at >= s->size) return 0;
+    const size_t i = s->at++;
+    return s->data[s->backward ? s->size - 1 - i : i];
 }
 
 /* 0 .. count - 1 */

@@ -278,9 +278,11 @@ static inline void analyse_more(dmb_sim *sim, random_scene *c)
         {"torque and drag", act_torque_drag}, {"steady", act_steady},
     };
     if ((c->more & MORE_ACTIONS) == 0) return;
+    swap_sources(c);
     const uint32_t k = draw_below(&c->source, sizeof actions / sizeof actions[0]);
     present_action = actions[k].name;
     actions[k].act(sim, c);
+    swap_sources(c);
 }
 
 #endif

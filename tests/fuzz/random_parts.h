@@ -245,11 +245,13 @@ static inline void draw_new_name(random_scene *c)
 static inline void draw_more_parts(random_scene *c)
 {
     byte_source *s = &c->source;
+    swap_sources(c);
     if (draw_chance(s, c->has_wall ? 80 : 2)) draw_sections(c);
     for (uint32_t i = draw_below(s, 3); i > 0; i--) draw_ring(c);
     if (draw_chance(s, 50)) draw_force(c);
     draw_rest(c);
     draw_new_name(c);
+    swap_sources(c);
 }
 
 #endif

@@ -26,7 +26,7 @@ enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, 
 enum { MORE_PARTS = 1, MORE_ACTIONS = 6 };
 
 typedef struct random_scene {
-    byte_source source;
+    byte_source source, other; /* the other one from the end on: for further parts and calls */
     uint32_t
         more; /* last byte of the input: what there is beyond what inputs without it have, which stay what they are */
     dmb_model *model;
@@ -45,6 +45,13 @@ typedef struct random_scene {
 static inline int has_more(const random_scene *scene)
 {
     return (scene->more & MORE_PARTS) != 0;
+}
+
+static inline void swap_sources(random_scene *scene)
+{
+    const byte_source source = scene->source;
+    scene->source = scene->other;
+    scene->other = source;
 }
 
 /* To be asked about. Returns 1, or 0 of what was refused. */
@@ -380,6 +387,8 @@ static inline void draw_scene(random_scene *scene, const uint8_t *data, size_t s
     scene->source.data = data;
     scene->source.size = size > 0 ? size - 1 : 0;
     scene->more = size > 0 ? data[size - 1] : 0;
+    scene->other = scene->source;
+    scene->other.backward = 1;
     if (dmb_model_create(NULL, &scene->model) < 0) return;
     draw_environment(scene);
     draw_programmes(scene);

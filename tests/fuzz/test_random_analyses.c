@@ -12,7 +12,7 @@
 #if defined(DMB_FUZZER)
 enum { JOINTS = 2, ACTIONS_MAX = 2, ITERATIONS = 6 };
 #else
-enum { INPUTS = 20, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30 };
+enum { INPUTS = 60, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30 };
 #endif
 
 typedef struct scene {
