@@ -337,12 +337,16 @@ int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion
 
 /* ---- Poses and motions off a place ------------------------------------------------------------------------------- */
 
+static int32_t check_finite(const double *values, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (!isfinite(values[k])) return DMB_ERR_NOT_FINITE;
+    return DMB_OK;
+}
+
 static int32_t check_offset(const double offset[3])
 {
-    if (offset == NULL) return DMB_ERR_NULL;
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(offset[k])) return DMB_ERR_NOT_FINITE;
-    return DMB_OK;
+    return offset == NULL ? DMB_ERR_NULL : check_finite(offset, 3);
 }
 
 /* R0: axes of the place at time 0 as described. */
@@ -368,6 +372,8 @@ int32_t dmb_query_pose_at(const dmb_sim *sim, dmb_place place, const double offs
     if (status < 0) return status;
     dmb_material_point_start_axes(sim->scene, &point, R0);
     move_pose(offset, R0, &answer);
+    status = check_finite(answer.position, 3); /* offsets may be as long as numbers go */
+    if (status < 0) return status;
     answer.depth = dmb_material_point_depth(sim->scene, &sim->now, &point, answer.position);
     return dmb_pose_write(pose, &answer);
 }
@@ -399,7 +405,9 @@ int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const double of
     dmb_vec3_copy(offset, r);
     if (answer.frame == DMB_FRAME_WORLD) dmb_mat3_vec(pose.rotation, offset, r);
     move_motion(r, answer.frame == DMB_FRAME_WORLD, &answer);
-    return dmb_motion_write(motion, &answer);
+    status = check_finite(answer.velocity, 6);
+    if (status >= 0) status = check_finite(answer.acceleration, 6);
+    return status < 0 ? status : dmb_motion_write(motion, &answer);
 }
 
 /* The part or node that each row of the equations belongs to. */

@@ -26,6 +26,13 @@ static inline uint32_t draw_below(byte_source *s, uint32_t count)
     return draw_byte(s) % count;
 }
 
+/* 0 .. count - 1, now and then one too many */
+static inline uint32_t draw_choice(byte_source *s, uint32_t count)
+{
+    const uint32_t drawn = draw_byte(s);
+    return drawn >= 250 ? count : drawn % count;
+}
+
 static inline int draw_chance(byte_source *s, uint32_t of_256)
 {
     return draw_byte(s) >= 256 - of_256;

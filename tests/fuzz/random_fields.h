@@ -115,7 +115,7 @@ static inline void draw_more_drive(byte_source *s, dmb_drive_def *drive)
     if (draw_chance(s, 60)) drive->inertia = draw_size(s, 1e-3, 10.0);
     if (draw_chance(s, 80)) drive->limit_low = -draw_size(s, 1.0, 1e5);
     if (draw_chance(s, 80)) drive->limit_high = draw_size(s, 1.0, 1e5);
-    if (drive->kind == DMB_DRIVE_MOTION && !draw_chance(s, 10)) return;
+    if (!draw_chance(s, drive->kind == DMB_DRIVE_MOTION ? 10 : 100)) return;
     if (draw_chance(s, 60)) drive->delay = draw_size(s, 1e-6, 1e-1);
     if (draw_chance(s, 60)) drive->force_rate = draw_size(s, 1e2, 1e8);
     if (draw_chance(s, 60)) drive->lag = draw_size(s, 1e-6, 1e-1);

@@ -5,15 +5,28 @@
 
 #include "random_actions.h"
 
+/* Of that kind, where there is one. */
+static inline dmb_id part_of_kind(const random_scene *c, uint32_t kind)
+{
+    const dmb_id none = {0, 0};
+    for (uint32_t i = 0; i < c->anys; i++)
+        if (c->any[i].index >> 24 == kind) return c->any[i];
+    return none;
+}
+
 static inline dmb_output draw_any_output(random_scene *c)
 {
     byte_source *s = &c->source;
     const dmb_channel channel = draw_channel(c);
     dmb_output output = dmb_output_default();
-    output.kind = draw_chance(s, 100) ? DMB_OUTPUT_CHANNEL : (int32_t)draw_below(s, 17);
+    output.kind = draw_chance(s, 60) ? DMB_OUTPUT_CHANNEL : (int32_t)draw_choice(s, 15);
     output.place = channel.place;
     output.component = output.kind == DMB_OUTPUT_CHANNEL ? channel.quantity : (int32_t)draw_below(s, 6);
     output.frame = (int32_t)draw_below(s, 2);
+    if (output.kind < DMB_OUTPUT_CONTACT) output.place = draw_place(c);
+    if (output.kind == DMB_OUTPUT_DRIVE) output.place.part = part_of_kind(c, DMB_PART_DRIVE);
+    if (output.kind >= DMB_OUTPUT_JOINT_POSITION && output.kind <= DMB_OUTPUT_MULTIPLIER)
+        output.place.part = part_of_kind(c, DMB_PART_JOINT);
     return output;
 }
 
@@ -21,12 +34,16 @@ static inline dmb_input draw_any_input(random_scene *c)
 {
     byte_source *s = &c->source;
     dmb_input input = dmb_input_default();
-    input.kind = (int32_t)draw_below(s, 9);
-    input.place = draw_channel(c).place;
+    input.kind = (int32_t)draw_choice(s, 8);
+    input.place = draw_place(c);
     input.component = (int32_t)draw_below(s, 6);
     input.frame = (int32_t)draw_below(s, 2);
-    if (input.kind == DMB_INPUT_SETTING && c->inputs > 0) input.place.part = c->input[0];
-    if (input.kind == DMB_INPUT_DRIVE && c->drives > 0) input.place.part = c->drive[0];
+    const uint32_t kind = input.kind == DMB_INPUT_SETTING    ? DMB_PART_INPUT
+                          : input.kind == DMB_INPUT_DRIVE    ? DMB_PART_DRIVE
+                          : input.kind == DMB_INPUT_LOAD     ? DMB_PART_LOAD
+                          : input.kind == DMB_INPUT_BIT_LOAD ? DMB_PART_BIT
+                                                             : 0;
+    if (kind != 0) input.place = dmb_station(part_of_kind(c, kind), 0, 0.0);
     return input;
 }
 
@@ -39,7 +56,7 @@ static inline void act_steady(dmb_sim *sim, random_scene *c)
     dmb_static_options options = dmb_static_options_default();
     dmb_static_report report = dmb_static_report_default();
     options.max_iterations = 1 + draw_below(s, 8);
-    options.steady = (int32_t)draw_below(s, 4);
+    options.steady = (int32_t)draw_choice(s, 3);
     options.slip_axial = draw_chance(s, 60) ? draw_number(s, -0.1, 0.1) : 0.0;
     options.slip_rotation = draw_chance(s, 60) ? draw_number(s, -10.0, 10.0) : 0.0;
     options.load_steps = draw_below(s, 3);
@@ -82,8 +99,8 @@ static inline void act_modes_in_axes(dmb_sim *sim, random_scene *c)
     options.contact = (int32_t)draw_below(s, 3);
     options.friction = (int32_t)draw_below(s, 2);
     options.contact_gap = draw_chance(s, 100) ? draw_size(s, 1e-6, 1e-1) : 0.0;
-    options.equilibrium_tolerance = 10.0;
-    options.axes = (int32_t)draw_below(s, 3);
+    options.equilibrium_tolerance = 1.0;
+    options.axes = (int32_t)draw_choice(s, 2);
     options.spin = draw_chance(s, 128) ? draw_number(s, -50.0, 50.0) : 0.0;
     const int32_t status = dmb_analysis_modes(sim, &options, &modes);
     must_be_known(status);
@@ -125,8 +142,8 @@ static inline void act_response_in_axes(dmb_sim *sim, random_scene *c)
     options.structural_damping = draw_chance(s, 80) ? 0.02 : 0.0;
     options.contact = (int32_t)draw_below(s, 3);
     options.friction = (int32_t)draw_below(s, 2);
-    options.equilibrium_tolerance = 10.0;
-    options.axes = (int32_t)draw_below(s, 3);
+    options.equilibrium_tolerance = 1.0;
+    options.axes = (int32_t)draw_choice(s, 2);
     options.spin = draw_chance(s, 100) ? draw_number(s, -50.0, 50.0) : 0.0;
     const int32_t status =
         dmb_analysis_response(sim, &options, inputs, 1 + draw_below(s, 2), outputs, 1 + draw_below(s, 2), &response);
@@ -182,11 +199,11 @@ static inline void act_state_space(dmb_sim *sim, random_scene *c)
     dmb_state_space *space = NULL;
     dmb_modes *modes = NULL;
     const uint64_t before = hash_of(sim);
-    options.form = (int32_t)draw_below(s, 4);
+    options.form = (int32_t)draw_choice(s, 3);
     options.motion = (int32_t)draw_below(s, 2);
     options.static_correction = (int32_t)draw_below(s, 2);
     options.contact = of_modes.contact = (int32_t)draw_below(s, 3);
-    options.equilibrium_tolerance = of_modes.equilibrium_tolerance = 10.0;
+    options.equilibrium_tolerance = of_modes.equilibrium_tolerance = 1.0;
     options.shift = draw_chance(s, 100) ? draw_size(s, 1e-3, 10.0) : 0.0;
     of_modes.count = 1 + draw_below(s, 4);
     if (options.form == DMB_STATE_REDUCED) must_be_known(dmb_analysis_modes(sim, &of_modes, &modes));
@@ -217,7 +234,7 @@ static inline void act_buckling_of_part(dmb_sim *sim, random_scene *c)
     options.count = 1 + draw_below(s, 3);
     options.scale = (int32_t)draw_below(s, 3);
     options.follow = (int32_t)draw_below(s, 2);
-    options.part = draw_any(c);
+    options.part = c->drives > 0 && draw_chance(s, 128) ? c->drive[0] : draw_any(c);
     options.factor_max = draw_size(s, 1.0, 1e6);
     options.slip_axial = draw_chance(s, 60) ? 0.01 : 0.0;
     draw_spoil(s, &options.factor_max, 5);
@@ -247,7 +264,7 @@ static inline void act_torque_drag(dmb_sim *sim, random_scene *c)
     double along[4][3], friction = 0.0;
     const double depths[2] = {draw_number(s, 0.0, 20.0), draw_number(s, 0.0, 20.0)};
     const uint64_t before = hash_of(sim);
-    must_be_known(dmb_operation_usual((int32_t)draw_below(s, DMB_OPERATION_COUNT + 1), &operation));
+    must_be_known(dmb_operation_usual((int32_t)draw_choice(s, DMB_OPERATION_COUNT), &operation));
     operation.weight_on_bit = draw_chance(s, 128) ? draw_size(s, 1.0, 1e6) : 0.0;
     operation.torque_on_bit = draw_chance(s, 128) ? draw_size(s, 1.0, 1e5) : 0.0;
     draw_spoil(s, &operation.axial_speed, 4);
@@ -279,6 +296,7 @@ static inline void analyse_more(dmb_sim *sim, random_scene *c)
     };
     if ((c->more & MORE_ACTIONS) == 0) return;
     swap_sources(c);
+    if (draw_chance(&c->source, 128)) act_steady(sim, c);
     const uint32_t k = draw_below(&c->source, sizeof actions / sizeof actions[0]);
     present_action = actions[k].name;
     actions[k].act(sim, c);

@@ -73,6 +73,10 @@ static void offsets_are_refused(void **state)
         assert_int_equal(dmb_query_pose_at(s.sim, place, bad, &pose), DMB_ERR_NOT_FINITE);
         assert_int_equal(dmb_query_motion_at(s.sim, place, bad, &motion), DMB_ERR_NOT_FINITE);
     }
+    const double far[3] = {1.7e308, 1.7e308,
+                           -1.7e308}; /* its motion is beyond what numbers hold, and so is its place */
+    assert_int_equal(dmb_query_pose_at(s.sim, place, far, &pose), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_query_motion_at(s.sim, place, far, &motion), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_query_pose_at(s.sim, place, NULL, &pose), DMB_ERR_NULL);
     assert_int_equal(dmb_query_motion_at(s.sim, place, NULL, &motion), DMB_ERR_NULL);
     assert_int_equal(dmb_query_pose_at(s.sim, wrong, offset, &pose), DMB_ERR_VALUE);
