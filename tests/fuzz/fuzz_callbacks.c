@@ -14,9 +14,10 @@ typedef struct function {
 
 typedef struct subject {
     byte_source source;
+    uint32_t more; /* 1: forces have axes, offsets, steps, tangents and potentials, 2: and act on a joint */
     function constraint, force;
     dmb_model *model;
-    dmb_id body[BODIES];
+    dmb_id body[BODIES], joint;
 } subject;
 
 static double coefficient(byte_source *s)
@@ -74,12 +75,30 @@ static int32_t constrain(void *context, double time, uint32_t count, const doubl
     return 0;
 }
 
+/* In the axes of the world: positions and velocities alone count. */
+static void differentiate_force(const function *f, uint32_t count, const double (*poses)[12], double *tangent)
+{
+    const size_t width = 6 * (size_t)count;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t row = 0; row < ROWS; row++) {
+            double *by_pose = tangent + width * (6 * i + row), *by_speed = by_pose + width * width;
+            for (uint32_t k = 0; k < 6; k++) {
+                const uint32_t place = k / 3 % f->places;
+                if (place < count)
+                    by_pose[6 * place + k % 3] += f->a[row][k] + 2.0 * f->b[row][k] * poses[place][k % 3] + f->wrong;
+            }
+            by_speed[6 * i + row] -= 0.1 * f->a[row][0];
+        }
+}
+
 static int32_t push(void *context, double time, uint32_t count, const double (*poses)[12],
                     const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
 {
     function *f = context;
-    (void)time, (void)tangent, (void)potential;
+    (void)time;
     if (++f->calls == f->fails_at) return 1;
+    if (tangent != NULL) differentiate_force(f, count, poses, tangent);
+    if (potential != NULL) *potential = evaluate(f, 0, poses);
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < ROWS; k++) forces[i][k] = evaluate(f, k, poses) - 0.1 * f->a[k][0] * velocities[i][k];
     return 0;
@@ -106,12 +125,27 @@ static void add_constraint(subject *c)
     known(dmb_model_add_constraint(c->model, &def, NULL));
 }
 
+static void draw_more_force(subject *c, dmb_force_def *def)
+{
+    byte_source *s = &c->source;
+    def->frame = (int32_t)draw_below(s, 2);
+    def->provides = (int32_t)draw_below(s, 5); /* one too many */
+    def->offset[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
+    def->pose_step = draw_size(s, 1e-9, 1e-2);
+    def->speed_step = draw_size(s, 1e-9, 1e-2);
+    draw_spoil(s, &def->pose_step, 2);
+    if ((c->more & 2) == 0 || c->joint.generation == 0) return;
+    def->place[0] = dmb_station(c->joint, 0, 0.0);
+    def->component[0] = (int32_t)draw_below(s, 6);
+}
+
 static void add_force(subject *c)
 {
     dmb_force_def def = dmb_force_def_default();
     draw_function(&c->source, &c->force);
     def.place_count = c->force.places;
     for (uint32_t i = 0; i < def.place_count; i++) def.place[i] = dmb_station(c->body[BODIES - 1 - i], 0, 0.0);
+    if (c->more & 1) draw_more_force(c, &def);
     def.callback = push;
     def.callback_context = &c->force;
     known(dmb_model_add_force(c->model, &def, NULL));
@@ -132,7 +166,7 @@ static int describe(subject *c)
         joint.place_a = dmb_station(c->body[1], 0, 0.0);
         joint.place_b = dmb_station(c->body[2], 0, 0.0);
         joint.match = 1;
-        MUST(dmb_model_add_joint(c->model, &joint, NULL) == DMB_OK);
+        MUST(dmb_model_add_joint(c->model, &joint, &c->joint) == DMB_OK);
     }
     if (!draw_chance(s, 60)) add_constraint(c);
     if (draw_chance(s, 128)) add_force(c);

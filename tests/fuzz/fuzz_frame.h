@@ -40,15 +40,16 @@ static inline void check_restore(dmb_sim *sim)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* subject: a type with members `source` and `model`. describe: describes and compiles, 0 where there is nothing to run.
- */
+/* subject: a type with members `source`, `model` and `more`, the last byte of the input: 0 in those that were stored
+ * before there was more. describe: describes and compiles, 0 where there is nothing to run. */
 #define FUZZ_ENTRY(subject, describe, run)                       \
     int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) \
     {                                                            \
         subject c;                                               \
         memset(&c, 0, sizeof c);                                 \
         c.source.data = data;                                    \
-        c.source.size = size;                                    \
+        c.source.size = size > 0 ? size - 1 : 0;                 \
+        c.more = size > 0 ? data[size - 1] : 0;                  \
         MUST(dmb_model_create(NULL, &c.model) == DMB_OK);        \
         if (describe(&c)) run(&c);                               \
         dmb_model_destroy(&c.model);                             \

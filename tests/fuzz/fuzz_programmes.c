@@ -13,10 +13,11 @@ typedef struct callback {
 
 typedef struct subject {
     byte_source source;
+    uint32_t more; /* 1: the drive is excited too, 2: an input moves its set point */
     double times[TERMS][TABLE], values[TERMS][TABLE];
     callback callback;
     dmb_model *model;
-    dmb_id drive;
+    dmb_id drive, input;
 } subject;
 
 static double any_number(byte_source *s, double scale)
@@ -73,6 +74,28 @@ static dmb_term draw_any_term(subject *c, uint32_t i)
     return term;
 }
 
+/* With limits, as the set point of a motion drive must have. */
+static void add_input(subject *c)
+{
+    dmb_input_def def = dmb_input_def_default();
+    def.name[0] = 'a';
+    def.part = c->drive;
+    def.rate_limit = draw_size(&c->source, 1e-2, 1e6);
+    def.slope_limit = draw_chance(&c->source, 128) ? draw_size(&c->source, 1e-2, 1e9) : 0.0;
+    known(dmb_model_add_input(c->model, &def, &c->input));
+    (void)dmb_model_clear_refused(c->model);
+}
+
+/* On its way from the programme to there, back to it as drawn, or refused. */
+static void set_input(subject *c, dmb_sim *sim)
+{
+    const uint64_t before = hash_of(sim);
+    const double value = any_number(&c->source, 10.0);
+    const int32_t status = dmb_sim_set_input(sim, c->input, value);
+    known(status);
+    MUST(status >= 0 || hash_of(sim) == before);
+}
+
 static int describe(subject *c)
 {
     byte_source *s = &c->source;
@@ -91,9 +114,11 @@ static int describe(subject *c)
     drive.component = draw_chance(s, 128) ? DMB_X : DMB_RX;
     drive.gain = 1.0;
     if (draw_chance(s, 60)) drive.delay = drive.kind == DMB_DRIVE_MOTION ? 0.0 : 1e-3;
+    if (c->more & 1) drive.excitation = drive.programme;
     status = dmb_model_add_drive(c->model, &drive, &c->drive);
     known(status);
     if (status < 0) return 0;
+    if (c->more & 2) add_input(c);
     status = dmb_model_compile(c->model, NULL);
     known(status);
     return status >= 0;
@@ -118,6 +143,7 @@ static void run(subject *c)
     known(made);
     if (made < 0) return;
     for (int i = 0; i < STEPS; i++) {
+        if ((c->more & 2) && draw_chance(s, 128)) set_input(c, sim);
         const uint64_t before = hash_of(sim);
         const int advances = draw_chance(s, 60);
         const double duration = draw_size(s, 1e-6, 1.0);
