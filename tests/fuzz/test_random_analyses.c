@@ -10,9 +10,9 @@
 #include "random_linear.h"
 
 #if defined(DMB_FUZZER)
-enum { JOINTS = 2, ACTIONS_MAX = 2, ITERATIONS = 6 };
+enum { JOINTS = 2, ACTIONS_MAX = 2, ITERATIONS = 6, PULSES = 300 };
 #else
-enum { INPUTS = 60, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30 };
+enum { INPUTS = 60, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30, PULSES = 0 };
 #endif
 
 typedef struct scene {
@@ -342,7 +342,7 @@ static const struct {
 
 /* ---- One input --------------------------------------------------------------------------------------------------- */
 
-/* Counts down to the end of the call. */
+/* Counts down to the end of the call, of 0 never: statics that find nothing would take seconds. */
 static int32_t count_down(void *context, double fraction)
 {
     uint32_t *left = context;
@@ -354,14 +354,17 @@ static void run_sim(dmb_sim *sim, scene *c)
 {
     for (uint32_t i = 0; i < ACTIONS_MAX; i++) {
         const uint32_t k = draw_below(&c->parts.source, sizeof actions / sizeof actions[0]);
-        uint32_t left = draw_chance(&c->parts.source, 40) ? 1 + draw_below(&c->parts.source, 100) : 0;
+        uint32_t left = draw_chance(&c->parts.source, 40) ? 1 + draw_below(&c->parts.source, 100) : PULSES;
         present_action = actions[k].name;
         MUST(dmb_sim_set_progress(sim, left > 0 ? count_down : NULL, &left) == DMB_OK);
         actions[k].act(sim, c);
         MUST(dmb_sim_set_progress(sim, NULL, NULL) == DMB_OK);
         c->parts.callback_status = draw_chance(&c->parts.source, 10);
     }
+    uint32_t rest = PULSES;
+    MUST(dmb_sim_set_progress(sim, rest > 0 ? count_down : NULL, &rest) == DMB_OK);
     analyse_more(sim, &c->parts);
+    MUST(dmb_sim_set_progress(sim, NULL, NULL) == DMB_OK);
     act_more(sim, &c->parts);
 }
 
