@@ -28,6 +28,14 @@ static inline void restore(dmb_sim *sim, const saved_state *saved, uint64_t hash
     MUST(dmb_sim_restore(sim, saved->block, saved->size) == DMB_OK && hash_of(sim) == hash);
 }
 
+/* Whatever a call has left is a state of its scene. */
+static inline void must_be_sound(dmb_sim *sim)
+{
+    const saved_state saved = save(sim);
+    restore(sim, &saved, hash_of(sim));
+    free(saved.block);
+}
+
 /* ---- Inputs -------------------------------------------------------------------------------------------------------
  */
 
@@ -47,12 +55,14 @@ static inline input_run draw_input_run(random_scene *c)
     return run;
 }
 
-/* The run that is recorded, step by step with inputs set before each, or from the log. */
+/* The run that is recorded, step by step with inputs set before each, or from the log. It ends at a step that fails:
+ * inputs set after it would have the time of those before, and a replay sets them together. */
 static inline void run_inputs(dmb_sim *sim, const random_scene *c, const input_run *run, dmb_input_record *log,
                               uint32_t *logged)
 {
     uint32_t next = 0;
-    for (uint32_t i = 0; i < 2; i++) {
+    int32_t stepped = DMB_OK;
+    for (uint32_t i = 0; i < 2 && stepped >= 0; i++) {
         if (log == NULL) {
             const uint64_t before = hash_of(sim);
             const int32_t status = dmb_sim_set_inputs(sim, c->input, run->value[i], run->count);
@@ -61,7 +71,8 @@ static inline void run_inputs(dmb_sim *sim, const random_scene *c, const input_r
         } else {
             MUST(dmb_sim_replay_inputs(sim, log, *logged, &next) >= 0);
         }
-        must_be_known(dmb_sim_step(sim, run->h, NULL));
+        stepped = dmb_sim_step(sim, run->h, NULL);
+        must_be_known(stepped);
     }
 }
 
@@ -311,6 +322,7 @@ static inline void act_more(dmb_sim *sim, random_scene *c)
         const uint32_t k = draw_below(&c->source, sizeof actions / sizeof actions[0]);
         present_action = actions[k].name;
         actions[k].act(sim, c);
+        must_be_sound(sim);
         const uint64_t before = hash_of(sim);
         for (uint32_t q = 0; q < 4; q++) ask_anything(sim, c);
         MUST(hash_of(sim) == before);

@@ -358,12 +358,14 @@ static void run_sim(dmb_sim *sim, scene *c)
         present_action = actions[k].name;
         MUST(dmb_sim_set_progress(sim, left > 0 ? count_down : NULL, &left) == DMB_OK);
         actions[k].act(sim, c);
+        must_be_sound(sim);
         MUST(dmb_sim_set_progress(sim, NULL, NULL) == DMB_OK);
         c->parts.callback_status = draw_chance(&c->parts.source, 10);
     }
     uint32_t rest = PULSES;
     MUST(dmb_sim_set_progress(sim, rest > 0 ? count_down : NULL, &rest) == DMB_OK);
     analyse_more(sim, &c->parts);
+    must_be_sound(sim);
     MUST(dmb_sim_set_progress(sim, NULL, NULL) == DMB_OK);
     act_more(sim, &c->parts);
 }

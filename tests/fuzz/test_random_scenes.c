@@ -223,6 +223,7 @@ static void run_sim(dmb_sim *sim, random_scene *scene)
         const uint32_t k = draw_below(&scene->source, sizeof actions / sizeof actions[0]);
         present_action = actions[k].name;
         actions[k].act(sim, scene);
+        must_be_sound(sim);
         present_action = "questions";
         ask_all(sim, scene);
     }

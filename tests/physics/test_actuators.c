@@ -395,6 +395,52 @@ static void statics_settle(void **state)
     close_turner(&t);
 }
 
+/* The body on a joint to the ground that is open at first, its drive on the joint. */
+static turner open_joint(dmb_drive_def def)
+{
+    turner t = {0};
+    dmb_joint_def joint = dmb_joint_def_default();
+    describe(&t, &def);
+    joint.kind = DMB_JOINT_REVOLUTE;
+    joint.place_b = dmb_station(t.body, 0, 0.0);
+    joint.state = DMB_JOINT_OPEN;
+    must(dmb_model_add_joint(t.model, &joint, &def.part));
+    def.programme = constant(t.model, 30.0);
+    t.body = def.part; /* what the test closes */
+    start(&t, &def);
+    return t;
+}
+
+/* On a joint that is open at the start nothing was commanded: the state is one that is saved and restored, and the
+ * force grows from 0 when the joint closes: by J w = c (t - d - tau (1 - exp(-(t - d)/tau))). */
+static void open_joints_begin_from_nothing(void **state)
+{
+    const double c = 30.0, tau = 0.05, delay = 0.03, end = 0.4, late = end - delay;
+    (void)state;
+    for (int statics = 0; statics < 2; statics++) {
+        dmb_drive_def def = load_drive();
+        def.lag = tau;
+        def.delay = delay;
+        turner t = open_joint(def);
+        size_t size = 0;
+        must(dmb_sim_snapshot_size(t.sim, &size));
+        void *saved = malloc(size);
+        assert_non_null(saved);
+        if (statics) must(dmb_analysis_static(t.sim, NULL, NULL));
+        assert_true(ask(&t).command == 0.0 && ask(&t).made == 0.0 && ask(&t).force == 0.0);
+        steps(&t, 0.01, 3);
+        assert_true(ask(&t).command == 0.0 && ask(&t).made == 0.0 && ask(&t).speed == 0.0);
+        must(dmb_sim_snapshot(t.sim, saved, size));
+        must(dmb_sim_restore(t.sim, saved, size));
+        free(saved);
+        must(dmb_sim_set_joint(t.sim, t.body, DMB_JOINT_ACTIVE));
+        steps(&t, 1e-4, 4000);
+        check_close("made", ask(&t).made, c * (1.0 - exp(-late / tau)), 1e-6 * c);
+        check_close("speed", ask(&t).speed, c / J * (late - tau * (1.0 - exp(-late / tau))), 1e-5 * c / J * late);
+        close_turner(&t);
+    }
+}
+
 static void expect_refused(const char *field, void (*change)(dmb_drive_def *), int32_t wanted)
 {
     dmb_drive_def def = whole_drive();
@@ -484,6 +530,7 @@ int main(void)
         cmocka_unit_test(snapshots_go_on),
         cmocka_unit_test(error_control_agrees),
         cmocka_unit_test(statics_settle),
+        cmocka_unit_test(open_joints_begin_from_nothing),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(analyses_know_or_refuse),
     };

@@ -337,7 +337,10 @@ double dmb_actuator_force(const dmb_evaluation *evaluation, uint32_t drive, doub
 void dmb_actuator_idle(dmb_sim *sim, uint32_t drive)
 {
     const uint32_t i = sim->scene->drives[drive].actuator;
-    if (i != DMB_NONE) *dmb_actuator_flow_of(&sim->trial, i) = *dmb_actuator_flow_of(&sim->now, i);
+    const dmb_actuator_flow nothing = {0.0, 0.0, 0.0, 0.0};
+    if (i == DMB_NONE) return;
+    const dmb_actuator_flow *from = dmb_actuator_flow_of(&sim->now, i);
+    *dmb_actuator_flow_of(&sim->trial, i) = isnan(from->force) ? nothing : *from;
 }
 
 /* ---- Actuators: state -------------------------------------------------------------------------------------------- */

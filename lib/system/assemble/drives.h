@@ -50,7 +50,8 @@ static inline dmb_actuator_flow *dmb_actuator_flow_of(const dmb_configuration *c
  * come to its command. */
 double dmb_actuator_force(const dmb_evaluation *evaluation, uint32_t drive, double command, double speed,
                           double *slope);
-/* The drive does nothing in the trial: its actuator stays as it is. */
+/* The drive does nothing in the trial: its actuator stays as it is, and where it has no state yet nothing was
+ * commanded. */
 void dmb_actuator_idle(dmb_sim *sim, uint32_t drive);
 
 /* At the start all actuators have no state yet; then delay lines as if the present command had always been given. */
