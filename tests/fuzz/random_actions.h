@@ -28,7 +28,7 @@ static inline void restore(dmb_sim *sim, const saved_state *saved, uint64_t hash
     MUST(dmb_sim_restore(sim, saved->block, saved->size) == DMB_OK && hash_of(sim) == hash);
 }
 
-/* Whatever a call has left is a state of its scene. */
+/* The state that a call has left is one of its scene. */
 static inline void must_be_sound(dmb_sim *sim)
 {
     const saved_state saved = save(sim);
