@@ -240,9 +240,11 @@ static void make(dmb_sim *sim, const dmb_scene *scene)
 
 void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim)
 {
+    const dmb_scene *described = sim->model->scene;
     if (copy->own == NULL) return;
-    make(copy, sim->model->scene);
-    copy->scene = sim->scene->sparse_count ? &copy->own->dense : &copy->own->scene;
+    const int is_dense = copy->scene->sparse_count != described->sparse_count; /* as it was carved */
+    make(copy, described);
+    copy->scene = is_dense ? &copy->own->dense : &copy->own->scene;
 }
 
 void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model)

@@ -33,8 +33,8 @@ static inline int dmb_needs_own_scene(const dmb_scene *scene)
 dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene);
 /* A new sim: its inputs as described, and the scene made of them its scene. Nothing without an own one, as below. */
 void dmb_own_scene_begin(dmb_sim *sim);
-/* A copy for an analysis, which may outlive its sim: a scene of its own too, the dense one where the sim's is sparse.
- * Before its state is taken. */
+/* A copy for an analysis, which may outlive its sim: a scene of its own too, in the place of the one it was carved for,
+ * which is dense where the model's is sparse. Before its state is taken. */
 void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim);
 /* A copy goes into another scene of the same make, at its own input_value and input_begin. O(number of drives, loads,
  * bits, inputs; of nodes with inputs of density, damping or flow). */

@@ -5,7 +5,9 @@
 #include "mechanism.h"
 
 #include "model/field_check.h"
+#include "sim/own_scene.h"
 #include "sim/sim.h"
+#include "system/system.h"
 
 enum { MOST = 64, DENSE = 1 << 20, SPARSE = 2, STEPS = 60 };
 
@@ -324,6 +326,40 @@ static void the_same_at_rest(void **state)
     compare_at_rest("standing chain", standing);
 }
 
+/* ---- Copies ------------------------------------------------------------------------------------------------------ */
+
+/* With an input a sim has parts of its scene for itself, and so has each copy. */
+static void hanging_with_an_input(machine *m)
+{
+    dmb_load_def push = dmb_load_def_default();
+    dmb_input_def input = dmb_input_def_default();
+    hanging(m);
+    push.place = dmb_station(m->bars[13], 0, 0.0);
+    push.force[1] = 3.0;
+    strcpy(input.name, "push");
+    input.target = DMB_TARGET_LOAD_FACTOR;
+    input.part = add_load(&m->s, &push);
+    must_model(&m->s, dmb_model_add_input(m->s.model, &input, NULL));
+}
+
+/* Analyses work on dense copies, and some on copies of these, which are as dense. */
+static void copies_of_copies_are_dense(void **state)
+{
+    machine m = open_machine(hanging_with_an_input, SPARSE, 0);
+    (void)state;
+    dmb_sim *copy = dmb_state_copy(m.s.sim), *second = dmb_state_copy(copy);
+    assert_non_null(copy);
+    assert_non_null(second);
+    assert_true(copy->scene == &copy->own->dense && second->scene == &second->own->dense);
+    assert_int_equal(second->scene->sparse_count, 0);
+    assert_memory_equal(second->now.displacement, m.s.sim->now.displacement, 3 * sizeof(double) * m.bar_count);
+    assert_memory_equal(second->partition_row, copy->partition_row,
+                        copy->scene->constraint_row_count * sizeof(uint32_t));
+    dmb_state_discard(copy);
+    dmb_state_discard(second);
+    rig_close(&m.s);
+}
+
 /* ---- Restart and refusals ---------------------------------------------------------------------------------------- */
 
 static void a_snapshot_goes_on_with_the_same_bits(void **state)
@@ -445,6 +481,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_motion_and_reactions),
         cmocka_unit_test(the_same_at_rest),
+        cmocka_unit_test(copies_of_copies_are_dense),
         cmocka_unit_test(a_snapshot_goes_on_with_the_same_bits),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(redundant_in_a_long_ring),
