@@ -23,6 +23,9 @@
 #ifndef DMB_WITH_THREADS /* each thread has its own reason why a sim could not be created */
 #define DMB_WITH_THREADS 1
 #endif
+#ifndef DMB_RED_ZONES /* [byte] behind each array of an arena, which the address sanitizer lets nobody touch */
+#define DMB_RED_ZONES 0
+#endif
 
 #if defined(__GNUC__) /* a function whose frame is large and seldom needed: callers do not take it into theirs */
 #define DMB_OWN_FRAME __attribute__((noinline))

@@ -21,6 +21,16 @@
 #define GIVE(block) ((void)(block))
 #endif
 
+#if DMB_RED_ZONES > 0
+extern void __asan_poison_memory_region(const volatile void *start, size_t size); /* sanitizer/asan_interface.h */
+extern void __asan_unpoison_memory_region(const volatile void *start, size_t size);
+#define CLOSE(start, size) __asan_poison_memory_region(start, size)
+#define OPEN(start, size) __asan_unpoison_memory_region(start, size)
+#else
+#define CLOSE(start, size) ((void)(start), (void)(size))
+#define OPEN(start, size) ((void)(start), (void)(size))
+#endif
+
 static void *default_allocate(void *context, size_t size, size_t alignment)
 {
     size_t rounded;
@@ -80,7 +90,13 @@ void *dmb_allocate_array(const dmb_allocator *allocator, size_t count, size_t it
 void dmb_release(const dmb_allocator *allocator, void *block, size_t size)
 {
     if (block == NULL) return;
+    OPEN(block, at_least_one(size));
     allocator->release(allocator->context, block, at_least_one(size), DMB_ALIGNMENT);
+}
+
+void dmb_arena_open(const void *block, size_t size)
+{
+    OPEN(block, size);
 }
 
 void dmb_arena_count(dmb_arena *arena)
@@ -108,6 +124,7 @@ void dmb_arena_place(dmb_arena *arena, void *block, size_t size)
         arena->overflow = true;
         return;
     }
+    OPEN(block, size);
     arena->base = (unsigned char *)block + gap;
     arena->size = size - gap;
 }
@@ -119,12 +136,13 @@ void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t al
     if (arena->overflow) return NULL;
     if (!valid || !dmb_checked_round_up(arena->used, align, &start) ||
         !dmb_checked_mul_size(count, item_size, &length) || !dmb_checked_add_size(start, length, &end) ||
-        end > arena->size) {
+        !dmb_checked_add_size(end, DMB_RED_ZONES, &end) || end > arena->size) {
         arena->overflow = true;
         return NULL;
     }
     if (arena->base != NULL) memset(arena->base + arena->used, 0, end - arena->used);
     arena->used = end;
+    if (arena->base != NULL) CLOSE(arena->base + end - DMB_RED_ZONES, DMB_RED_ZONES);
     return arena->base != NULL ? arena->base + start : NULL;
 }
 

@@ -91,6 +91,9 @@ void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t al
 #define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_take((arena), (count), sizeof(double), 64))
 #define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_take((arena), (count), sizeof(T), _Alignof(T)))
 
+/* Arenas of builds with DMB_RED_ZONES: the block may be touched everywhere again. Releasing or placing does it too. */
+void dmb_arena_open(const void *block, size_t size);
+
 /* A growable array of equal items. A failing call leaves it as it was. Item pointers hold until the next growth. */
 
 typedef struct dmb_vector {

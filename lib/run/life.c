@@ -112,7 +112,10 @@ static void give_back(dmb_sim *sim)
     void *block = sim->block;
     const size_t size = sim->block_size;
     sim->magic = DMB_HANDLE_DEAD;
-    if (owns_memory) dmb_release(&allocator, block, size);
+    if (owns_memory)
+        dmb_release(&allocator, block, size);
+    else
+        dmb_arena_open(block, size);
     dmb_model_release(model);
 }
 

@@ -3,6 +3,12 @@
 #ifndef DMB_TESTS_RANDOM_ACTIONS_H
 #define DMB_TESTS_RANDOM_ACTIONS_H
 
+#if DMB_RED_ZONES > 0
+#include <sanitizer/asan_interface.h>
+
+#include "sim/sim.h"
+#endif
+
 #include "hash.h"
 #include "random_questions.h"
 
@@ -28,9 +34,12 @@ static inline void restore(dmb_sim *sim, const saved_state *saved, uint64_t hash
     MUST(dmb_sim_restore(sim, saved->block, saved->size) == DMB_OK && hash_of(sim) == hash);
 }
 
-/* The state that a call has left is one of its scene. */
+/* The state that a call has left is one of its scene; and what lies behind its arrays is guarded. */
 static inline void must_be_sound(dmb_sim *sim)
 {
+#if DMB_RED_ZONES > 0
+    MUST(__asan_address_is_poisoned((const unsigned char *)sim + sizeof *sim));
+#endif
     const saved_state saved = save(sim);
     restore(sim, &saved, hash_of(sim));
     free(saved.block);

@@ -479,12 +479,9 @@ static void longer_than_dense_matrices(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_motion_and_reactions),
-        cmocka_unit_test(the_same_at_rest),
-        cmocka_unit_test(copies_of_copies_are_dense),
-        cmocka_unit_test(a_snapshot_goes_on_with_the_same_bits),
-        cmocka_unit_test(what_does_not_fit_is_refused),
-        cmocka_unit_test(redundant_in_a_long_ring),
+        cmocka_unit_test(the_same_motion_and_reactions), cmocka_unit_test(the_same_at_rest),
+        cmocka_unit_test(copies_of_copies_are_dense),    cmocka_unit_test(a_snapshot_goes_on_with_the_same_bits),
+        cmocka_unit_test(what_does_not_fit_is_refused),  cmocka_unit_test(redundant_in_a_long_ring),
         cmocka_unit_test(longer_than_dense_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
