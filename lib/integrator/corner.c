@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "system/assemble/drives.h"
+#include "system/assemble/actuators.h"
 
 #define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
 #define DMB_CORNER_ROUNDING 4.0 /* [ulp] between the sum of steps as the caller rounds them and the corner it means */

@@ -12,6 +12,7 @@
 #include "math/elementary.h"
 #include "sim/access.h"
 #include "sim/layout.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
 #include "system/solve/solve.h"

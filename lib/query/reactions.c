@@ -11,6 +11,7 @@
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"

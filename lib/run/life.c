@@ -13,7 +13,7 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"
-#include "system/assemble/drives.h"
+#include "system/assemble/actuators.h"
 #include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)

@@ -27,7 +27,6 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "sim/own_scene.h"
-#include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
 #define DMB_REST_ROUNDING 1e-9   /* [-] of the largest speed, that is none */

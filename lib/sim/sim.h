@@ -54,7 +54,7 @@
     X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
     X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
-    X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/drives */    \
+    X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
     X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/assemble/bit: */                                                                                        \
@@ -85,7 +85,7 @@
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
-                                                                 drive with a delay: system/assemble/drives */        \
+                                                                 drive with a delay: system/assemble/actuators */     \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
                                                  run/inputs, sim/own_scene; of a stuck place that lets go          \
                                                  system/jump */                                                      \

@@ -10,7 +10,7 @@
 #include "math/real.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/assemble/drives.h"
+#include "system/assemble/actuators.h"
 #include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_modes_options)

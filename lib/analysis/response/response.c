@@ -10,7 +10,7 @@
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/assemble/drives.h"
+#include "system/assemble/actuators.h"
 #include "system/system.h"
 
 dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t inputs, uint32_t outputs)

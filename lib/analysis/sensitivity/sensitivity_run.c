@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/drives.h"
 #include "system/system.h"
 

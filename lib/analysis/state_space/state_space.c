@@ -10,7 +10,7 @@
 #include "base/value_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/assemble/drives.h"
+#include "system/assemble/actuators.h"
 #include "system/system.h"
 
 DMB_DEFINE_INIT(dmb_state_space_options, 72,

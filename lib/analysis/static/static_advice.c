@@ -4,7 +4,6 @@
 #include "analysis/static/static.h"
 #include "sim/node.h"
 #include "system/assemble/caller_force.h"
-#include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
 static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)

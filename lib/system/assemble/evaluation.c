@@ -6,6 +6,7 @@
 #include "math/se3.h"
 #include "sim/node.h"
 #include "sim/parts.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
