@@ -338,7 +338,7 @@ typedef struct dmb_drive_def {
     char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
     /* Actuator of a LOAD or CONTROL drive: its command (programme, or what the controller asks for within the limits)
      * becomes a force after `delay`, changing by at most `force_rate`, with a `lag`, within the torque-speed curve,
-     * less the drag. All 0 (default): the force is the command. At the start it has come to its command; on a joint
+     * less the drag. All 0 (default): the force is the command. At the start it has come to its command. On a joint
      * that is open then nothing was commanded, and on one that opens it stays as it is until the joint closes. */
     double delay;      /* [s] from command to force, 0 or 1e-6 .. 1e4 */
     double force_rate; /* [N/s, N m/s] the most its force changes in a second, > 0; 0: it jumps */
