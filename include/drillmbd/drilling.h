@@ -104,8 +104,8 @@ DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------
  * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the
  * rainflow method in memory that does not grow, and summed to a damage (Palmgren 1924; Miner 1945) by the S-N curve
- * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are taken to
- * the nearest of `classes` levels. */
+ * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are told
+ * apart by `classes` levels, which ranges are compared by too; a cycle counts with the stress at its own. */
 typedef struct dmb_fatigue dmb_fatigue;
 typedef struct dmb_fatigue_options {
     uint32_t struct_size;
@@ -127,7 +127,7 @@ typedef struct dmb_fatigue_result {
     uint32_t struct_size;
     uint32_t point;       /* [-] the point of the section with the largest damage, or else the largest range */
     uint64_t samples;     /* [-] */
-    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: their cycles count too little */
+    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: cycles out there are not counted */
     double damage;        /* [-] 1: the S-N curve is reached; cycles that are not closed count half */
     double cycles;        /* [-] at that point, halves included */
     double largest_range; /* [Pa] of them */
@@ -138,8 +138,8 @@ typedef struct dmb_fatigue_result {
 } dmb_fatigue_result;
 DMB_SIZED_STRUCT(dmb_fatigue_result)
 
-/* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes
- * a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes;
+/* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24
+ * bytes a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes;
  * axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then. */
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);

@@ -33,7 +33,8 @@ typedef struct counter {
     double *cycles; /* by range, shape (classes) */
     double damage, count;
     double lowest, highest; /* [Pa] */
-    uint32_t largest;       /* [-] range, in levels */
+    double range;           /* [Pa] the largest */
+    uint32_t largest;       /* [-] that in levels, by which points compare */
     uint32_t reserved;
 } counter;
 
@@ -111,7 +112,7 @@ static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
     const double counters = (double)places * options->points;
     const double bytes = (double)sizeof(dmb_fatigue) + places * (double)sizeof(section) +
                          counters * ((double)sizeof(counter) + options->classes * (double)sizeof(double) +
-                                     (options->classes + 4.0) * (double)sizeof(uint32_t)) +
+                                     (options->classes + 4.0) * (double)sizeof(dmb_turn)) +
                          2.0 * options->points * (double)sizeof(double);
     return (size_t)fmin(bytes, 0.75 * (double)SIZE_MAX);
 }
@@ -129,19 +130,19 @@ static void take_section(const dmb_sim *sim, dmb_place place, section *out)
     out->modulus = dmb_ring_second_moment(diameters[0], diameters[1]) / (0.5 * diameters[0]);
 }
 
-/* Structs first, then doubles, then whole numbers, so that each stands at a multiple of its size. */
+/* Structs first, then doubles, then turning points, which are aligned as doubles are. */
 static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *places)
 {
     const uint32_t points = fatigue->options.points, classes = fatigue->options.classes;
     const size_t counters = (size_t)fatigue->place_count * points;
-    uint32_t *turns;
+    dmb_turn *turns;
     double *numbers;
     fatigue->sections = (section *)(void *)(fatigue + 1);
     fatigue->counters = (counter *)(void *)(fatigue->sections + fatigue->place_count);
     fatigue->cosine = (double *)(void *)(fatigue->counters + counters);
     fatigue->sine = fatigue->cosine + points;
     numbers = fatigue->sine + points;
-    turns = (uint32_t *)(void *)(numbers + counters * classes);
+    turns = (dmb_turn *)(void *)(numbers + counters * classes);
     for (uint32_t i = 0; i < fatigue->place_count; i++) take_section(sim, places[i], &fatigue->sections[i]);
     for (uint32_t k = 0; k < points; k++) {
         fatigue->cosine[k] = cos(DMB_TWO_PI * k / points);
@@ -209,16 +210,10 @@ void dmb_fatigue_destroy(dmb_fatigue **fatigue)
 
 /* ---- Damage ------------------------------------------------------------------------------------------------------ */
 
-/* [Pa] of a level, its middle. */
-static double stress_of(const dmb_fatigue_options *options, double level)
+static double damage_of(const dmb_fatigue_options *options, double low, double high)
 {
-    return options->stress_range * (2.0 * (level + 0.5) / options->classes - 1.0);
-}
-
-static double damage_of(const dmb_fatigue_options *options, uint32_t low, uint32_t high)
-{
-    const double mean = 0.5 * (stress_of(options, low) + stress_of(options, high));
-    double amplitude = 0.5 * (stress_of(options, high) - stress_of(options, low));
+    const double mean = 0.5 * (low + high);
+    double amplitude = 0.5 * (high - low);
     if (options->tensile_strength > 0.0 && mean > 0.0)
         amplitude =
             mean < options->tensile_strength ? amplitude / (1.0 - mean / options->tensile_strength) : (double)INFINITY;
@@ -231,13 +226,21 @@ typedef struct counting {
     counter *to;
 } counting;
 
-static void count_cycle(void *context, uint32_t low, uint32_t high, double weight)
+static void add_damage(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
 {
     counting *c = context;
-    c->to->cycles[high - low] += weight;
+    const uint32_t levels = high->level - low->level;
     c->to->count += weight;
-    c->to->damage += weight * damage_of(c->options, low, high);
-    if (high - low > c->to->largest) c->to->largest = high - low;
+    c->to->damage += weight * damage_of(c->options, low->value, high->value);
+    c->to->range = fmax(c->to->range, high->value - low->value);
+    if (levels > c->to->largest) c->to->largest = levels;
+}
+
+static void count_cycle(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
+{
+    counting *c = context;
+    c->to->cycles[high->level - low->level] += weight;
+    add_damage(context, low, high, weight);
 }
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
@@ -249,7 +252,7 @@ static int take_stress(dmb_fatigue *fatigue, counter *to, double stress)
     counting c = {&fatigue->options, to};
     to->lowest = fmin(to->lowest, stress);
     to->highest = fmax(to->highest, stress);
-    dmb_rainflow_add(&to->flow, (uint32_t)fmin(fmax(level, 0.0), classes - 1.0), count_cycle, &c);
+    dmb_rainflow_add(&to->flow, (uint32_t)fmin(fmax(level, 0.0), classes - 1.0), stress, count_cycle, &c);
     return !(fabs(stress) <= fatigue->options.stress_range);
 }
 
@@ -299,14 +302,6 @@ int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 
 /* ---- Answers ----------------------------------------------------------------------------------------------------- */
 
-static void add_damage(void *context, uint32_t low, uint32_t high, double weight)
-{
-    counting *c = context;
-    c->to->count += weight;
-    c->to->damage += weight * damage_of(c->options, low, high);
-    if (high - low > c->to->largest) c->to->largest = high - low;
-}
-
 /* A counter with what it has not counted yet; its histogram is not touched. */
 static counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
 {
@@ -316,13 +311,22 @@ static counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
     return found;
 }
 
+/* [-] Damages that differ by no more are alike: those of two points of one circle differ by rounding. */
+#define DMB_DAMAGES_ALIKE 1e-9
+
+static int is_worse(const counter *a, const counter *b)
+{
+    if (a->damage > b->damage * (1.0 + DMB_DAMAGES_ALIKE)) return 1;
+    return !(a->damage * (1.0 + DMB_DAMAGES_ALIKE) < b->damage) && a->largest > b->largest;
+}
+
 static uint32_t worst_point(const dmb_fatigue *fatigue, uint32_t place)
 {
     uint32_t worst = 0;
     counter most = whole(fatigue, place, 0);
     for (uint32_t k = 1; k < fatigue->options.points; k++) {
         const counter other = whole(fatigue, place, k);
-        if (other.damage > most.damage || (!(other.damage < most.damage) && other.largest > most.largest)) {
+        if (is_worse(&other, &most)) {
             most = other;
             worst = k;
         }
@@ -349,7 +353,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
     answer.clipped = fatigue->sections[place].clipped;
     answer.damage = found.damage;
     answer.cycles = found.count;
-    answer.largest_range = 2.0 * fatigue->options.stress_range * found.largest / fatigue->options.classes;
+    answer.largest_range = found.range;
     answer.lowest = fatigue->samples > 0 ? found.lowest : 0.0;
     answer.highest = fatigue->samples > 0 ? found.highest : 0.0;
     answer.time = fatigue->last - fatigue->first;
@@ -357,9 +361,9 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
     return dmb_fatigue_result_write(result, &answer);
 }
 
-static void add_to_histogram(void *context, uint32_t low, uint32_t high, double weight)
+static void add_to_histogram(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
 {
-    ((double *)context)[high - low] += weight;
+    ((double *)context)[high->level - low->level] += weight;
 }
 
 int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles)

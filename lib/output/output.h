@@ -29,16 +29,22 @@ int32_t dmb_window_value(const dmb_window *window, const dmb_channel *channel, d
 
 /* ---- Cycles of fatigue ------------------------------------------------------------------------------------------- */
 
+/* A turning point: the level that ranges are compared by, and the value that stands farthest out in it. */
+typedef struct dmb_turn {
+    double value;
+    uint32_t level, reserved;
+} dmb_turn;
+
 typedef struct dmb_rainflow {
-    uint32_t *turns; /* levels not counted yet, shape (levels + 2) */
+    dmb_turn *turns; /* not counted yet, shape (levels + 2) */
     uint32_t count;
     uint32_t reserved;
 } dmb_rainflow;
 
-/* Told of a cycle or half of one (weight 1 or 0.5) between two levels. */
-typedef void (*dmb_rainflow_fn)(void *context, uint32_t low, uint32_t high, double weight);
+/* Told of a cycle or half of one (weight 1 or 0.5) between two turning points, low->level < high->level. */
+typedef void (*dmb_rainflow_fn)(void *context, const dmb_turn *low, const dmb_turn *high, double weight);
 
-void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, dmb_rainflow_fn count, void *context);
+void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, double value, dmb_rainflow_fn count, void *context);
 /* Tells the turning points not counted yet, as half cycles; they stay. */
 void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context);
 

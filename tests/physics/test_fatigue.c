@@ -99,13 +99,29 @@ static void damage_of_turns(void **state)
     check_relative("largest range", result.largest_range, 2.0 * S, 2e-3);
     check_relative("highest", result.highest, S, 2e-3);
     check_relative("lowest", result.lowest, -S, 2e-3);
-    check_relative("damage", result.damage, 12.0 * pow(S / 1e8, 4.0) / 1e6, 0.03);
+    check_relative("damage", result.damage, 12.0 * pow(S / 1e8, 4.0) / 1e6, 1e-5);
     check_relative("life", result.life, 3.0 / result.damage, 1e-9);
     for (int i = 0; i < 8192; i++) counted += histogram[i];
     check_close("histogram", counted, result.cycles, 1e-9);
     assert_int_equal(result.samples, 1201);
     assert_int_equal(result.clipped, 0);
     destroy(&s);
+}
+
+/* Levels tell turning points apart; how many there are does not count. */
+static void damage_by_any_levels(void **state)
+{
+    static const uint32_t classes[] = {24, 64, 1024};
+    const double S = bending_stress();
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        scene s = turning(0.0);
+        dmb_fatigue_options options = curve();
+        options.classes = classes[k];
+        const dmb_fatigue_result result = after_turns(&s, &options, 12, NULL);
+        check_relative("damage", result.damage, 12.0 * pow(S / 1e8, 4.0) / 1e6, 1e-5);
+        destroy(&s);
+    }
 }
 
 /* A stress concentration k does k^slope times the damage; a mean stress that of Goodman; nothing below endurance. */
@@ -268,6 +284,7 @@ static void bending_that_is_not_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns),
+                                       cmocka_unit_test(damage_by_any_levels),
                                        cmocka_unit_test(factors),
                                        cmocka_unit_test(mean_above_the_strength),
                                        cmocka_unit_test(largest_range_without_damage),

@@ -302,7 +302,7 @@ FUNCTION_DOCS = {
     "dmb_channel_quantity":
         "The number of a name; ERR_VALUE where it is none.",
     "dmb_fatigue_create":
-        "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then.",
+        "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then.",
     "dmb_fatigue_destroy":
         "Sets *fatigue to NULL. NULL-safe.",
     "dmb_fatigue_histogram":
