@@ -127,7 +127,7 @@ typedef struct dmb_fatigue_result {
     uint32_t struct_size;
     uint32_t point;       /* [-] the point of the section with the largest damage, or else the largest range */
     uint64_t samples;     /* [-] */
-    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: cycles out there are not counted */
+    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: cycles wholly beyond it are missed */
     double damage;        /* [-] 1: the S-N curve is reached; cycles that are not closed count half */
     double cycles;        /* [-] at that point, halves included */
     double largest_range; /* [Pa] of them */

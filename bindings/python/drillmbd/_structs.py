@@ -1470,7 +1470,7 @@ class FatigueResult(Sized):
     field_docs = {
         "point": ("-", "the point of the section with the largest damage, or else the largest range"),
         "samples": ("-", ""),
-        "clipped": ("-", "of them beyond stress_range, at any point: cycles out there are not counted"),
+        "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
         "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half"),
         "cycles": ("-", "at that point, halves included"),
         "largest_range": ("Pa", "of them"),
