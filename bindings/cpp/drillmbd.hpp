@@ -375,6 +375,13 @@ public:
         check(dmb_model_get_info(handle_, &answer)); // leaves no message
         return answer;
     }
+    // Estimated discretisation error by pipe of a string that has `pipes` pipes at most.
+    DRILLMBD_NODISCARD std::vector<double> mesh_errors(dmb_id string, std::uint32_t pipes) const
+    {
+        std::vector<double> errors(pipes);
+        check(dmb_analysis_mesh(handle_, string, errors.data(), pipes));
+        return errors;
+    }
     DRILLMBD_NODISCARD dmb_hole_point hole(double depth) const
     {
         dmb_hole_point answer = dmb_hole_point_default();

@@ -122,6 +122,7 @@ void scene_from_end_to_end()
     EXPECT(sim.bit(made.bit).on_bottom == 0);
     EXPECT(sim.statistics().steps >= 50);
     EXPECT(model.info().pipes == 5);
+    EXPECT(model.mesh_errors(made.string, 5).size() == 5);
 }
 
 void snapshots()

@@ -445,6 +445,46 @@ class SubTest(unittest.TestCase):
             self.assertIn(says, " ".join(map(str, problems(SUBS.replace(*change)))), change)
 
 
+COLLARS = """
+[hole]
+diameter = "311 mm"
+[[string]]
+[[string.pipes]]
+count = 3
+length = "9.4 m"
+outer_diameter = "127 mm"
+inner_diameter = "108 mm"
+[[string.pipes]]
+length = "37.72 m"
+outer_diameter = "209.55 mm"
+inner_diameter = "73 mm"
+"""
+
+
+class DividedTest(unittest.TestCase):
+    def test_long_pipes_are_divided(self):
+        loaded = scene.loads(COLLARS)
+        self.assertEqual([(one.first, one.count, one.elements) for one in loaded.divided], [(0, 3, 2), (3, 1, 8)])
+        self.assertEqual(loaded.model.info().elements, 3 * 2 + 8)
+        self.assertLess(max(loaded.model.mesh_errors(loaded.names["string-0"], 4)), 0.01)
+        self.assertIn("pipe 3: divided into 8 elements each", str(loaded.divided[1]))
+        with loaded.new_sim() as sim:
+            self.assertNotIn("set elements", sim.check_text())
+        saved = scene.loads(scene.saves(loaded))
+        self.assertTrue(saved.same_as(loaded))
+        self.assertEqual(saved.divided, [])  # the saved file has the number
+
+    def test_given_numbers_and_rods_are_kept(self):
+        given = scene.loads(COLLARS.replace('length = "37', 'elements = 1\nlength = "37').replace("count = 3", "count = 3\nelements = 2"))
+        self.assertEqual((given.divided, given.model.info().elements), ([], 7))
+        with given.new_sim() as sim:
+            self.assertIn("set elements", sim.check_text())
+        rods = COLLARS.replace("9.4 m", "3 m").replace("37.72 m", "1 m").replace("127 mm", "73 mm").replace("108 mm", "61 mm")
+        self.assertEqual(scene.loads(rods).divided, [])
+        for change in (('length = "9.4 m"', 'kind = "axial-torsional"\nlength = "9.4 m"'), ("[hole]", "[compile]\npipe_kind = \"axial-torsional\"\n[hole]")):
+            self.assertNotIn(0, [one.first for one in scene.loads(COLLARS.replace(*change)).divided])
+
+
 class ShippedTest(unittest.TestCase):
     def test_there_are_three(self):
         self.assertGreaterEqual(len(SCENES), 3)

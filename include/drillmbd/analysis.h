@@ -303,6 +303,17 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
  * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 
+/* Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of
+ * dmb_pipe_def.elements: bending stress q s^2/12 (r/EI) of an element between two points of contact, which the wall of
+ * a real hole supports all along, over the yield strength (yield_strength, else a strain of 0.003). q [N/m]: weight
+ * across the axis of the hole and tension by the weight below times the curvature of the hole; s [m]: spacing of the
+ * points of contact. The error falls with the square of the element's length. error [-], shape (capacity): by pipe from
+ * the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by
+ * dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; changes nothing; any number of threads.
+ * Errors: DMB_ERR_NULL, _HANDLE, _ORDER (not compiled), _ID (no string of this model), _VALUE (capacity). O(elements).
+ */
+DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity);
+
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------
  * The wall in small motion about a state (modes.h, response.h). */
 enum {

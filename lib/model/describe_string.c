@@ -38,7 +38,7 @@ int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id
 
 /* Pipes, appended to a string run by run. */
 
-enum { ELEMENTS_MAX = 1024, COUNT_MAX = 1 << 20 };
+enum { COUNT_MAX = 1 << 20 };
 
 static void check_tube(dmb_check *check, const dmb_pipe_def *def)
 {
@@ -120,7 +120,7 @@ static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def
     dmb_check_pipes_name(&check, model, def->name);
     dmb_check_count(&check, "count", count, 1, COUNT_MAX);
     dmb_check_choice(&check, "kind", def->kind, DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID);
-    dmb_check_count(&check, "elements", def->elements, 1, ELEMENTS_MAX);
+    dmb_check_count(&check, "elements", def->elements, 1, DMB_PIPE_ELEMENTS_MAX);
     if (def->contact_points != 0)
         dmb_check_count(&check, "contact_points (0, or)", def->contact_points, 3, DMB_LOBATTO_MOST);
     check_tube(&check, def);

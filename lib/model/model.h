@@ -67,6 +67,8 @@ typedef struct dmb_string_plan {
 int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string);
 
 /* One call of dmb_model_add_pipes. */
+enum { DMB_PIPE_ELEMENTS_MAX = 1024 }; /* of one pipe */
+
 typedef struct dmb_pipe_run {
     dmb_pipe_def def;
     uint32_t string; /* index of the string it lengthens */

@@ -5,7 +5,6 @@ usage: interface.py INCLUDE program      a C program that prints the layout of e
        interface.py INCLUDE prototypes   their prototypes, and the types of callbacks
        interface.py INCLUDE rules        breaches of the rules for structs; exit status 1 if there are any
        interface.py INCLUDE stubs        C definitions of all functions that do nothing
-       interface.py INCLUDE defaults     a C program that prints every member of every struct by default
 INCLUDE is a folder with the headers in drillmbd/, or one file with all of them.
 """
 import pathlib
@@ -107,22 +106,6 @@ def stubs(text):
     return "\n".join(["#include INTERFACE", *bodies])
 
 
-def defaults(text):
-    """Bytes member by member, so that headers with further members print the same for those of older ones."""
-    lines = ["#include <stdio.h>", "#include <string.h>", "#include INTERFACE",
-             "static void print(const char *name, const void *at, size_t size)", "{",
-             "    const unsigned char *byte = at;", '    printf("%s", name);',
-             '    for (size_t i = 0; i < size; i++) printf(" %02x", byte[i]);', '    printf("\\n");', "}",
-             "int main(void)", "{"]
-    sized = set(sized_structs(text))
-    for name, members in structs(text):
-        if name in sized:
-            lines.append(f"    {name} of_{name} = {name}_default();")
-            lines += [f'    print("{name}.{member}", &of_{name}.{member}, sizeof of_{name}.{member});'
-                      for member, kind in members if member != "struct_size" and kind != "function"]
-    return "\n".join(lines + ["    return 0;", "}"])
-
-
 def frozen_structs(include):
     """Those whose comment, the one before them, begins with 'Frozen'."""
     text = "\n".join(path.read_text(encoding="utf-8") for path in headers(include))
@@ -156,8 +139,6 @@ def main():
         print("\n".join(function_names(text)))
     elif task == "stubs":
         print(stubs(text))
-    elif task == "defaults":
-        print(defaults(text))
     elif task == "prototypes":
         print("\n".join(callbacks(text) + sorted(prototypes(text), key=lambda p: re.search(r"(\w+)\(", p).group(1))))
     elif task == "rules":

@@ -269,6 +269,14 @@ class Model(Handle):
         info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
         return info
 
+    @mirrors("dmb_analysis_mesh")
+    def mesh_errors(self, string: Id, pipes: int) -> list[float]:
+        """Estimated discretisation error of each pipe of a string that lies on the wall: error of the bending stress over
+        the yield strength. pipes: of the string, at least."""
+        errors = (c_double * pipes)()
+        self._check(_lib.dmb_analysis_mesh(self._handle, string, errors, pipes))
+        return list(errors)
+
     @mirrors("dmb_model_find")
     def find(self, name: str, kind: int = PartKind.ANY) -> Id:
         """The part of that name, of a kind or of all; model["rotary head"] is the same. Raises KeyError where there is

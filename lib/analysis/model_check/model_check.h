@@ -30,5 +30,7 @@ int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
 /* Calls `line` with each warning, without end of line. */
 typedef void (*dmb_model_check_line_fn)(void *context, const char *text);
 void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_line_fn line, void *context);
+/* Those of pipes whose elements are too long for the bending stress of a string that lies on the wall. */
+void dmb_mesh_warnings(const dmb_model *model, dmb_model_check_line_fn line, void *context);
 
 #endif

@@ -356,4 +356,5 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     outside_lengthwise(&to, 1);
     no_contact(&to);
     held_rings(&to);
+    dmb_mesh_warnings(to.sim->model, line, context);
 }

@@ -8,6 +8,7 @@ from .._structs import Id, Input, Order, Output, Place
 from ..enums import INPUT_ECCENTRICITY
 from ..model import Model, map_ids
 from ..sim import Sim
+from .divide import Divided
 from .failure import Failure
 from .variability import Variability
 
@@ -34,6 +35,7 @@ class Scene:
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
     variability: Variability | None = None  #: what varies
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
+    divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
     def new_sim(self) -> Sim:
         """A sim with the options of the scene."""

@@ -1,6 +1,7 @@
 """Reads a scene file and makes its model; tells everything that is wrong with it at once."""
 from __future__ import annotations
 
+import copy
 import os
 import pathlib
 import re
@@ -16,6 +17,7 @@ from . import failure, fields, survey, units, variability
 from .asked import Asked
 from .changes import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
+from .divide import Divided, divide
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
 from .problems import Problem, Problems, SceneError, meant
@@ -51,12 +53,22 @@ def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[st
         raise SceneError(name, [Problem(line, "the file", None, f"is no TOML: {error}")]) from error
     problems = Problems(find_lines(text))
     apply(content, changes or {}, problems)
+    scene, divided = _scene_of(copy.deepcopy(content), problems, folder, name)
+    if divide(scene, divided, content):
+        scene, _ = _scene_of(content, problems, folder, name, divided)
+    return scene
+
+
+def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: str,
+              divided: list[Divided] | None = None) -> tuple[Scene, list[Divided]]:
+    """The scene of a content, and its pipes whose number of elements is not given. divided: of an earlier reading."""
     loader = Loader(content, problems, pathlib.Path(folder))
     scene = loader.scene()
     if loader.problems.found:
         raise SceneError(name, loader.problems.found)
     assert scene is not None
-    return scene
+    scene.divided = [one for one in divided or [] if one.elements > 1]
+    return scene, loader.undivided
 
 
 class Loader:
@@ -69,6 +81,7 @@ class Loader:
         self.pipes: dict[str, int] = {}                     # string -> number of its pipes
         self.units: dict[str, str] = {}                     # programme -> unit
         self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
+        self.undivided: list[Divided] = []                  # pipes whose number of elements is not given
         self.subs = Subs(self)
 
     # ---- Shape of the file ------------------------------------------------------------------------------------------
@@ -414,6 +427,8 @@ class Loader:
                 plain["string"] = string
                 self._add(where, lambda one, n=count: self.model.add_pipes(n, one),
                           DEFINITIONS["pipes"], plain)
+            if "elements" not in section:
+                self.undivided.append(Divided(name, where, self.pipes[name], count))
             self.pipes[name] += count
 
     def _part(self, kind: str, path: Path, name: str, table: dict[str, Any]) -> None:

@@ -1,0 +1,158 @@
+/* Discretisation error of the described mesh (THEORY 3, error of long elements): between two neighbouring points
+ * of contact an element carries its side load q as a beam held at both, although the wall supports a lying pipe all
+ * along. The spurious bending moment is q s^2/12, s the spacing of the points of contact. */
+#include <math.h>
+
+#include "analysis/model_check/model_check.h"
+#include "base/sized_struct.h"
+#include "math/quadrature.h"
+#include "model/model.h"
+
+#define DMB_MESH_ERROR_ADVISED 0.01 /* [-] of the yield strength */
+#define DMB_USUAL_YIELD_STRAIN 3e-3 /* [-] of drill-pipe steel whose strength is not given */
+
+typedef struct mesh_march {
+    const dmb_scene *scene;
+    double axial; /* [N] tension at the present place by the weight below it */
+} mesh_march;
+
+/* [m] Largest distance of neighbouring points of contact of an element of this length. */
+static double contact_spacing(const dmb_pipe_def *def, double length)
+{
+    const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
+    double largest = 0.0;
+    if (rule == NULL) return length;
+    for (int i = 0; i + 1 < rule->count; i++) largest = fmax(largest, rule->node[i + 1] - rule->node[i]);
+    return largest * length;
+}
+
+/* [N/m] Side load per metre that the wall balances at depth [m]: weight across the axis and tension times curvature.
+ * Passes `length` [m] of the pipe of `mass` [kg], whose weight along the axis is added to the tension in two halves. */
+static double side_load(mesh_march *march, double depth, double mass, double length)
+{
+    const double *gravity = march->scene->gravity;
+    double x[3], t[3], bend[3], load[3];
+    dmb_hole_frame(&march->scene->hole, depth, x, t, bend);
+    const double along = dmb_vec3_dot(gravity, t), weight = mass / length;
+    march->axial += 0.5 * mass * along;
+    for (int k = 0; k < 3; k++) load[k] = weight * (gravity[k] - along * t[k]) + march->axial * bend[k];
+    march->axial += 0.5 * mass * along;
+    return dmb_vec3_norm(load);
+}
+
+/* [-] Error of the bending stress of one element, over the yield strength. */
+static double element_error(mesh_march *march, const dmb_pipe_def *def, uint32_t e)
+{
+    const dmb_scene *scene = march->scene;
+    const dmb_element_type *type = scene->types + scene->element_type[e];
+    const uint32_t node = scene->element_node[e];
+    const double depth = 0.5 * (scene->reference_depth[node] + scene->reference_depth[node + 1]);
+    const double q = side_load(march, depth, type->weight_mass, type->length), s = contact_spacing(def, type->length);
+    const double EI = fmin(type->strain_stiffness[4], type->strain_stiffness[5]);
+    const double yield = def->yield_strength > 0.0 ? def->yield_strength / def->young_modulus : DMB_USUAL_YIELD_STRAIN;
+    return q * s * s / 12.0 * 0.5 * def->outer_diameter / (EI * yield);
+}
+
+static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_pipe_map *pipe)
+{
+    double largest = 0.0;
+    if (pipe->kind != DMB_PIPE_FLEXIBLE) return 0.0;
+    for (uint32_t i = pipe->elements; i-- > 0;) largest = fmax(largest, element_error(march, def, pipe->element + i));
+    return largest;
+}
+
+/* Calls `visit` with each pipe of a string from the far end on. */
+typedef void (*pipe_visit)(void *context, const dmb_pipe_run *run, uint32_t pipe, double error);
+
+static void visit_pipes(const dmb_model *model, uint32_t string, pipe_visit visit, void *context)
+{
+    const dmb_scene *scene = model->scene;
+    mesh_march march = {scene, 0.0};
+    for (uint32_t i = model->runs.count; i-- > 0;) {
+        const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
+        if (run->string != string) continue;
+        for (uint32_t k = run->count; k-- > 0;) {
+            const uint32_t pipe = run->first + k;
+            const dmb_pipe_map *map = scene->pipes + scene->strings[string].first_pipe + pipe;
+            visit(context, run, pipe, pipe_error(&march, &run->def, map));
+        }
+    }
+}
+
+static int wall_is_met(const dmb_scene *scene)
+{
+    return scene->has_hole && (scene->features & DMB_FEATURE_CONTACT) != 0;
+}
+
+/* ---- As an array ------------------------------------------------------------------------------------------------- */
+
+static void store(void *context, const dmb_pipe_run *run, uint32_t pipe, double error)
+{
+    (void)run;
+    ((double *)context)[pipe] = error;
+}
+
+int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity)
+{
+    if (model == NULL || error == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene == NULL) return DMB_ERR_ORDER;
+    const uint32_t index = dmb_model_part_index(model, string, DMB_PART_STRING);
+    if (index == DMB_NONE) return DMB_ERR_ID;
+    const uint32_t pipes = model->scene->strings[index].pipe_count;
+    if (capacity < pipes) return DMB_ERR_VALUE;
+    for (uint32_t i = 0; i < pipes; i++) error[i] = 0.0;
+    if (wall_is_met(model->scene)) visit_pipes(model, index, store, error);
+    return DMB_OK;
+}
+
+/* ---- As warnings ------------------------------------------------------------------------------------------------- */
+
+typedef struct worst_pipe {
+    const dmb_pipe_run *run;
+    double error;
+    uint32_t pipe, count; /* the worst one, and how many are above the bound */
+} worst_pipe;
+
+static void compare(void *context, const dmb_pipe_run *run, uint32_t pipe, double error)
+{
+    worst_pipe *worst = context;
+    if (!(error > DMB_MESH_ERROR_ADVISED)) return;
+    worst->count++;
+    if (!(error > worst->error)) return;
+    worst->run = run;
+    worst->error = error;
+    worst->pipe = pipe;
+}
+
+/* [-] Elements of a pipe with which the error, of second order in their length, falls to the advised one. */
+static uint32_t advised(const worst_pipe *worst)
+{
+    const double factor = sqrt(worst->error / DMB_MESH_ERROR_ADVISED);
+    return (uint32_t)ceil(fmin(DMB_PIPE_ELEMENTS_MAX, worst->run->def.elements * factor));
+}
+
+static void warn(const worst_pipe *worst, dmb_model_check_line_fn line, void *context)
+{
+    const dmb_pipe_def *def = &worst->run->def;
+    dmb_message text, name, more;
+    dmb_message_clear(&more);
+    if (worst->count > 1) dmb_message_set(&more, " (and %u more)", worst->count - 1);
+    dmb_message_set(
+        &text,
+        "%s, pipe %u%s: %u element(s) in %g m; the estimated error of its bending stress is %g %% of the yield "
+        "strength, advised is at most %g %%; set elements to at least %u",
+        dmb_pipes_text(&name, worst->run->string, def), worst->pipe, more.text, def->elements, def->length,
+        1e-1 * round(1e3 * worst->error), 1e2 * DMB_MESH_ERROR_ADVISED, advised(worst));
+    line(context, text.text);
+}
+
+void dmb_mesh_warnings(const dmb_model *model, dmb_model_check_line_fn line, void *context)
+{
+    if (!wall_is_met(model->scene)) return;
+    for (uint32_t s = 0; s < model->scene->string_count; s++) {
+        worst_pipe worst = {NULL, 0.0, 0, 0};
+        visit_pipes(model, s, compare, &worst);
+        if (worst.run != NULL) warn(&worst, line, context);
+    }
+}
