@@ -1,8 +1,10 @@
 /* libdrillmbd - describe a scene and compile it.
  * Besides the bounds stated here, lengths must lie in 1e-6 .. 1e6 m, moduli in 1e-6 .. 1e15 Pa, and so on for every
  * quantity: far beyond any drill string, so that nothing overflows later; messages tell the bound.
- * World frame: x along the default hole, away from the rig; z up. Body and section frames: origin on the axis of the
- * pipe, x along it towards the bit, rotating with the material. Pipes count from the rig end. */
+ * World frame, right-handed: x north and along the default hole, away from the rig; y west; z up. Azimuth is clockwise
+ * seen from above: 0 along +x, 90 deg (east) along -y. Body and section frames: origin on the axis of the pipe, x along
+ * it towards the bit, rotating with the material; positive rotation is clockwise seen from the rig. Pipes count from
+ * the rig end. */
 #ifndef DRILLMBD_MODEL_H
 #define DRILLMBD_MODEL_H
 
@@ -144,8 +146,8 @@ typedef struct dmb_wall_def {
     uint32_t struct_size;
     uint32_t survey_count;    /* [-] 0 (straight hole along `direction`), or 2 .. 2^16 */
     const double *survey;     /* [m, rad, rad] measured depth, inclination from the downward vertical (0 .. pi), azimuth
-                                 from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature
-                                 between; shape (survey_count, 3); copied */
+                                 clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths
+                                 strictly increasing; minimum curvature between; shape (survey_count, 3); copied */
     double origin[3];         /* [m] start of the axis, world frame; default 0, shape (3) */
     double direction[3];      /* [-] of a straight hole, any length, world frame; default (1, 0, 0), shape (3) */
     double diameter;          /* [m] of the hole, > 0; default 0.094 */
@@ -302,7 +304,8 @@ typedef struct dmb_bit_def {
                             axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills
                             along its own axis. The hole that it leaves is not felt by what follows: give the bit no
                             `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
-    double walk_angle;   /* [rad] that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0 */
+    double walk_angle; /* [rad] from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes
+                          a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0 */
     double displaced_volume; /* [m3] likewise of a body */
     dmb_id ring; /* {0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is
                     at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter,

@@ -209,15 +209,15 @@ typedef struct dmb_hole_point {
     double curvature;       /* [rad/m] >= 0 */
     double dogleg_severity; /* [deg/30m] the same in the drillers' unit */
     double inclination;     /* [rad] from the downward vertical, 0 .. pi */
-    double azimuth;         /* [rad] from +x towards +y, -pi .. pi; 0 where the hole is vertical */
-    double diameter;        /* [m] and the wall's other constants here (hole.h): */
-    double stiffness;       /* [N/m^(n+1)] per metre of pipe */
-    double restitution;     /* [-] */
-    double damping;         /* [N s/m2] per metre of pipe */
-    double mu_static;       /* [-] */
-    double mu_dynamic;      /* [-] */
-    double strength;        /* [Pa] of a section; 0: not told */
-    int32_t section;        /* number of the last section that begins at or above the depth; -1: none */
+    double azimuth;     /* [rad] clockwise seen from above, from +x (north) to -y (east), -pi .. pi; 0 if vertical */
+    double diameter;    /* [m] and the wall's other constants here (hole.h): */
+    double stiffness;   /* [N/m^(n+1)] per metre of pipe */
+    double restitution; /* [-] */
+    double damping;     /* [N s/m2] per metre of pipe */
+    double mu_static;   /* [-] */
+    double mu_dynamic;  /* [-] */
+    double strength;    /* [Pa] of a section; 0: not told */
+    int32_t section;    /* number of the last section that begins at or above the depth; -1: none */
     uint32_t reserved;
     char section_name[24]; /* of that section, ends with 0; "" without one */
 } dmb_hole_point;

@@ -54,7 +54,7 @@ static void survey_tangent(const double row[3], double t[3])
     dmb_sin_cos(row[1], &sine, &cosine);
     dmb_sin_cos(row[2], &sine_azimuth, &cosine_azimuth);
     t[0] = sine * cosine_azimuth;
-    t[1] = sine * sine_azimuth;
+    t[1] = 0.0 - sine * sine_azimuth; /* y is west; 0 stays +0 */
     t[2] = -cosine;
     (void)normalise(t);
 }

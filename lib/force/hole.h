@@ -1,5 +1,6 @@
 /* The hole's axis: a straight line, or circular arcs through the stations of a survey (minimum curvature method).
- * World frame: z up, so inclination 90 deg and azimuth 0 point along +x. Pure functions; all read-only after setup. */
+ * World frame: x north, y west, z up (right-handed): inclination 90 deg and azimuth 0 point along +x, azimuth 90 deg
+ * (east) along -y. Pure functions; all read-only after setup. */
 #ifndef DMB_FORCE_HOLE_H
 #define DMB_FORCE_HOLE_H
 
@@ -48,10 +49,11 @@ static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)
 int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const double direction[3], double radius);
 
 /* Surveyed hole. survey (stations,3): measured depth [m] strictly increasing, inclination from the downward vertical
- * and azimuth from +x towards +y [rad]. origin [m]: the first station's place. storage: the caller's array of
- * `stations` entries, kept by the hole. A survey without any bend becomes a straight hole.
- * Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the one before
- * above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: Taylor, Mason 1972. O(stations). */
+ * and azimuth clockwise seen from above, from +x (north) towards -y (east) [rad]. origin [m]: the first station's
+ * place. storage: the caller's array of `stations` entries, kept by the hole. A survey without a bend becomes a
+ * straight hole. Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the
+ * one before above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: Taylor, Mason 1972.
+ * O(stations). */
 int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *survey, const double origin[3],
                               double radius, dmb_hole_station *storage);
 

@@ -120,7 +120,7 @@ static void direction(dmb_hole_point *point)
     const double *t = point->tangent;
     const double across = hypot(t[0], t[1]);
     point->inclination = atan2(across, -t[2]);
-    point->azimuth = across > VERTICAL ? atan2(t[1], t[0]) : 0.0;
+    point->azimuth = across > VERTICAL ? atan2(0.0 - t[1], t[0]) : 0.0;
 }
 
 /* Last section that begins at or above the depth; DMB_NONE: none. */

@@ -88,7 +88,7 @@ static dmb_id add_harmonic(void)
 static void add_hole(void)
 {
     static const double survey[3][3] = {
-        {0.0, 1.5707963267948966, 0.0}, {6.0, 1.5707963267948966, 0.0}, {40.0, 1.62, 0.03}};
+        {0.0, 1.5707963267948966, 0.0}, {6.0, 1.5707963267948966, 0.0}, {40.0, 1.62, -0.03}};
     dmb_wall_def wall = dmb_wall_def_default();
     wall.survey = survey[0];
     wall.survey_count = 3;

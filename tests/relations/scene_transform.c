@@ -46,7 +46,7 @@ void view_rotation_back(const scene_view *view, double roll, const double in[9],
 static void survey_tangent(const double row[3], double t[3])
 {
     t[0] = sin(row[1]) * cos(row[2]);
-    t[1] = sin(row[1]) * sin(row[2]);
+    t[1] = -sin(row[1]) * sin(row[2]); /* azimuth is clockwise seen from above */
     t[2] = -cos(row[1]);
 }
 
@@ -179,7 +179,7 @@ static void transform_surroundings(const scene_view *v, scene *s)
         matrix_apply(v->matrix, t, t);
         s->survey[i][0] *= L;
         s->survey[i][1] = atan2(hypot(t[0], t[1]), -t[2]) /* sharp near the vertical, too */;
-        s->survey[i][2] = atan2(t[1], t[0]);
+        s->survey[i][2] = atan2(-t[1], t[0]);
     }
 }
 

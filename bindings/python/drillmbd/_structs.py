@@ -155,7 +155,7 @@ class WallDef(WallPart, Sized):
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
-        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
+        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth clockwise seen from above, from +x (north) towards -y (east), -2 pi .. 2 pi; depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
         "origin": ("m", "start of the axis, world frame; default 0, shape (3)"),
         "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0), shape (3)"),
         "diameter": ("m", "of the hole, > 0; default 0.094"),
@@ -738,7 +738,7 @@ class HolePoint(Sized):
         "curvature": ("rad/m", ">= 0"),
         "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
         "inclination": ("rad", "from the downward vertical, 0 .. pi"),
-        "azimuth": ("rad", "from +x towards +y, -pi .. pi; 0 where the hole is vertical"),
+        "azimuth": ("rad", "clockwise seen from above, from +x (north) to -y (east), -pi .. pi; 0 if vertical"),
         "diameter": ("m", "and the wall's other constants here (hole.h):"),
         "stiffness": ("N/m^(n+1)", "per metre of pipe"),
         "restitution": ("-", ""),
@@ -2371,7 +2371,7 @@ class BitDef(Sized):
         "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
-        "walk_angle": ("rad", "that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0"),
+        "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "likewise of a body"),
         "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
         "inner_radius": ("m", "b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),

@@ -121,7 +121,7 @@ static void directions(void **state)
     CHECK_CLOSE(s, 25, 1e-14);
     hole = surveyed(2, east, storage);
     CHECK_CLOSE(hole.direction[0], 0, 1e-15);
-    CHECK_CLOSE(hole.direction[1], sin(60 * DEG), 1e-15);
+    CHECK_CLOSE(hole.direction[1], -sin(60 * DEG), 1e-15); /* y is west */
     CHECK_CLOSE(hole.direction[2], -cos(60 * DEG), 1e-15);
 }
 
@@ -131,7 +131,7 @@ static void constant_dogleg_is_a_circle(void **state)
     double survey[3 * 31];
     dmb_hole_station storage[31];
     const double R = 600 / PI, azimuth = 0.7;
-    const double outwards[3] = {cos(azimuth), sin(azimuth), 0};
+    const double outwards[3] = {cos(azimuth), -sin(azimuth), 0};
     const double centre[3] = {R * outwards[0], R * outwards[1], 0};
     (void)state;
 
@@ -169,7 +169,7 @@ static void textbook_station(void **state)
 
     dmb_hole_frame(&hole, 3600, x, NULL, NULL);
     CHECK_CLOSE(x[0], 27.22, 0.005);
-    CHECK_CLOSE(x[1], 19.45, 0.005);
+    CHECK_CLOSE(x[1], -19.45, 0.005);
     CHECK_CLOSE(x[2], -94.01, 0.005);
 }
 

@@ -120,7 +120,7 @@ static void differences_of_a_run(void **state)
 static void on_the_axis_of_a_bend(void **state)
 {
     (void)state;
-    const double radius = 30.0, survey[6] = {0.0, 0.5 * PI, 0.0, 15.0, 0.5 * PI, 0.5};
+    const double radius = 30.0, survey[6] = {0.0, 0.5 * PI, 0.0, 15.0, 0.5 * PI, -0.5}; /* to the left */
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def def = dmb_string_def_default();
