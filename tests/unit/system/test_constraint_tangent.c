@@ -79,7 +79,7 @@ static dmb_id add_user(rig *s, int32_t kind, uint32_t rows, dmb_constraint_fn ca
 
 static void add_hole(rig *s, int32_t curved)
 {
-    static const double survey[9] = {0.0, 0.5 * PI, 0.0, 3.0, 0.5 * PI - 0.15, 0.1, 9.0, 0.5 * PI - 0.5, 0.4};
+    static const double survey[9] = {0.0, 0.5 * PI, 0.0, 3.0, 0.5 * PI - 0.15, -0.1, 9.0, 0.5 * PI - 0.5, -0.4};
     dmb_wall_def wall = dmb_wall_def_default();
     wall.normal_law = DMB_NORMAL_NONE;
     wall.friction_law = DMB_FRICTION_NONE;
