@@ -69,6 +69,9 @@ typedef struct dmb_static_report {
     int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was judged */
     int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
+    int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn
+                           together counted once: every angle is an equilibrium, and the starting one is kept */
+    int32_t free_reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
@@ -83,6 +86,8 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the
  * ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and
  * some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL.
+ * A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis
+ * sum to 0; else DMB_ERR_SINGULAR.
  * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors:
  * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
  * that before the call. O(number of elements) an iteration. */

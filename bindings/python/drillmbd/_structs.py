@@ -851,8 +851,10 @@ class StaticReport(Sized):
     stiffness: int
     steady: int
     steady_reserved: int
+    free_spins: int
+    free_reserved: int
     if TYPE_CHECKING:
-        def __init__(self, *, iterations: int = ..., load_steps: int = ..., method: int = ..., residual: SupportsFloat = ..., largest_force: SupportsFloat = ..., lateral_move: SupportsFloat = ..., cuts: int = ..., line_searches: int = ..., negative: int = ..., stiffness: int = ..., steady: int = ...) -> None: ...
+        def __init__(self, *, iterations: int = ..., load_steps: int = ..., method: int = ..., residual: SupportsFloat = ..., largest_force: SupportsFloat = ..., lateral_move: SupportsFloat = ..., cuts: int = ..., line_searches: int = ..., negative: int = ..., stiffness: int = ..., steady: int = ..., free_spins: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("iterations", c_uint32),
@@ -867,6 +869,8 @@ class StaticReport(Sized):
         ("stiffness", c_int32),
         ("steady", c_int32),
         ("steady_reserved", c_int32),
+        ("free_spins", c_int32),
+        ("free_reserved", c_int32),
     ]
     field_docs = {
         "iterations": ("-", "in all"),
@@ -880,6 +884,7 @@ class StaticReport(Sized):
         "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two at once may have come of a complex pair, without the determinant having passed 0); -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
         "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
+        "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
     }
 
 

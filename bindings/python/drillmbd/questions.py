@@ -42,6 +42,9 @@ def to_rest(scene: Scene, sim: Sim, output: Output, linear: bool = False) -> Non
     output.summary["static"] = {**record(report), "status_name": Status(report.status).name}
     output.say(f"static state: {report.iterations} iterations, residual {report.residual:.1e}, "
                f"displacement up to {1e3 * report.lateral_move:.4g} mm")
+    if report.free_spins:
+        output.say(f"free rotation: nothing resists the rotation of {report.free_spins} "
+                   f"{'string' if report.free_spins == 1 else 'strings'} about the axis; the starting angle is kept")
 
 
 def profiles(scene: Scene, sim: Sim, output: Output, word: str) -> None:

@@ -55,6 +55,7 @@ void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static
     search->evaluation.time = sim->clock->time;
     search->evaluation.load_factor = 1.0;
     search->evaluation.tangent = 1;
+    search->unbalanced = DMB_NONE;
 }
 
 void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
@@ -66,10 +67,12 @@ void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
 
 int32_t dmb_static_evaluate(dmb_static_search *search)
 {
-    const int32_t status = dmb_progress_pulse(search->sim);
+    int32_t status = dmb_progress_pulse(search->sim);
     if (status < 0) return status;
-    return search->steady != NULL ? dmb_steady_evaluate(search->steady, &search->evaluation)
-                                  : dmb_system_evaluate(&search->evaluation);
+    status = search->steady != NULL ? dmb_steady_evaluate(search->steady, &search->evaluation)
+                                    : dmb_system_evaluate(&search->evaluation);
+    if (status >= 0) dmb_static_apply_spins(search);
+    return status;
 }
 
 int32_t dmb_static_begin(dmb_static_search *search)
@@ -158,6 +161,24 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     if (!(singular || search->loose)) return status;
     search->block = singular ? singular_block : search->loose_block;
     return DMB_ERR_SINGULAR;
+}
+
+/* Rotations that nothing resists are held. If torques about them do not sum to 0, the string turns until a spring, stop
+ * or force of the caller resists it; there is no equilibrium without one. */
+static int32_t search_holding_spins(dmb_static_search *search, int32_t *method)
+{
+    int32_t status = dmb_static_begin(search);
+    if (status >= 0) status = dmb_static_find_spins(search);
+    if (dmb_is_final(status)) return status;
+    if (status < 0) search->spin_count = 0;
+    status = search_equilibrium(search, method);
+    if (search->spin_count == 0 || dmb_is_final(status)) return status;
+    if (status >= 0) status = dmb_static_check_spins(search);
+    if (!may_try_again(status) || !dmb_static_may_be_caught(search->sim->scene)) return status;
+    search->spin_count = 0;
+    search->unbalanced = DMB_NONE;
+    dmb_state_restore(search->sim);
+    return search_equilibrium(search, method);
 }
 
 static double displacement_of(const dmb_sim *sim, uint32_t node)
@@ -318,8 +339,11 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     dmb_stability found = {0};
     int64_t bad = -1;
     search->evaluation.extrapolated = 0;
-    int32_t status = dmb_static_evaluate(search);
+    int32_t status = dmb_static_find_spins(search);
+    if (status >= 0) status = dmb_static_evaluate(search);
     if (status >= 0) status = dmb_stability_judge(search, 1, &weakest, &bad, &found);
+    out->free_spins = (int32_t)search->spin_count;
+    search->spin_count = 0;
     out->negative = bad >= 0 ? -1 : found.negative;
     out->stiffness = found.stiffness;
     return status;
@@ -330,7 +354,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
     dmb_sim *sim = search->sim;
     search->winding = sim->scene->site_count > 0;
     search->rolling = search->winding && (search->steady != NULL || search->evaluation.slip[1] != 0.0);
-    int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
+    int32_t status = refuse_loose(search, search_holding_spins(search, &out->method));
     if (status < 0) {
         dmb_static_explain(search, status);
         dmb_state_restore(sim); /* the partition of joints may have changed on the way */

@@ -88,6 +88,15 @@ int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation);
 
 /* Iterations towards equilibrium, on the trial configuration. */
 
+/* A rotation of a string about its own axis that nothing resists (static_spin.c). */
+#define DMB_STATIC_SPINS 32
+typedef struct dmb_static_spin {
+    uint32_t node; /* whose rotation about its axis is held */
+    uint32_t reserved;
+    double stiffness; /* [N m] added to the tangent there */
+    double torque;    /* [N m] of the last evaluation in that row: the unbalanced torque about the axis */
+} dmb_static_spin;
+
 typedef struct dmb_static_search {
     dmb_sim *sim;
     const dmb_static_options *options;
@@ -109,6 +118,9 @@ typedef struct dmb_static_search {
     double caution;      /* [-] the relaxation's corrections are this much shorter */
     double edge;         /* [-] 1 - cos RZ, largest on the way of joints whose RX and RY are needed; 0: of none */
     uint32_t edge_joint; /* which one it was */
+    uint32_t spin_count; /* rotations held in evaluations */
+    uint32_t unbalanced; /* number of the spin whose torques do not sum to 0; DMB_NONE: none */
+    dmb_static_spin spins[DMB_STATIC_SPINS];
 } dmb_static_search;
 
 /* At the sim's present time, without friction; options may be NULL where nothing iterates. */
@@ -118,6 +130,19 @@ void dmb_static_slip(dmb_static_search *search, double axial, double rotation);
 
 /* Residual and tangent of the trial at rest, or in its steady motion. */
 int32_t dmb_static_evaluate(dmb_static_search *search);
+
+/* Finds the rotations of strings that nothing resists at the trial, which evaluations hold from now on. Errors as
+ * dmb_static_evaluate. */
+int32_t dmb_static_find_spins(dmb_static_search *search);
+/* In an evaluation: stiffness and residual of the nodes that are held. In a correction: the rotation of whole strings
+ * is taken out. */
+void dmb_static_apply_spins(dmb_static_search *search);
+void dmb_static_correct_spins(dmb_static_search *search);
+/* DMB_OK if torques about the axes that are held sum to 0; DMB_ERR_SINGULAR with `unbalanced` and `block`; errors as
+ * dmb_static_evaluate. */
+int32_t dmb_static_check_spins(dmb_static_search *search);
+/* 1: a part that turns or moves far may meet a spring, stop or force of the caller. */
+int dmb_static_may_be_caught(const dmb_scene *scene);
 
 typedef int32_t (*dmb_static_method)(dmb_static_search *search);
 

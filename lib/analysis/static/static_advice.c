@@ -130,6 +130,12 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
         (void)dmb_joints_refuse_folds(sim); /* the trial still stands there */
     } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
+    } else if (status == DMB_ERR_SINGULAR && search->unbalanced != DMB_NONE) {
+        owner = dmb_owner_of_node(sim->scene, search->block);
+        dmb_message_set(&sim->message,
+                        "static: %s: nothing holds it about its axis, and the torques on it sum to %g N m, must be 0: "
+                        "balance them, or give its RX a motion drive, guide, joint or spring",
+                        owner.text.text, search->spins[search->unbalanced].torque);
     } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);
         const char *drive = controller(sim, 0, &text);

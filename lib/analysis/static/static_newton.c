@@ -78,6 +78,7 @@ static int32_t solve(dmb_static_search *search)
     const int32_t status = look_at_factors(search, bad, &weakest);
     if (status < 0) return status;
     dmb_solve_correction(search->sim);
+    dmb_static_correct_spins(search);
     search->iterations++;
     return DMB_OK;
 }
@@ -157,6 +158,7 @@ static int32_t solve_downhill(dmb_static_search *search, double *rate)
         if (negative == 0) break;
     }
     dmb_solve_correction(search->sim);
+    dmb_static_correct_spins(search);
     search->iterations++;
     *rate = fmin(taken, DMB_HEAVIER_KEPT * *rate);
     return DMB_OK;
