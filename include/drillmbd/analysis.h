@@ -31,7 +31,9 @@ typedef struct dmb_static_options {
     uint32_t max_iterations; /* [-] of one load step, 1 .. 10000; default 60 */
     double tolerance;        /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
     double slip_axial;       /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
-    double slip_rotation;    /* [rad/s] and turned at this speed; both 0: no friction in the static state */
+    double slip_rotation;    /* [rad/s] and turned at this speed; both 0: no friction in the static state. With a slip
+                                the state is quasi-static: until the next step its accelerations are 0 and section
+                                forces contain neither inertia nor damping */
     uint32_t load_steps;     /* [-] equal steps from no load to full load, at most 10000, before the library chooses
                                 them by itself; default 0: the whole load at once */
     int32_t lay_on_wall;     /* 1 (default): start from the string lying on the low side of its hole; 0: from the

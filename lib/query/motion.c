@@ -218,6 +218,13 @@ static void section_motion(const dmb_scene *scene, const dmb_configuration *conf
     follow(c[0], c[1], c[2], motion);
 }
 
+/* Accelerations of a quasi-static state: those of the point in the world are 0, so its body-frame rate is -w x v. */
+static void rest(dmb_material_point_motion *motion)
+{
+    dmb_vec3_cross(motion->velocity, motion->velocity + 3, motion->acceleration);
+    dmb_vec3_zero(motion->acceleration + 3);
+}
+
 void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
                                   const dmb_material_point *material_point, dmb_material_point_motion *motion)
 {
@@ -225,6 +232,7 @@ void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuratio
         node_motion(scene, configuration, material_point->node, material_point->arm, motion);
     else
         section_motion(scene, configuration, material_point, motion);
+    if (dmb_is_quasi_static(configuration)) rest(motion);
 }
 
 double dmb_material_point_turn(const dmb_configuration *configuration, const dmb_material_point *material_point)

@@ -41,6 +41,7 @@ static void coordinates(const dmb_sim *sim, uint32_t j, const dmb_relative *rela
     for (int i = 0; i < 6; i++) {
         answer->position[i] = c->value[i];
         answer->speed[i] = dmb_vec6_dot(c->J[i], relative->V);
+        if (dmb_is_quasi_static(&sim->now)) continue;
         answer->acceleration[i] = dmb_vec6_dot(c->JV[i], relative->V) + dmb_vec6_dot(c->J[i], acceleration);
     }
 }

@@ -71,6 +71,11 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
     for (int i = 0; i < 6; i++) vector[i] = columns[i] * row[0] + columns[6 + i] * row[1];
 }
 
+int dmb_is_quasi_static(const dmb_configuration *configuration)
+{
+    return configuration->friction_slip[0] != 0.0 || configuration->friction_slip[1] != 0.0;
+}
+
 uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node)
 {
     uint32_t end = node;

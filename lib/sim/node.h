@@ -13,6 +13,10 @@ void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuratio
  * curved hole with the turning of the axis. */
 void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
                      double vector[6]);
+/* 1: a quasi-static state, in equilibrium with friction at an assumed slip (dmb_static_options). Neither inertia nor
+ * damping acts in it; `acceleration` of the configuration belongs to the motion that begins when friction follows the
+ * velocities again, with the next step. */
+int dmb_is_quasi_static(const dmb_configuration *configuration);
 /* Columns of the body-frame motion of a PATH node per unit of its two rows, shape (2, 6); rotation is its present
  * one. */
 void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,

@@ -109,11 +109,14 @@ static double push_of_rig(const pushed *h)
     return reaction[0];
 }
 
+/* Behind the last contact, whose friction the section just before it bears. */
 static double push_of_bit(const pushed *h)
 {
     dmb_section section = dmb_section_default();
+    dmb_contact last = dmb_contact_default();
     must(&h->s, dmb_query_section(h->s.sim, dmb_station(h->string, h->pipes - 1, 1.0), &section));
-    return -section.force[0];
+    must(&h->s, dmb_query_contact(h->s.sim, h->pipes - 1, &last));
+    return -section.force[0] + last.friction[0];
 }
 
 /* The rig pushes ten times as hard and half as much again arrives: what is left to gain falls as the law says. The law

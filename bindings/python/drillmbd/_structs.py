@@ -829,7 +829,7 @@ class StaticOptions(Sized):
         "max_iterations": ("-", "of one load step, 1 .. 10000; default 60"),
         "tolerance": ("-", "residual over the norm of the forces that balance in it; default 1e-10"),
         "slip_axial": ("m/s", "friction acts as if the string slid along the hole at this speed; default 0"),
-        "slip_rotation": ("rad/s", "and turned at this speed; both 0: no friction in the static state"),
+        "slip_rotation": ("rad/s", "and turned at this speed; both 0: no friction in the static state. With a slip the state is quasi-static: until the next step its accelerations are 0 and section forces contain neither inertia nor damping"),
         "load_steps": ("-", "equal steps from no load to full load, at most 10000, before the library chooses them by itself; default 0: the whole load at once"),
         "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
         "steady": ("", "STEADY_..., default STEADY_AUTO"),

@@ -237,6 +237,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
 {
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element], ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+    const double tau = dmb_is_quasi_static(configuration) ? 0.0 : type->damping_time;
     double va[6], vb[6], stress[6], rate[6];
     memset(force, 0, 12 * sizeof(double));
     if (is_path(scene, a) && is_path(scene, a + 1)) {
@@ -245,7 +246,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
         for (uint32_t c = 0; c < 2; c++) {
             const double speed = configuration->velocity[rb + c] - configuration->velocity[ra + c];
             const uint32_t i = 3 * c;
-            force[i] = type->stiffness[i] * (e[i] + type->damping_time * speed);
+            force[i] = type->stiffness[i] * (e[i] + tau * speed);
             force[6 + i] = force[i];
         }
         return;
@@ -255,7 +256,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     end_velocities(scene, configuration, element, va, vb);
     dmb_beam_strain_rate(&shape, va, vb, rate);
     dmb_beam_stress(type, &shape, stress);
-    for (int i = 0; i < 6; i++) stress[i] += type->damping_time * type->stiffness[i] * rate[i];
+    for (int i = 0; i < 6; i++) stress[i] += tau * type->stiffness[i] * rate[i];
     dmb_beam_add_force(&shape, stress, force, force + 6);
     for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
 }
@@ -297,16 +298,15 @@ static void add_end_flow(const dmb_scene *scene, uint32_t element, uint32_t end,
     dmb_vec3_add(w + 3, moment, w + 3);
 }
 
-/* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
- * B. */
-void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
-                           double load[12])
+/* M a - ad_v^T p of a beam on its two ends, in the frame of each; 0 in a quasi-static state. */
+static void end_inertia(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double fa[6],
+                        double fb[6])
 {
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element];
-    double va[6], vb[6], aa[6], ab[6], pa[6], pb[6], fa[6], fb[6], ga[6], gb[6], wa[6], wb[6], R[9], u[3];
-    dmb_element_section_force(scene, configuration, element, load);
-    if (is_path(scene, a) && is_path(scene, a + 1)) return;
+    double va[6], vb[6], aa[6], ab[6], pa[6], pb[6], ga[6], gb[6];
+    for (int i = 0; i < 6; i++) fa[i] = fb[i] = 0.0;
+    if (dmb_is_quasi_static(configuration)) return;
     end_velocities(scene, configuration, element, va, vb);
     dmb_node_vector(scene, configuration, a, configuration->acceleration, aa);
     dmb_node_vector(scene, configuration, a + 1, configuration->acceleration, ab);
@@ -316,6 +316,23 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     dmb_beam_mass_times(&type->mass, aa, ab, fa, fb);
     dmb_ad_transpose(va, pa, ga);
     dmb_ad_transpose(vb, pb, gb);
+    for (int i = 0; i < 6; i++) {
+        fa[i] -= ga[i];
+        fb[i] -= gb[i];
+    }
+}
+
+/* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
+ * B. */
+void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                           double load[12])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element];
+    double fa[6], fb[6], wa[6], wb[6], R[9], u[3];
+    dmb_element_section_force(scene, configuration, element, load);
+    if (is_path(scene, a) && is_path(scene, a + 1)) return;
+    end_inertia(scene, configuration, element, fa, fb);
     dmb_node_pose(scene, configuration, a, R, u);
     end_weight(scene, type, R, 1.0, wa);
     add_end_flow(scene, element, 0, R, u, wa);
@@ -323,8 +340,8 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     end_weight(scene, type, R, -1.0, wb);
     add_end_flow(scene, element, 1, R, u, wb);
     for (int i = 0; i < 6; i++) {
-        load[i] -= fa[i] - ga[i] - wa[i];
-        load[6 + i] += fb[i] - gb[i] - wb[i];
+        load[i] -= fa[i] - wa[i];
+        load[6 + i] += fb[i] - wb[i];
     }
 }
 
@@ -340,9 +357,11 @@ void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *config
     dmb_element_section_force(scene, configuration, element, force);
     dmb_node_pose(scene, configuration, a, R, u);
     end_weight(scene, type, R, 1.0, weight);
-    load[0] =
-        force[0] - type->mass.axial[0] * at_a[0] - type->mass.axial[1] * at_b[0] + weight[0] - end_flow(scene, element);
-    load[1] = force[3] - type->mass.torsion[0] * at_a[1] - type->mass.torsion[1] * at_b[1];
+    load[0] = force[0] + weight[0] - end_flow(scene, element);
+    load[1] = force[3];
+    if (dmb_is_quasi_static(configuration)) return;
+    load[0] -= type->mass.axial[0] * at_a[0] + type->mass.axial[1] * at_b[0];
+    load[1] -= type->mass.torsion[0] * at_a[1] + type->mass.torsion[1] * at_b[1];
 }
 
 /* ---- Ledger ------------------------------------------------------------------------------------------------------ */

@@ -21,7 +21,7 @@ typedef struct one_element {
     uint8_t size[2];
     uint32_t row[3], element_type[1], element_node[1];
     double reference_position[6], reference_quaternion[8], reference_depth[2], span[3];
-    double displacement[6], quaternion[8], turn[2], velocity[12], acceleration[12];
+    double displacement[6], quaternion[8], turn[2], velocity[12], acceleration[12], friction_slip[2];
 } one_element;
 
 /* A straight element of length L along the frame R0 at x0, with rigid arms, E I = 1 scaled stiffnesses. */
@@ -48,6 +48,7 @@ static inline void one_element_make(one_element *o, double length, double near_a
     o->configuration.displacement = o->displacement, o->configuration.quaternion = o->quaternion;
     o->configuration.turn = o->turn, o->configuration.velocity = o->velocity;
     o->configuration.acceleration = o->acceleration;
+    o->configuration.friction_slip = o->friction_slip;
     dmb_quat_exp(O0, q);
     dmb_vec3_set(10.0, -3.0, 2.0, o->reference_position);
     dmb_quat_rotate(q, along, o->span);
