@@ -10,6 +10,7 @@
 #include "system/assemble/actuators.h"
 
 #define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
+#define DMB_DELAYED_SLIVER 1e-9 /* [-] the same where commands are delayed */
 #define DMB_CORNER_ROUNDING 4.0 /* [ulp] between the sum of steps as the caller rounds them and the corner it means */
 
 /* [s] Smallest corner later than t of a programme; INFINITY if none. */
@@ -52,6 +53,13 @@ static double length_to(const dmb_sim *sim, double time)
     return time - sim->clock->time;
 }
 
+/* [-] Part of a step that is not worth a step of its own. A delayed command keeps its edges, however steep: they are
+ * read from the ends of steps. */
+static double sliver_of(const dmb_sim *sim)
+{
+    return sim->scene->delay_count > 0 ? DMB_DELAYED_SLIVER : DMB_SLIVER;
+}
+
 /* [s] To the goal from the present time; as it was asked for where no part of it is done. */
 static double length_left(const dmb_sim *sim, const dmb_step_end *goal)
 {
@@ -76,7 +84,7 @@ dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time)
 
 dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *goal, double h)
 {
-    const double left = length_left(sim, goal), sliver = DMB_SLIVER * fmin(left, h);
+    const double left = length_left(sim, goal), sliver = sliver_of(sim) * fmin(left, h);
     const double corner = corner_ahead(sim), distance = length_to(sim, corner);
     dmb_step_end end = *goal;
     end.step = left;
@@ -95,7 +103,7 @@ dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *
 
 dmb_step_end dmb_step_end_over_corners(const dmb_sim *sim, const dmb_step_end *goal)
 {
-    const double left = length_left(sim, goal), sliver = DMB_SLIVER * left;
+    const double left = length_left(sim, goal), sliver = sliver_of(sim) * left;
     const double first = corner_ahead(sim), second = next_corner(sim, first);
     const double to_first = length_to(sim, first), to_second = length_to(sim, second);
     dmb_step_end end = *goal;

@@ -173,6 +173,35 @@ static void delay_is_the_time_told(void **state)
     }
 }
 
+/* Edges of a table, far steeper than T/256, arrive as they were: J w is the integral of the table up to t - T. Steep
+ * rise at time 0, a fall and a rise in the middle, two corners within T/256. */
+static void edges_of_a_table_pass_a_delay(void **state)
+{
+    static const double time[9] = {0.0, 1e-9, 0.05, 0.05 + 1e-9, 0.11, 0.11 + 1e-9, 0.1105, 0.1105 + 1e-9, 9.0};
+    static const double share[9] = {0.0, 1.0, 1.0, -0.5, -0.5, 2.0, 2.0, 0.5, 0.5};
+    static const double lengths[] = {1e-2, 1e-3, 2e-4};
+    const double T = 0.3, c = 40.0, exact = c * (0.05 - 0.5 * 0.06 + 2.0 * 5e-4 + 0.5 * (0.2 - 0.1105));
+    (void)state;
+    for (uint32_t k = 0; k < 3; k++) {
+        dmb_drive_def def = load_drive();
+        dmb_term term = dmb_term_default();
+        double value[9];
+        turner t = {0};
+        for (int i = 0; i < 9; i++) value[i] = c * share[i];
+        term.kind = DMB_TERM_TABLE;
+        term.table_count = 9;
+        term.table_time = time;
+        term.table_value = value;
+        def.delay = T;
+        describe(&t, &def);
+        must(dmb_model_add_programme(t.model, &term, 1, &def.programme));
+        start(&t, &def);
+        while (dmb_sim_time(t.sim) < 0.5 - 1e-9) steps(&t, lengths[k], 1);
+        check_below("delay: speed after edges of a table", fabs(ask(&t).speed * J / exact - 1.0), 1e-8);
+        close_turner(&t);
+    }
+}
+
 /* v' = k (1 - v(t - T)) with k (1 - v) as it was at time 0 before: v = k t up to T, then k T + k (s - k s^2/2). */
 static void delayed_control_is_of_second_order(void **state)
 {
@@ -523,6 +552,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lag_is_the_closed_form),
         cmocka_unit_test(delay_is_the_time_told),
+        cmocka_unit_test(edges_of_a_table_pass_a_delay),
         cmocka_unit_test(delayed_control_is_of_second_order),
         cmocka_unit_test(rate_limit_ramps),
         cmocka_unit_test(curve_meets_its_load),
