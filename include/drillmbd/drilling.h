@@ -125,16 +125,17 @@ DMB_SIZED_STRUCT(dmb_fatigue_options)
 
 typedef struct dmb_fatigue_result {
     uint32_t struct_size;
-    uint32_t point;       /* [-] the point of the section with the largest damage, or else the largest range */
-    uint64_t samples;     /* [-] */
-    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: cycles wholly beyond it are missed */
-    double damage;        /* [-] 1: the S-N curve is reached; cycles that are not closed count half */
-    double cycles;        /* [-] at that point, halves included */
+    uint32_t point;   /* [-] the point of the section with the largest damage, or else the largest range */
+    uint64_t samples; /* [-] */
+    uint64_t clipped; /* [-] of them beyond stress_range, at any point: cycles wholly beyond it are missed */
+    double damage;    /* [-] 1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean
+                         stress of a cycle reaches tensile_strength: the section breaks at once */
+    double cycles;    /* [-] at that point, halves included */
     double largest_range; /* [Pa] of them */
     double lowest;        /* [Pa] stress at that point, concentration included */
     double highest;       /* [Pa] likewise */
     double time;          /* [s] between the first and the last sample */
-    double life;          /* [s] time until damage 1 at this rate; infinite without damage */
+    double life;          /* [s] time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one */
 } dmb_fatigue_result;
 DMB_SIZED_STRUCT(dmb_fatigue_result)
 

@@ -243,7 +243,8 @@ typedef struct dmb_flow_state {
     double pressure_stretch; /* [m] that the true axial force and the pressures on the walls of flexible and
                                 axial-torsional pipes stretch the string beyond what N_e does, and poses show */
     double bore_reynolds;    /* [-] largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955) */
-    double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6 */
+    double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low: by 7 % at
+                                3e5, 15 % at 1e6 */
     double motor_loss; /* [Pa] through mud motors at the far end, mud_pressure times the torque that they give now; in
                           pump_pressure, and in the pressure inside the string */
 } dmb_flow_state;

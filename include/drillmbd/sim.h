@@ -31,10 +31,10 @@ typedef void (*dmb_part_fn)(void *work, uint32_t index);
  * any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else,
  * and parts left out, end the step with DMB_ERR_CALLBACK, the sim unchanged. Results have the same bits as without it
  * in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal
- * numbers kept). They need 64 kB of stack. Parts call no function of the caller's: forces, programmes, constraints stay
- * in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still
- * running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with
- * threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
+ * numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, programmes, constraints
+ * stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is
+ * still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off
+ * with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
 typedef int32_t (*dmb_parallel_fn)(void *context, uint32_t count, dmb_part_fn part, void *work);
 
 typedef struct dmb_sim_options {
@@ -121,9 +121,12 @@ DMB_SIZED_STRUCT(dmb_step_report)
  * _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert
  * 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
-/* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE
- * where a step of step_min was too long for them; before that DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED.
- * Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells. */
+/* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not.
+ * The errors of the steps add up over a run, to some thousand times the tolerance in 10 s; repeat the run with a tenth
+ * of the tolerances to estimate the error at its end.
+ * DMB_NOTE_TOLERANCE where a step of step_min was too long for them; before that DMB_NOTE_STOPPED after max_steps,
+ * DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.
+ */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED

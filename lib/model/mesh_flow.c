@@ -192,13 +192,29 @@ static double pump_pressure(const dmb_mesh *mesh, double rate)
     return pressure;
 }
 
-/* Losses grow with the rate, so the least one is looked at. */
+#define DMB_PUMP_PRESSURE_MAX 1e12 /* [Pa] */
+
+static int32_t check_largest_pressure(const dmb_mesh *mesh)
+{
+    const dmb_input_def *by;
+    dmb_message text;
+    const double rate = rate_at(mesh, 1, &by), pressure = pump_pressure(mesh, rate);
+    if (pressure <= DMB_PUMP_PRESSURE_MAX) return DMB_OK;
+    dmb_message_set(
+        &mesh->model->message,
+        "%s = %g m3/s: the pressure of the pump would be %g Pa, at most %g Pa is permitted; lower the rate, or "
+        "enlarge inner_diameter of the pipes or nozzle_area",
+        rate_text(by, "high", &text), rate, pressure, DMB_PUMP_PRESSURE_MAX);
+    return DMB_ERR_VALUE;
+}
+
+/* Losses grow with the rate: the smallest rate decides on the sign, the largest one on the size. */
 static int32_t check_pump(const dmb_mesh *mesh)
 {
     const dmb_input_def *by;
     dmb_message text;
     const double rate = rate_at(mesh, 0, &by), pressure = pump_pressure(mesh, rate);
-    if (pressure >= 0.0) return DMB_OK;
+    if (pressure >= 0.0) return check_largest_pressure(mesh);
     dmb_message_set(&mesh->model->message,
                     "%s = %g m3/s, too small: the pump's pressure would be %g Pa, must be >= 0: the heavier mud inside "
                     "falls by itself; raise the rate, or lower inner_density",

@@ -830,6 +830,12 @@ static void what_it_cannot_is_refused(void **state)
     e = mud_of(0.01, 0.0);
     pipe.inner_diameter = 0.0;
     compile_refuses(&pipe, &e, DMB_ERR_GEOMETRY, "inner diameter");
+    e.consistency = 1e6;
+    pipe.inner_diameter = 1e-300;
+    compile_refuses(&pipe, &e, DMB_ERR_VALUE, "pressure of the pump");
+    pipe.inner_diameter = 1e-5;
+    compile_refuses(&pipe, &e, DMB_ERR_VALUE, "at most 1e+12 Pa");
+    e = mud_of(0.01, 0.0);
     pipe = pipe_of(DMB_PIPE_FLEXIBLE);
     pipe.outer_diameter = hole;
     compile_refuses(&pipe, &e, DMB_ERR_GEOMETRY, "annulus");

@@ -115,6 +115,28 @@ static void capstan(void **state)
     destroy(&s);
 }
 
+/* The largest stress is at the ends of pieces of equal curvature and pipe, on either side of a jump: without weight and
+ * friction N is constant, a vertical piece has N/A, the bend N/A and E r/R. With weight, pushed from above, compression
+ * is largest where the bend begins that ends at a straight piece below. */
+static void yield_share_at_jumps(void **state)
+{
+    static const double survey[12] = {0.0, 0.0, 0.0, 31.0, 0.0, 0.0, 61.0, 0.3, 0.0, 150.0, 0.3, 0.0};
+    const double yield = 724e6, load = 60000.0;
+    scene s = describe(150, survey, 4);
+    dmb_operation slide = usual(DMB_OPERATION_SLIDE);
+    (void)state;
+    s.pipe.yield_strength = yield;
+    s.wall.mu_dynamic = s.wall.mu_static = 0.0;
+    compile(&s);
+    slide.weight_on_bit = load;
+    const dmb_torque_drag_row row = row_with(&s, NULL, &slide);
+    const double w = weight(&s), A = PI / 4.0 * (0.073 * 0.073 - 0.061 * 0.061), R = 100.0;
+    const double N = load - w * 89.0 * cos(0.3); /* compression where the bend ends at 61 m: the largest in the bend */
+    check_relative("yield share", row.yield_share, (N / A + s.pipe.young_modulus * 0.0365 / R) / yield, 1e-6);
+    check_close("where", row.yield_at, 61.0, 1e-6);
+    destroy(&s);
+}
+
 /* Against the library's own axial-torsional statics with the same slip, in a hole that builds and turns: the soft
  * string in another discretisation, of second order in the length of its elements. */
 static void against_statics(void **state)
@@ -576,6 +598,7 @@ int main(void)
         cmocka_unit_test(inclined),
         cmocka_unit_test(pulled_through_an_arc),
         cmocka_unit_test(capstan),
+        cmocka_unit_test(yield_share_at_jumps),
         cmocka_unit_test(against_statics),
         cmocka_unit_test(lock_up),
         cmocka_unit_test(against_the_stiff_string),

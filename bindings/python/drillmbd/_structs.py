@@ -796,7 +796,7 @@ class FlowState(Sized):
         "thrust": ("N", "rho Q V of nozzles or open end, on the far end towards the rig"),
         "pressure_stretch": ("m", "that the true axial force and the pressures on the walls of flexible and axial-torsional pipes stretch the string beyond what N_e does, and poses show"),
         "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
-        "annulus_reynolds": ("-", "likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6"),
+        "annulus_reynolds": ("-", "likewise; beyond 1e5 the law of the smooth wall is low: by 7 % at 3e5, 15 % at 1e6"),
         "motor_loss": ("Pa", "through mud motors at the far end, mud_pressure times the torque that they give now; in pump_pressure, and in the pressure inside the string"),
     }
 
@@ -1476,13 +1476,13 @@ class FatigueResult(Sized):
         "point": ("-", "the point of the section with the largest damage, or else the largest range"),
         "samples": ("-", ""),
         "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
-        "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half"),
+        "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a cycle reaches tensile_strength: the section breaks at once"),
         "cycles": ("-", "at that point, halves included"),
         "largest_range": ("Pa", "of them"),
         "lowest": ("Pa", "stress at that point, concentration included"),
         "highest": ("Pa", "likewise"),
         "time": ("s", "between the first and the last sample"),
-        "life": ("s", "time until damage 1 at this rate; infinite without damage"),
+        "life": ("s", "time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one"),
     }
 
 
@@ -2880,7 +2880,7 @@ class Row(Sized):
 
 
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
-PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of stack. Parts call no function of the caller's: forces, programmes, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
+PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, programmes, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))

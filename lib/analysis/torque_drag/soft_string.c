@@ -95,6 +95,7 @@ typedef struct march {
     double weight;            /* [kg/m] mass per metre with tool joints, buoyancy taken off */
     double radius;            /* [m] of what touches */
     double hole, pull;        /* [m, N/m] of the mud that flows in a hole of that diameter; 0: not known yet */
+    int32_t new_pipe, reserved;
     dmb_soft_place place;
 } march;
 
@@ -104,6 +105,7 @@ static void take_pipe(march *m, const dmb_pipe_def *pipe)
     dmb_pipe_section section;
     dmb_section_of(pipe, &section);
     m->pipe = m->place.pipe = pipe;
+    m->new_pipe = 1;
     m->EA = section.stiffness[0];
     m->GJ = section.stiffness[3];
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
@@ -243,19 +245,33 @@ static double next_depth(const march *m, double end, double spacing)
     return parts > 1.0 ? depth - (depth - next) / parts : next;
 }
 
-static int tell(march *m, dmb_soft_visit visit, void *context)
+/* Visits the place with pipe and curvature of one side: `into` [m] deeper. */
+static int visit_side(march *m, double into, dmb_soft_visit visit, void *context)
 {
     const double N = m->place.state[DMB_SOFT_FORCE];
     dmb_confined_pipe pipe;
     double unused;
     if (!(N > -COMPRESSION * m->EA)) return 0;
-    confined_at(m, m->place.depth + 0.5e-9 * m->place.step, &pipe);
+    confined_at(m, m->place.depth + into, &pipe);
     m->place.wall = wall_force(m, &pipe, N, &unused);
     m->place.curvature = dmb_vec3_norm(pipe.bend);
     m->place.sinusoidal = dmb_sinusoidal_share(&pipe, N);
     m->place.helical = dmb_helical_share(&pipe, N);
     visit(context, &m->place);
     return 1;
+}
+
+/* Curvature and pipe jump between the step that ended here and the one of h [m] that begins: the place is visited for
+ * that one, too. */
+static int visit_jump(march *m, double h, dmb_soft_visit visit, void *context)
+{
+    const double before = m->place.curvature;
+    dmb_confined_pipe pipe;
+    confined_at(m, m->place.depth - 0.5e-9 * h, &pipe);
+    if (!m->new_pipe && fabs(dmb_vec3_norm(pipe.bend) - before) <= 1e-9 * before) return 1;
+    m->new_pipe = 0;
+    m->place.step = 0.0;
+    return visit_side(m, -0.5e-9 * h, visit, context);
 }
 
 /* At the far end: load and torque of the bit, and the weight of what is fixed there. */
@@ -276,9 +292,10 @@ static int march_run(march *m, double end, double spacing, dmb_soft_visit visit,
 {
     while (m->place.depth > end) {
         const double next = next_depth(m, end, spacing);
+        if (!visit_jump(m, m->place.depth - next, visit, context)) return 0;
         runge_kutta(m, m->place.depth - next);
         m->place.depth = next;
-        if (!tell(m, visit, context)) return 0;
+        if (!visit_side(m, 0.5e-9 * m->place.step, visit, context)) return 0;
     }
     return 1;
 }
@@ -295,7 +312,7 @@ int dmb_soft_string_march(const dmb_soft_string *soft, const dmb_operation *oper
         take_pipe(&m, &runs[i].def);
         if (!told) {
             begin(&m, depth);
-            if (!tell(&m, visit, context)) return 0;
+            if (!visit_side(&m, 0.0, visit, context)) return 0;
             told = 1;
         }
         top = fmax(soft->start, top - runs[i].count * runs[i].def.length);

@@ -45,7 +45,7 @@ enum {
 typedef struct dmb_soft_place {
     const dmb_pipe_def *pipe;
     double depth;                 /* [m] measured */
-    double step;                  /* [m] since the place before */
+    double step;                  /* [m] since the place before; 0 for the other side of a jump */
     double state[DMB_SOFT_COUNT]; /* [N, N m, -, m, rad, N] force, torque, dN/dN of the far end, integrals */
     double wall;                  /* [N/m] c */
     double curvature;             /* [rad/m] of the hole */
