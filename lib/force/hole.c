@@ -155,8 +155,7 @@ static void along_line(const double p[3], const double direction[3], double r, d
     dmb_vec3_zero(curvature);
 }
 
-/* Last station at or before s; 0 before the first one. */
-static uint32_t station_before(const dmb_hole *hole, double s)
+uint32_t dmb_hole_segment_at(const dmb_hole *hole, double s)
 {
     uint32_t low = 0;
     uint32_t high = hole->stations;
@@ -181,7 +180,7 @@ void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], do
         along_line(hole->origin, hole->direction, s, x, tangent, bend);
         return;
     }
-    const dmb_hole_station *from = &hole->station[station_before(hole, s)];
+    const dmb_hole_station *from = &hole->station[dmb_hole_segment_at(hole, s)];
     if (s < from->depth) /* before the first station; the last one's curvature is 0 */
         along_line(from->point, from->tangent, s - from->depth, x, tangent, bend);
     else
@@ -207,77 +206,7 @@ void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9])
     }
 }
 
-/* ---- Point to place ---------------------------------------------------------------------------------------------- */
-
-/* Signed distance of x in front of a station's plane. */
-static double beyond(const dmb_hole_station *station, const double x[3])
-{
-    double u[3];
-
-    dmb_vec3_sub(x, station->point, u);
-    return dmb_vec3_dot(u, station->tangent);
-}
-
-/* Arc whose end planes enclose x, walking from the hinted one. The last station stands for the line beyond it. Both
- * planes of an arc pass through its centre, so what they enclose (bend below pi) is the sector of the arc itself. */
-static uint32_t find_segment(const dmb_hole *hole, const double x[3], uint32_t hint)
-{
-    const uint32_t last = hole->stations - 1;
-    uint32_t i = hint < last ? hint : last;
-
-    while (i > 0 && beyond(&hole->station[i], x) < 0.0) --i;
-    while (i < last && beyond(&hole->station[i + 1], x) >= 0.0) ++i;
-    return i;
-}
-
-/* Closest point on the arc of a station, u = x - p, k its curvature: with c = (1 - k u.n)/rho and a = (u.t)/rho,
- * rho = |(1 - k u.n, k u.t)|, the angle is atan2(k a, c), the point p + a t + k a^2/(1 + c) n and the tangent
- * c t + k a n. No term is lost as k goes to 0. */
-static void project_on_arc(const dmb_hole_station *from, const double x[3], double *s, double point[3],
-                           double tangent[3])
-{
-    const double k = from->curvature;
-    double u[3];
-
-    dmb_vec3_sub(x, from->point, u);
-    const double ahead = dmb_vec3_dot(u, from->tangent);
-    const double towards = 1.0 - k * dmb_vec3_dot(u, from->normal);
-    const double rho = sqrt(towards * towards + k * ahead * (k * ahead));
-    const double a = rho > 0.0 ? ahead / rho : 0.0; /* at the centre of the arc every place is as near */
-    const double c = rho > 0.0 ? towards / rho : 1.0;
-    const double sideways = k * a * a / (1.0 + c);
-
-    *s = from->depth + (k != 0.0 ? dmb_atan2(k * a, c) / k : ahead);
-    for (int i = 0; i < 3; ++i) {
-        point[i] = from->point[i] + a * from->tangent[i] + sideways * from->normal[i];
-        tangent[i] = c * from->tangent[i] + k * a * from->normal[i];
-    }
-}
-
-static void project_on_line(const double origin[3], const double direction[3], const double x[3], double *r,
-                            double point[3], double tangent[3])
-{
-    dmb_line_project(origin, direction, x, r, point);
-    dmb_vec3_copy(direction, tangent);
-}
-
-void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
-                      double tangent[3])
-{
-    if (dmb_hole_is_straight(hole)) {
-        *segment = 0;
-        project_on_line(hole->origin, hole->direction, x, s, point, tangent);
-        return;
-    }
-    *segment = find_segment(hole, x, *segment);
-    const dmb_hole_station *from = &hole->station[*segment];
-    if (*segment == hole->stations - 1 || beyond(from, x) < 0.0) {
-        project_on_line(from->point, from->tangent, x, s, point, tangent);
-        *s += from->depth;
-        return;
-    }
-    project_on_arc(from, x, s, point, tangent);
-}
+/* ---- About the axis ---------------------------------------------------------------------------------------------- */
 
 void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
                 double *e, double n[3])

@@ -75,13 +75,31 @@ void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[
  * them. */
 void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, double bend[3]);
 
-/* Closest point of the axis to x: its measured depth *s, point and unit tangent. *segment is the arc tried first, in
- * any range, and comes back as the arc found (0 for a straight hole); *s is written only. Closed form on lines and
- * arcs, so exact to round-off. The arc is the one whose end planes enclose x: continuous from arc to arc, and the same
- * whatever the hint as long as x is nearer to the axis than its radius of curvature and the axis turns by less than 90
- * deg between hint and answer. O(1) with a good hint. */
+/* Arc that holds measured depth s: that of the last station at or before it, the first one's before that; 0 for a
+ * straight hole. O(log stations). */
+uint32_t dmb_hole_segment_at(const dmb_hole *hole, double s);
+
+/* Closest point of the axis to x near a known place: its measured depth *s, point and unit tangent. *segment is the arc
+ * at which the search starts, in any range, and is returned as the arc found (0 for a straight hole); *s is written
+ * only. Closed form on lines and arcs, therefore exact to round-off. From the start the search descends to the first
+ * minimum of the distance: an axis may have several, where it turns by more than 90 deg or crosses itself, so the start
+ * must be the arc of the measured depth that x is known to be near (dmb_hole_segment_at, or the arc found before).
+ * Continuous from arc to arc while x is nearer to the axis than its radius of curvature. O(1) with a good start. */
 void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
                       double tangent[3]);
+
+#define DMB_HOLE_CROSSING 1e-6 /* [m] two minima whose distances differ by less are at a crossing of the axis */
+
+/* Place of the axis nearest to x among the minima of the distance with measured depths within `reach` [m] of `middle`;
+ * where there is none, the minimum that the descent from `middle` reaches. reach = INFINITY: on the whole axis. Of two
+ * minima at a crossing the one whose tangent is parallel to `direction` (unit, world; NULL: the one nearer to
+ * `middle`). Returns its arc, *depth its measured depth. O(stations within reach). */
+uint32_t dmb_hole_search(const dmb_hole *hole, const double x[3], double middle, double reach,
+                         const double direction[3], double *depth);
+
+/* First arc from `arc` on with a minimum of the distance from x; at least the number of stations (1 for a straight
+ * hole) where no further arc has one. */
+uint32_t dmb_hole_next_foot(const dmb_hole *hole, const double x[3], uint32_t arc);
 
 /* Radial offset of x from the axis: u = x - axis_point without its part along tangent, *e = |u| [m], n = u/e.
  * Below e = 1e-12 m (concentric) there is no direction and n is n_last, the last one known; n may be n_last. */

@@ -204,6 +204,7 @@ int32_t dmb_mesh_strings(dmb_mesh *mesh);
 int32_t dmb_mesh_bodies(dmb_mesh *mesh);
 int32_t dmb_mesh_rings(dmb_mesh *mesh);
 int32_t dmb_mesh_poses(dmb_mesh *mesh);
+int32_t dmb_mesh_depths(dmb_mesh *mesh);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);

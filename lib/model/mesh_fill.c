@@ -228,17 +228,12 @@ static void fill_joint_drives(dmb_scene *scene)
     }
 }
 
-/* Pulls of the mud that flows; nodes ascend, so that the arc of one is looked for from that of the one before. */
 static void fill_flow(const dmb_mesh *mesh, dmb_scene *scene)
 {
     if (scene->flow_count == 0) return;
     scene->flow = mesh->flow;
     copy_items(&mesh->flow_pieces, scene->flow_pieces);
     dmb_scene_fill_pulls(scene);
-    for (uint32_t i = 0, arc = 0; i < scene->node_count; ++i) {
-        while (arc + 2 < scene->hole.stations && scene->hole.station[arc + 1].depth <= scene->reference_depth[i]) arc++;
-        scene->flow_segment[i] = arc;
-    }
 }
 
 static uint32_t sites_in_order(const dmb_scene *scene)
@@ -320,7 +315,44 @@ static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage 
     scene->hole.station = w->stations;
 }
 
-/* ---- All --------------------------------------------------------------------------------------------------------- */
+/* ---- Sites near nodes -------------------------------------------------------------------------------------------- */
+
+static int take_near(uint32_t *near_site, uint32_t from, uint32_t to)
+{
+    if (near_site[to] != DMB_NONE || near_site[from] == DMB_NONE) return 0;
+    near_site[to] = near_site[from];
+    return 1;
+}
+
+/* From neighbours along the chain, those further from the rig end first. */
+static void spread_along(dmb_scene *scene)
+{
+    for (uint32_t i = scene->node_count; i-- > 1;)
+        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_site, i, i - 1);
+    for (uint32_t i = 1; i < scene->node_count; ++i)
+        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_site, i - 1, i);
+}
+
+static int spread_across(dmb_scene *scene)
+{
+    int more = 0;
+    for (uint32_t j = 0; j < scene->joint_count; ++j) {
+        const uint32_t a = scene->joints[j].a.node, b = scene->joints[j].b.node;
+        if (a == DMB_NONE) continue;
+        more |= take_near(scene->near_site, a, b);
+        more |= take_near(scene->near_site, b, a);
+    }
+    return more;
+}
+
+static void fill_near_sites(dmb_scene *scene)
+{
+    if (scene->near_site == NULL) return;
+    for (uint32_t i = 0; i < scene->node_count; ++i) scene->near_site[i] = DMB_NONE;
+    for (uint32_t s = scene->site_count; s-- > 0;) scene->near_site[scene->sites[s].node] = s;
+    do spread_along(scene);
+    while (spread_across(scene));
+}
 
 /* ---- Lengths ----------------------------------------------------------------------------------------------------- */
 
@@ -390,6 +422,7 @@ int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage
     fill_joint_drives(scene);
     fill_laws(mesh->model, scene);
     fill_hole(mesh, scene, storage);
+    fill_near_sites(scene);
     fill_flow(mesh, scene);
     fill_lengths(scene);
     return DMB_OK;

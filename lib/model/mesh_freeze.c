@@ -202,6 +202,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
     to->sites = DMB_ARENA_ARRAY(arena, dmb_site, counts->site_count);
     to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
+    if (hole->stations > 0) to->near_site = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
     if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
     if (counts->actuator_count > 0) to->actuators = DMB_ARENA_ARRAY(arena, dmb_actuator_law, counts->actuator_count);
@@ -218,7 +219,6 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
         to->flow_pieces = DMB_ARENA_ARRAY(arena, dmb_flow_piece, counts->flow_count);
         to->flow_element = DMB_ARENA_DOUBLES(arena, counts->element_count);
         to->flow_node = DMB_ARENA_DOUBLES(arena, 2 * (size_t)counts->node_count);
-        to->flow_segment = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
     }
     to->spring_points = DMB_ARENA_ARRAY(arena, dmb_spring_point, counts->spring_point_count);
     if (counts->event_count > 0) to->events = DMB_ARENA_ARRAY(arena, dmb_scene_event, counts->event_count);

@@ -31,14 +31,6 @@ static pose pose_of(const double position[3], const double rotation[3])
     return p;
 }
 
-/* Measured depth of the closest point of the axis, for what does not follow the hole. */
-static double depth_near(const dmb_mesh *mesh, const double x[3], uint32_t *segment)
-{
-    double point[3], tangent[3], depth = 0.0;
-    if (mesh->has_hole) dmb_hole_project(&mesh->hole, x, &depth, segment, point, tangent);
-    return depth;
-}
-
 /* ---- Strings on the hole's axis ---------------------------------------------------------------------------------- */
 
 static void hole_frame(const dmb_mesh *mesh, double depth, double q[4])
@@ -147,7 +139,6 @@ static void string_on_its_own(dmb_mesh *mesh, uint32_t string, uint32_t *element
     const pose rig = pose_of(def->position, def->rotation);
     const bool straight = is_straight(mesh, string);
     pose p = rig;
-    uint32_t segment = 0;
     move_along(&p, -map->start_arm);
     for (uint32_t i = 0; i < map->node_count; ++i) {
         dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->first_node + i);
@@ -157,7 +148,6 @@ static void string_on_its_own(dmb_mesh *mesh, uint32_t string, uint32_t *element
             move_along(&p, node->at);
         }
         set_node(node, &p);
-        node->depth = depth_near(mesh, node->position, &segment);
     }
 }
 
@@ -167,9 +157,7 @@ static void place_free_body(dmb_mesh *mesh, dmb_mesh_node *node)
 {
     const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, node->body);
     const pose p = pose_of(def->position, def->rotation);
-    uint32_t segment = 0;
     set_node(node, &p);
-    node->depth = depth_near(mesh, node->position, &segment);
 }
 
 int32_t dmb_mesh_poses(dmb_mesh *mesh)

@@ -301,6 +301,8 @@ typedef struct dmb_scene {
     dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
     dmb_site *sites;
     dmb_path_site *path_sites;
+    uint32_t *near_site;     /* contact site on a node, or the nearest along its chain and across joints, that its depth
+                                is known from; DMB_NONE: none; shape (node), of a curved hole */
     dmb_scene_point *inside; /* sections of the sites inside elements, element by element, shape (inside_count) */
 
     /* actions */
@@ -319,9 +321,8 @@ typedef struct dmb_scene {
     dmb_scene_stuck *stuck;
     dmb_flow_piece *flow_pieces; /* from the rig end on, shape (flow_count) */
     double *flow_element;        /* [N] pull of the mud on elements, towards the rig, shape (element); only with flow */
-    double *flow_node;      /* [N, N m] likewise on nodes, and times its place x in the node's frame, elements and all
-                               that is rigid with it; shape (node, 2) */
-    uint32_t *flow_segment; /* [-] arc of the hole near a node, shape (node) */
+    double *flow_node; /* [N, N m] likewise on nodes, and times its place x in the node's frame, elements and all
+                          that is rigid with it; shape (node, 2) */
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

@@ -242,33 +242,24 @@ double dmb_material_point_turn(const dmb_configuration *configuration, const dmb
     return turn[0] + material_point->fraction * (turn[1] - turn[0]);
 }
 
-/* Arc of the hole in which a measured depth lies: where to start looking. */
-static uint32_t segment_at(const dmb_hole *hole, double depth)
+/* [m] from the near node to a section, along the unbent element. */
+static double along(const dmb_scene *scene, const dmb_material_point *material_point)
 {
-    uint32_t low = 0, high = hole->stations;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (hole->station[middle].depth <= depth)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    if (material_point->fixed) return material_point->arm;
+    const dmb_element_type *type = &scene->types[scene->element_type[material_point->element]];
+    return type->arm[0] + material_point->fraction * type->length;
 }
 
-/* A PATH node knows its depth exactly; elsewhere the axis is searched from where the node is about. */
+/* A PATH node knows its depth exactly; elsewhere the axis is searched from where the section is about. */
 double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
                                 const dmb_material_point *material_point, const double x[3])
 {
     double depth, point[3], tangent[3];
-    uint32_t segment = 0;
     if (!scene->has_hole) return 0.0;
     if (material_point->fixed && material_point->arm == 0.0 &&
         scene->layout.size[material_point->node] == DMB_NODE_PATH)
         return dmb_path_depth(scene, configuration, material_point->node);
-    if (!dmb_hole_is_straight(&scene->hole))
-        segment = segment_at(&scene->hole, scene->reference_depth[material_point->node] + material_point->arm +
-                                               configuration->displacement[3 * (size_t)material_point->node]);
+    uint32_t segment = dmb_node_segment(scene, configuration, material_point->node, along(scene, material_point), x);
     dmb_hole_project(&scene->hole, x, &depth, &segment, point, tangent);
     return depth;
 }

@@ -105,7 +105,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from);
 enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_BRISTLES = 1 };
 /* Memory of the wall contacts; or only of the bristles, once contacts that have no past have been evaluated: where no
- * time passes, a bristle that slips at its limit cannot be told from one that holds there. run/state_transfer_nodes */
+ * time passes, a bristle that slips at its limit cannot be told from one that holds there. run/state_transfer_sites */
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 
 /* [m] from the node's place in `from` to that in the scene, along body x: rigid pipes that are added or taken off move

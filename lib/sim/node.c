@@ -1,5 +1,7 @@
 #include "sim/node.h"
 
+#include <math.h>
+
 #include "element/rigid_mass.h"
 #include "math/mat6.h"
 #include "math/so3.h"
@@ -9,6 +11,32 @@
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
 {
     return scene->reference_depth[node] + configuration->displacement[3 * node];
+}
+
+#define DMB_DETOUR 2.0       /* [-] of the way along a bent axis to the distance */
+#define DMB_DETOUR_LEAST 1.0 /* [-] in mean element lengths */
+
+static uint32_t segment_without_site(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
+                                     const double x[3])
+{
+    const double moved = dmb_vec3_norm(known->displacement + 3 * (size_t)node) + fabs(arm);
+    double depth;
+    return dmb_hole_search(&scene->hole, x, scene->reference_depth[node] + arm,
+                           DMB_DETOUR * moved + DMB_DETOUR_LEAST * scene->length_scale, NULL, &depth);
+}
+
+uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
+                          const double x[3])
+{
+    if (dmb_hole_is_straight(&scene->hole)) return 0;
+    if (scene->layout.size[node] == DMB_NODE_PATH)
+        return dmb_hole_segment_at(&scene->hole, dmb_path_depth(scene, known, node) + arm);
+    const uint32_t s = scene->near_site[node];
+    if (s == DMB_NONE) return segment_without_site(scene, known, node, arm, x);
+    const dmb_site *site = scene->sites + s;
+    const double described = scene->reference_depth[node] + arm - scene->reference_depth[site->node] - site->offset;
+    if (described == 0.0) return known->site_segment[s];
+    return dmb_hole_segment_at(&scene->hole, known->site_depth[s] + described);
 }
 
 /* Turned by `turn` about the axis of the hole where it now is; without a hole the line through its pose at time 0. */

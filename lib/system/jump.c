@@ -296,6 +296,7 @@ static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
     const int32_t was = sim->joint_state[j];
     dmb_evaluation evaluation;
     set_up(sim, &evaluation);
+    if (was == DMB_JOINT_OPEN) dmb_joint_place_find(sim, j);
     dmb_joint_take_state(sim, j, state);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     int32_t status = dmb_system_prescribe(&evaluation);

@@ -192,6 +192,7 @@ int32_t dmb_system_start(dmb_sim *sim)
     described_pose(sim);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
     int32_t status = scene->cluster_count ? dmb_assemble(sim) : DMB_OK;
+    if (status >= 0 && scene->cluster_count) dmb_contacts_follow_assembly(sim);
     for (uint32_t i = 0; i < scene->stuck_count; i++) dmb_stuck_start(sim, i);
     if (status >= 0) status = dmb_system_restart(sim);
     for (uint32_t i = 0; i < scene->force_count && status >= 0; i++) status = dmb_caller_force_check(sim, i);

@@ -47,9 +47,9 @@ static void lay_site(dmb_sim *sim, const dmb_site *site)
     const dmb_scene *scene = sim->scene;
     const uint32_t node = site->node;
     double *u = sim->trial.displacement + 3 * (size_t)node, x[3], point[3], tangent[3], down[3];
-    double depth = scene->reference_depth[node];
-    uint32_t segment = 0;
+    double depth;
     dmb_vec3_add(scene->reference_position + 3 * (size_t)node, u, x);
+    uint32_t segment = dmb_node_segment(scene, &sim->now, node, 0.0, x);
     dmb_hole_project(&scene->hole, x, &depth, &segment, point, tangent);
     dmb_vec3_copy(scene->gravity, down);
     dmb_vec3_axpy(-dmb_vec3_dot(down, tangent), tangent, down);

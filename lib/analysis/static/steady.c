@@ -43,8 +43,8 @@ static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v
     double *g = steady->frame_velocity + row, *V = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
     position_of(sim, node, R, x);
     if (scene->has_hole) {
-        double point[3], curvature[3], s = scene->reference_depth[node];
-        uint32_t segment = 0;
+        double point[3], curvature[3], s;
+        uint32_t segment = dmb_node_segment(scene, &sim->now, node, 0.0, x);
         dmb_hole_project(&scene->hole, x, &s, &segment, point, along);
         dmb_hole_frame(&scene->hole, s, point, NULL, curvature);
         dmb_vec3_cross(along, curvature, frame_rate);

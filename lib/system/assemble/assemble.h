@@ -85,10 +85,13 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law);
 void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *configuration, double radius,
                           dmb_site_force *out);
 
+/* Contact site s of now is at that measured depth [m]: where its search for the axis starts. */
+void dmb_contact_place(dmb_sim *sim, uint32_t s, double depth);
 /* Memory of contacts in the configurations: normals and depths of now at the start; the slip that friction of the trial
  * acts as at, by the evaluation, and that of the trial into now; no bristle of the trial is deflected and no contact
  * has begun; bristles of now are where they are while their rings slide on as they do. */
 void dmb_contacts_start(dmb_sim *sim);
+void dmb_contacts_follow_assembly(dmb_sim *sim);
 void dmb_contacts_assume_slip(const dmb_evaluation *evaluation);
 void dmb_contacts_take_slip(dmb_sim *sim);
 void dmb_contacts_take_touch(dmb_sim *sim);

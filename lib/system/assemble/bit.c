@@ -335,7 +335,10 @@ void dmb_bit_slope_of(const dmb_sim *sim, uint32_t k, dmb_bit_slope *out)
 void dmb_bit_start(dmb_sim *sim, uint32_t k)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
+    const dmb_hole *hole = &sim->scene->hole;
     dmb_bit_history h = dmb_bit_history_of(sim, k);
+    if (sim->scene->has_hole && !dmb_hole_is_straight(hole))
+        sim->now.bit_segment[k] = dmb_hole_segment_at(hole, sim->scene->reference_depth[bit->node] + bit->arm);
     sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = sim->now.bit_advance[k] + bit->bottom;
     dmb_hole_make_room(sim, k, sim->now.bit_bottom[k]);
     if (!bit->history_capacity) return;

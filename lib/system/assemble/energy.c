@@ -280,16 +280,17 @@ static double end_flow(const dmb_scene *scene, uint32_t element)
 
 /* Adds it where it acts on an end (0: A), along the hole there (dmb_gather_flow), as a uniform load on the cubic shape.
  */
-static void add_end_flow(const dmb_scene *scene, uint32_t element, uint32_t end, const double R[9], const double u[3],
+static void add_end_flow(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, uint32_t end,
                          double w[6])
 {
     const uint32_t node = scene->element_node[element] + end;
     const double half = end_flow(scene, element), L = type_of(scene, element)->length;
     const double arm[3] = {end ? -L / 6.0 : L / 6.0, 0.0, 0.0};
-    double x[3], point[3], t[3], pull[3], moment[3], s;
+    double R[9], u[3], x[3], point[3], t[3], pull[3], moment[3], s;
     if (!(half > 0.0)) return;
-    uint32_t segment = scene->flow_segment[node];
+    dmb_node_pose(scene, configuration, node, R, u);
     dmb_vec3_add(scene->reference_position + 3 * (size_t)node, u, x);
+    uint32_t segment = dmb_node_segment(scene, configuration, node, 0.0, x);
     dmb_hole_project(&scene->hole, x, &s, &segment, point, t);
     dmb_mat3_tvec(R, t, pull);
     dmb_vec3_scale(-half, pull, pull);
@@ -335,10 +336,10 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     end_inertia(scene, configuration, element, fa, fb);
     dmb_node_pose(scene, configuration, a, R, u);
     end_weight(scene, type, R, 1.0, wa);
-    add_end_flow(scene, element, 0, R, u, wa);
+    add_end_flow(scene, configuration, element, 0, wa);
     dmb_node_pose(scene, configuration, a + 1, R, u);
     end_weight(scene, type, R, -1.0, wb);
-    add_end_flow(scene, element, 1, R, u, wb);
+    add_end_flow(scene, configuration, element, 1, wb);
     for (int i = 0; i < 6; i++) {
         load[i] -= fa[i] - wa[i];
         load[6 + i] += fb[i] - wb[i];

@@ -231,9 +231,9 @@ static void pull_full(dmb_evaluation *evaluation, uint32_t node, const double pu
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     double R[9], u[3], x[3], point[3], t[3], bend[3], s, along[3], turn[3], K[36] = {0.0};
-    uint32_t segment = scene->flow_segment[node];
     dmb_node_pose(scene, &sim->trial, node, R, u);
     dmb_vec3_add(scene->reference_position + 3 * (size_t)node, u, x);
+    uint32_t segment = dmb_node_segment(scene, &sim->now, node, 0.0, x);
     dmb_hole_project(&scene->hole, x, &s, &segment, point, t);
     dmb_mat3_tvec(R, t, along);
     const double w[6] = {-pull[0] * along[0], -pull[0] * along[1], -pull[0] * along[2], 0.0,
@@ -288,9 +288,10 @@ static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double
 {
     const dmb_scene *scene = sim->scene;
     if (load->frame == DMB_FRAME_HOLE) { /* compile refuses it without a hole */
-        double x[3], point[3], tangent[3], s = scene->reference_depth[load->node];
-        uint32_t segment = 0;
-        dmb_vec3_add(scene->reference_position + 3 * load->node, sim->trial.displacement + 3 * load->node, x);
+        double x[3], u[3], unused[9], point[3], tangent[3], s;
+        dmb_node_pose(scene, &sim->trial, load->node, unused, u);
+        dmb_vec3_add(scene->reference_position + 3 * (size_t)load->node, u, x);
+        uint32_t segment = dmb_node_segment(scene, &sim->now, load->node, 0.0, x);
         dmb_hole_project(&scene->hole, x, &s, &segment, point, tangent);
         dmb_hole_frame_rotation(&scene->hole, s, R);
     } else {

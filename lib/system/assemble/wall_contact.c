@@ -332,13 +332,35 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
 
 /* ---- What a configuration remembers of its contacts -------------------------------------------------------------- */
 
+void dmb_contact_place(dmb_sim *sim, uint32_t s, double depth)
+{
+    const dmb_hole *hole = &sim->scene->hole;
+    sim->now.site_depth[s] = depth;
+    sim->now.site_segment[s] = dmb_hole_is_straight(hole) ? 0 : dmb_hole_segment_at(hole, depth);
+}
+
+/* Only a node that is brought to its joint moves before time begins, and may come to another length of the hole. */
+void dmb_contacts_follow_assembly(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (dmb_hole_is_straight(&scene->hole)) return;
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const double moved = dmb_vec3_norm(sim->now.displacement + 3 * (size_t)scene->sites[s].node);
+        double R[9], x[3], V[6], depth;
+        if (!(moved > 0.0)) continue;
+        motion_of(scene, &sim->now, s, R, x, V);
+        (void)dmb_hole_search(&scene->hole, x, sim->now.site_depth[s], 2.0 * moved, NULL, &depth);
+        dmb_contact_place(sim, s, depth);
+    }
+}
+
 void dmb_contacts_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t s = 0; s < scene->site_count; s++) {
         const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
         dmb_vec3_copy(down, sim->now.site_normal + 3 * s);
-        sim->now.site_depth[s] = scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset;
+        dmb_contact_place(sim, s, scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset);
     }
 }
 

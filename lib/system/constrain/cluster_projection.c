@@ -250,6 +250,7 @@ static void described_states(dmb_sim *sim)
 {
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
         const int32_t state = sim->scene->joints[j].state;
+        dmb_joint_place_find(sim, j);
         if (state != DMB_JOINT_LOCKED) dmb_joint_hold(sim, j); /* until it is locked */
         dmb_joint_take_state(sim, j, state);
     }

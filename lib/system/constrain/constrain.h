@@ -27,6 +27,9 @@ void dmb_joint_motion(const dmb_scene *scene, dmb_configuration *configuration, 
                       dmb_hole_bend *bend);
 /* The place of joint j on the hole's axis in trial is that of now: what a trial before found does not count. */
 void dmb_joint_place_begin(dmb_sim *sim, uint32_t j);
+/* Place of joint j on the hole's axis in now, from its part's place along the hole and not from where the joint was
+ * before: at the start, and when it closes. */
+void dmb_joint_place_find(dmb_sim *sim, uint32_t j);
 /* Joint j is held where it stands on the hole's axis in now, or rides along again. */
 void dmb_joint_place_hold(dmb_sim *sim, uint32_t j, int held);
 /* The same motion without a trace in the configuration. */

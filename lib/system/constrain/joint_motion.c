@@ -83,6 +83,18 @@ void dmb_joint_place_begin(dmb_sim *sim, uint32_t j)
     sim->trial.joint_segment[j] = sim->now.joint_segment[j];
 }
 
+void dmb_joint_place_find(dmb_sim *sim, uint32_t j)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_scene_joint *joint = scene->joints + j;
+    double R[9], x[3], point[3], tangent[3];
+    if (joint->kind != DMB_JOINT_POINT_ON_HOLE) return;
+    frame_pose(scene, &sim->now, &joint->b, R, x);
+    dmb_vec3_add(joint->span, x, x);
+    sim->now.joint_segment[j] = dmb_node_segment(scene, &sim->now, joint->b.node, joint->b.x[0], x);
+    dmb_hole_project(&scene->hole, x, sim->now.joint_depth + j, sim->now.joint_segment + j, point, tangent);
+}
+
 void dmb_joint_place_hold(dmb_sim *sim, uint32_t j, int held)
 {
     sim->now.joint_segment[j] &= ~DMB_SEGMENT_HELD;
