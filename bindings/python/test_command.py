@@ -13,7 +13,7 @@ import unittest
 
 from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
-needs("numpy", "pint")
+needs("numpy")
 
 
 SCENE = """title = "short rig"

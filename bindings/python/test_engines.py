@@ -16,7 +16,7 @@ import unittest
 
 from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
-needs("h5py", "numpy", "pint", "scipy")
+needs("h5py", "numpy", "scipy")
 
 import h5py
 import numpy as np

@@ -10,7 +10,7 @@ import unittest
 
 from shared_tests import needs
 
-needs("h5py", "matplotlib", "numpy", "openturns", "pint")
+needs("h5py", "matplotlib", "numpy", "openturns")
 
 import numpy as np
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
-needs("numpy", "pint")
+needs("numpy")
 
 import drillmbd as mbd  # noqa: E402
 from drillmbd import INPUT_SETTING, OUTPUT_CHANNEL, Input, Output, fmu, scene  # noqa: E402

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 from shared_tests import needs
 
-needs("numpy", "pint")
+needs("numpy")
 
 from drillmbd import fmu, scene  # noqa: E402
 from test_fmu import SCENE, Unit3  # noqa: E402

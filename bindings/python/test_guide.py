@@ -32,7 +32,6 @@ def output_of(function, *arguments):
 class GuideTest(unittest.TestCase):
     def test_scene_and_commands(self):
         try:
-            import pint  # noqa: F401
             import matplotlib  # noqa: F401
         except ImportError as error:
             self.skipTest(f"not there: {error.name}")
@@ -56,10 +55,6 @@ class GuideTest(unittest.TestCase):
 
     def test_lines_that_a_question_needs(self):
         """A question whose table the scene lacks tells the least lines; the scene with them is answered."""
-        try:
-            import pint  # noqa: F401
-        except ImportError as error:
-            self.skipTest(f"not there: {error.name}")
         from drillmbd.command import main
         scene = block("toml").replace('count = 30', 'count = 6\neccentricity = "1 mm"')
         for question in ("response", "speeds", "buckle"):

@@ -6,8 +6,6 @@ import unittest
 import drillmbd as mbd
 
 try:
-    import pint  # noqa: F401
-
     from drillmbd import scene
 except ImportError as missing:
     raise unittest.SkipTest(f"not there: {missing.name}") from missing

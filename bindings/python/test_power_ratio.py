@@ -7,7 +7,7 @@ import unittest
 
 from shared_tests import needs
 
-needs("numpy", "pint", "scipy")
+needs("numpy", "scipy")
 
 import numpy as np
 

@@ -7,7 +7,7 @@ import unittest
 
 from shared_tests import DRIVES, needs
 
-needs("numpy", "pint", "scipy.stats")
+needs("numpy", "scipy.stats")
 
 import numpy as np
 import scipy.stats as stats
@@ -495,7 +495,7 @@ class BadScene(unittest.TestCase):
                 ('name = "pump"', 'name = "wear"', "varies already"),
                 ('kind = "fatigue"', 'kind = "fatige"', "did you mean fatigue?"),
                 ("slope = 5", "", "fatigue must have a slope"),
-                ('limit = "2 kN m"', 'limit = "2 kN"', "must be a quantity in N m"),
+                ('limit = "2 kN m"', 'limit = "2 kN"', "must be a torque"),
                 ('limit = "2 kN m"', "", "or [limits] torque"),
                 ('limit = "2 kN m"', 'limit = "2 kN m"\nhead = "feed"', "must name a drive of rotation (rx)"),
                 ('limit = "2 kN m"', 'limit = "2 kN m"\nfrom = "2 s"\nto = "1 s"', "must be > from"),

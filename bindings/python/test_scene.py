@@ -13,8 +13,6 @@ import unittest
 import drillmbd as mbd
 
 try:
-    import pint  # noqa: F401
-
     from drillmbd import scene
     from drillmbd.scene import fields, lines, schema, units
 except ImportError as missing:

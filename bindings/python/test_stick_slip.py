@@ -7,7 +7,7 @@ import unittest
 
 from shared_tests import DRIVES, needs
 
-needs("numpy", "pint", "scipy.optimize")
+needs("numpy", "scipy.optimize")
 
 import numpy as np
 from scipy.optimize import brentq

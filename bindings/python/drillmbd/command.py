@@ -278,6 +278,8 @@ def _ask(options: Any) -> int:
         raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about; the least is\n\n"
                     + least(needed, loaded))
     output = Output(options.output, options.scene, loaded, options.command, options.quiet)
+    for one in loaded.remarks:
+        output.note_text(f"line {one.line}: {one}")
     for pipes in loaded.divided:
         output.note_text(str(pipes))
     return QUESTIONS[options.command](loaded, output, options)

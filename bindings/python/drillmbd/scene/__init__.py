@@ -1,4 +1,4 @@
-"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units. Needs pint.
+"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units.
 
     from drillmbd import scene
     rig = scene.load("rig.toml")          # SceneError tells everything that is wrong, with lines

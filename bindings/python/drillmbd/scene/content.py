@@ -10,6 +10,7 @@ from ..model import Model, map_ids
 from ..sim import Sim
 from .divide import Divided
 from .failure import Failure
+from .problems import Problem
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
@@ -35,6 +36,7 @@ class Scene:
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
     variability: Variability | None = None  #: what varies
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
+    remarks: list[Problem] = field(default_factory=list)   #: what was assumed of the values of the file
     divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
     def new_sim(self) -> Sim:

@@ -121,6 +121,16 @@ def read(field: Field, value: Any, unit: str | None = None) -> Any:
     return _single(field, value, field.unit if unit is None else unit)
 
 
+def remark(field: Field, value: Any, unit: str | None = None) -> str:
+    """The assumption that read makes of a value; "" if it makes none."""
+    if field.kind != "quantity":
+        return ""
+    if field.count:
+        told = [units.remark(one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
+        return next((one for one in told if one), "")
+    return units.remark(value, (field.unit if unit is None else unit) or "-")
+
+
 def _shape(value: Any, count: int) -> str:
     """The length of another array; an array of a lone value as an example."""
     if isinstance(value, list):

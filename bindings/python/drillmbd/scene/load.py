@@ -35,7 +35,7 @@ def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
         raise SceneError(str(path), [Problem(1, "the file", None, f"must be below {MOST_BYTES} bytes")])
     data = path.read_bytes()
     try:
-        text = data.decode("utf-8")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[:error.start].count(b"\n") + 1
         raise SceneError(str(path), [Problem(line, "the file", None, "must be text in UTF-8")]) from error
@@ -67,6 +67,7 @@ def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: st
     if loader.problems.found:
         raise SceneError(name, loader.problems.found)
     assert scene is not None
+    scene.remarks = problems.remarks
     scene.divided = [one for one in divided or [] if one.elements > 1]
     return scene, loader.undivided
 
@@ -206,6 +207,7 @@ class Loader:
                 continue
             try:
                 found[key] = fields.read(field, value, unit_of(key))
+                self.problems.remark(path + (key,), value, fields.remark(field, value, unit_of(key)))
             except ValueProblem as error:
                 self.problems.add(path + (key,), value, str(error))
         return found
@@ -267,6 +269,10 @@ class Loader:
                 name = field.group(0) if field else ""
                 known = fields_of(struct).get(name)
                 unit = f" (in {known.unit})" if known and known.unit not in ("", "-") else ""
+                if self._follows_from_refused(path, name, values, str(error.bound or error.message)):
+                    if values.pop(name, None) is None:
+                        return None
+                    continue
                 written = self.written(path + (name,))
                 text = f"must {error.bound}{unit}" if error.bound and name in values else error.message
                 self.problems.add(path + (name,) if name in values else path, written if name in values else None, text)
@@ -275,6 +281,11 @@ class Loader:
             except ValueError as error:
                 self.problems.add(path, None, str(error))
                 return None
+
+    def _follows_from_refused(self, path: Path, name: str, values: dict[str, Any], text: str) -> bool:
+        """Whether the library refuses a default in the place of a value that was refused, or a value beside it."""
+        refused = self.problems.refused_below(path) & set(self.table(path))
+        return (name in refused and name not in values) or any(re.search(rf"\b{one}\b", text) for one in refused - {name})
 
     def written(self, path: Path) -> Any:
         value: Any = self.content
@@ -384,6 +395,7 @@ class Loader:
                 continue
             try:
                 found.append((units.parse(row[0], first), units.parse(row[1], second)))
+                self.problems.remark(path, None, units.remark(row[1], second))
             except units.UnitError as error:
                 self.problems.add(path + (number,), row, str(error))
         return found

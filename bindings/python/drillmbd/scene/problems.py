@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -43,6 +44,17 @@ class Problems:
 
     def __init__(self, lines: dict[Path, int]) -> None:
         self.lines, self.found = lines, list[Problem]()
+        self.remarks = list[Problem]()  # what was assumed, or looks wrong
+
+    def remark(self, path: Path, value: Any, text: str) -> None:
+        """Something to know about a value that is accepted; nothing where the text is empty."""
+        if text and not any(one.key == dotted(path) and one.text == text for one in self.remarks):
+            self.remarks.append(Problem(line_of(self.lines, path), dotted(path), value, text))
+
+    def refused_below(self, path: Path) -> set[str]:
+        """Keys of a table whose values were refused."""
+        start = dotted(path) + "."
+        return {re.split(r"[.\[]", one.key[len(start):])[0] for one in self.found if one.key.startswith(start)}
 
     def add(self, path: Path, value: Any, text: str) -> None:
         """One more, at a path of keys and numbers."""
