@@ -173,6 +173,20 @@ static int have_converged(const basis *b, uint32_t wanted, double tolerance)
     return 1;
 }
 
+/* Number of values, all converged, that hold as many as are enough beyond the two bounds; 0: there are not so many. */
+static uint32_t enough_converged(const basis *b, uint32_t wanted, double tolerance)
+{
+    const dmb_operator *A = b->A;
+    const uint32_t most = A->enough > 0 ? converged(b, wanted, tolerance) : 0;
+    uint32_t inside = 0;
+    for (uint32_t k = 0; k < most; k++) {
+        const double value = b->re[b->order[k]];
+        inside += value <= A->beyond[0] || value >= A->beyond[1];
+        if (inside == A->enough) return k + 1;
+    }
+    return 0;
+}
+
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
 /* Processes up to `target` vectors; where the space closes before the dimension is reached, it is opened again. */
@@ -199,17 +213,28 @@ static size_t smaller(size_t a, size_t b)
 
 /* Grows the space until what is wanted has converged, throws a random vector in, and grows it until that holds again.
  */
-static int32_t search(basis *b, uint32_t wanted, size_t start, double tolerance)
+static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
 {
     const size_t end = smaller(b->A->dimension, b->limit - start - 2);
-    size_t target = smaller(end, wanted + (b->A->symmetric ? 0 : wanted) + 3 * start + 2), confirmed = SIZE_MAX;
+    const uint32_t wanted = *count, first = b->A->enough > 0 ? b->A->enough : wanted;
+    size_t target = smaller(end, first + (b->A->symmetric ? 0 : first) + 3 * start + 2), confirmed = SIZE_MAX;
     for (;;) {
         int32_t status = extend(b, target, start);
         if (status >= 0) status = project(b);
         if (status < 0) return status;
         const int all = b->processed >= b->A->dimension || b->processed == b->count;
         if (all) return DMB_OK;
-        if (have_converged(b, wanted, tolerance)) {
+        const uint32_t enough = enough_converged(b, wanted, tolerance);
+        const int done = enough > 0 || have_converged(b, wanted, tolerance);
+        if (done && b->A->counted && (confirmed != SIZE_MAX || target == end)) {
+            *count = enough > 0 ? enough : wanted;
+            return DMB_OK;
+        }
+        if (done && b->A->counted) { /* once more, for vectors as sharp as confirmation leaves them */
+            confirmed = target = smaller(end, target + 2 * start);
+            continue;
+        }
+        if (done) {
             if (confirmed == SIZE_MAX) {
                 confirmed = b->processed + 2 * start + 4;
                 status = throw_in(b);
@@ -302,6 +327,7 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
 {
     basis b;
     store s = {NULL, 0};
+    double next = 0.0;
     memset(&b, 0, sizeof b);
     memset(out, 0, sizeof *out);
     b.A = A;
@@ -312,12 +338,15 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
     int32_t status = open_basis(&b, &s);
     if (status < 0) return status;
     for (uint32_t k = 0; k < start && status >= 0; k++) status = throw_in(&b);
-    if (status >= 0) status = search(&b, wanted, start, tolerance);
+    if (status >= 0) status = search(&b, &wanted, start, tolerance);
     if (status == DMB_ERR_NO_CONVERGENCE && A->partly && b.values > 0) {
+        const uint32_t last = (uint32_t)smaller(wanted, b.values) - 1;
+        next = modulus(&b, b.order[last]);
         wanted = converged(&b, wanted, tolerance);
-        if (wanted > 0) status = DMB_OK;
+        if (wanted > 0 || A->counted) status = DMB_OK;
     }
     if (status >= 0) status = answer(&b, wanted, out);
+    out->next = next;
     close_basis(&b, &s);
     return status;
 }

@@ -21,13 +21,17 @@ typedef struct dmb_operator {
     void (*draw)(void *context, uint64_t *seed, double *x);                     /* any vector of the space */
     int32_t (*go_on)(void *context); /* may be NULL: asked before each vector, < 0 ends the search */
     size_t most;                     /* vectors in its basis, 0: as dmb_krylov_largest says */
+    int32_t counted; /* 1: the caller counts the values, so that no random vector is thrown in to confirm them */
+    uint32_t enough; /* the search also ends with so many values beyond these two, < 0 and > 0; 0: not so. Symmetric */
+    double beyond[2];
 } dmb_operator;
 
 typedef struct dmb_krylov {
     uint32_t count;        /* of values; a conjugate pair counts once and stands with im > 0 */
     uint32_t applications; /* of the operator */
     double *re, *im;       /* values, falling modulus, shape (count) */
-    double *x, *y;         /* vectors x + i y, of norm 1 in the metric, shape (count, length); y NULL if symmetric */
+    double next;   /* estimated modulus of value number `wanted` where fewer converged; 0 if there is no estimate */
+    double *x, *y; /* vectors x + i y, of norm 1 in the metric, shape (count, length); y NULL if symmetric */
     dmb_allocator allocator;
     void *block;
     size_t block_size;

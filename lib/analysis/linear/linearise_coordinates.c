@@ -433,12 +433,20 @@ uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
     return dmb_linear_negative(linear, 1.0, 0.0, -square);
 }
 
+/* Not raised by rounding as those of a static state are: an eigenvalue is where the search finds it. */
 int64_t dmb_linear_count(dmb_linear *linear, double square)
 {
+    const dmb_scene *scene = &linear->scene;
+    const dmb_linear_matrix A = combine(linear, 1.0, 0.0, -square);
     dmb_block_weakest unused;
-    int32_t negative = 0;
-    (void)combine(linear, 1.0, 0.0, -square);
-    return dmb_stiffness_factor(linear->work, &unused, &negative) >= 0 ? -1 : negative;
+    int64_t count = 0;
+    for (uint32_t i = 0; i < scene->chain_count; i++)
+        if (!scene->chains[i].jointed)
+            count += dmb_block_negative(&scene->layout, A.diagonal, A.lower, A.upper, NULL, scene->chains[i].first,
+                                        scene->chains[i].count);
+    if (scene->cluster_count == 0) return count;
+    if (dmb_factor_stiffness(linear->work, &unused) >= 0) return -1;
+    return count + dmb_reduced_negative(linear->work);
 }
 
 void dmb_linear_solve(dmb_linear *linear, double *x)

@@ -247,15 +247,10 @@ enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
 /* A band of more modes is divided. Damped roots stand in a plane, where many pieces make one search. */
 enum { DMB_BAND_AT_ONCE = 64, DMB_ROOTS_AT_ONCE = 256, DMB_ROOTS_BY_STRIP = 32 };
-/* The last of the modes wanted is left out of the count, with those equal to it; a count that does not fit is tried
- * again. */
-#define DMB_COUNT_MARGIN 1e-6
-#define DMB_COUNT_NOISE 64.0
-enum { DMB_COUNT_TRIES = 3 };
 /* The inverse of a singular K that cannot be pinned is taken this many times the noise of its eigenvalues off 0. */
 #define DMB_SHIFT_NOISE 1e5
 
-static int is_dense(const dmb_mode_search *search, uint32_t wanted)
+int dmb_modes_is_dense(const dmb_mode_search *search, uint32_t wanted)
 {
     const uint32_t n = search->linear->coordinates;
     return n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
@@ -279,7 +274,9 @@ static int32_t find_scale(dmb_mode_search *search, double *square)
     const double away = DMB_SHIFT_NOISE * search->noise;
     search->shift = search->general ? sqrt(away) : -away;
     *square = 0.0;
+    search->partly = 1; /* the lowest is enough */
     const int32_t status = dmb_modes_sparse(search, n < DMB_SCALE_MODES ? n : DMB_SCALE_MODES);
+    search->partly = 0;
     for (uint32_t i = 0; i < search->modes->count && status >= 0; i++) {
         const double here = dmb_modes_size(search->modes, i) * dmb_modes_size(search->modes, i);
         if (here > DMB_RIGID_NOISE * search->noise && (*square == 0.0 || here < *square)) *square = here;
@@ -288,12 +285,12 @@ static int32_t find_scale(dmb_mode_search *search, double *square)
     return status;
 }
 
-/* No shift where K is regular or pinned; else a real one off the eigenvalues of a stable system, as far as the lowest
- * of them that is not 0. */
-static int32_t choose_shift(dmb_mode_search *search)
+/* A shift is as far off 0 as the lowest eigenvalue that is not 0. */
+int32_t dmb_modes_choose_shift(dmb_mode_search *search)
 {
     double square;
     int32_t status = DMB_OK;
+    search->shift = 0.0;
     if (search->apart) {
         status = dmb_modes_pin(search);
         if (status < 0 || search->pinned) return status;
@@ -302,53 +299,10 @@ static int32_t choose_shift(dmb_mode_search *search)
         const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
         if (bad < 0 && !(weakest.ratio < DMB_LOOSE_PIVOT) && search->rigid_count == 0) return DMB_OK;
     }
-    if (is_dense(search, search->options->count)) return DMB_OK;
+    if (dmb_modes_is_dense(search, search->options->count)) return DMB_OK;
     status = find_scale(search, &square);
     if (status >= 0 && square > 0.0) search->shift = search->general ? sqrt(square) : -square;
     return status;
-}
-
-/* The number of modes of |s| below that of the last one wanted the search has missed, by the count of eigenvalues
- * between the negative and the positive square; nothing can be counted where those are noise, with joints or damping.
- */
-static uint32_t missed(const dmb_mode_search *search)
-{
-    const dmb_modes *modes = search->modes;
-    const uint32_t last = search->options->count - 1, apart = search->apart ? search->rigid_count : 0;
-    if (last < apart || modes->count <= last - apart) return 0;
-    const double size = dmb_modes_size(modes, last - apart);
-    const double square = size * size * (1.0 - DMB_COUNT_MARGIN) - DMB_COUNT_NOISE * search->noise;
-    if (search->general || search->linear->scene.cluster_count) return 0;
-    if (!(square > DMB_RIGID_NOISE * search->noise)) return 0;
-    uint32_t found = apart;
-    for (uint32_t i = 0; i < modes->count; i++) found += dmb_modes_size(modes, i) * dmb_modes_size(modes, i) < square;
-    const uint32_t there =
-        dmb_linear_count_below(search->linear, square) - dmb_linear_count_below(search->linear, -square);
-    return there > found ? there - found : 0;
-}
-
-/* The search makes sure of what it finds; the count is a second witness. Where they still differ after some more modes
- * were sought, an eigenvalue stands at the edge of the count. */
-static int32_t find_lowest(dmb_mode_search *search)
-{
-    uint32_t wanted = search->options->count;
-    if (is_dense(search, wanted)) return dmb_modes_dense(search);
-    if (search->general) wanted++; /* a double root may stand at the end */
-    for (int tries = 1;; tries++) {
-        const int32_t status = dmb_modes_sparse(search, wanted);
-        if (status < 0) return status;
-        dmb_modes_sort(search->modes, search->modes->count);
-        const uint32_t here = search->modes->count + search->rigid_count;
-        const uint32_t more = here < search->options->count && wanted < search->linear->coordinates
-                                  ? search->options->count - here /* pairs that were told once */
-                                  : missed(search);
-        if (more == 0 || tries == DMB_COUNT_TRIES) return DMB_OK;
-        wanted += more + 2;
-        search->modes->count = 0;
-        if (is_dense(search, wanted)) return dmb_modes_dense(search);
-        const int32_t again = choose_shift(search); /* the count has taken the factors */
-        if (again < 0) return again;
-    }
 }
 
 /* Whether the modes found reach beyond the band: what lies nearest the shift is complete. */
@@ -393,16 +347,16 @@ static int32_t find_band(dmb_mode_search *search)
         search->shift = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
         search->pinned = 0;
     }
-    if (search->general && !is_dense(search, 16)) {
+    if (search->general && !dmb_modes_is_dense(search, 16)) {
         const int32_t status = find_many_roots(search, low, high);
         if (status != 0) return status < 0 ? status : DMB_OK;
-        const int32_t again = choose_shift(search); /* the counts have taken the factors */
+        const int32_t again = dmb_modes_choose_shift(search); /* the counts have taken the factors */
         if (again < 0) return again;
     }
     const uint32_t most = search->general ? DMB_ROOTS_AT_ONCE : DMB_BAND_AT_ONCE;
     for (uint32_t wanted = 16; wanted <= most; wanted *= 2) {
         search->modes->count = 0;
-        if (is_dense(search, wanted)) return dmb_modes_dense(search);
+        if (dmb_modes_is_dense(search, wanted)) return dmb_modes_dense(search);
         const int32_t status = dmb_modes_sparse(search, wanted);
         if (status >= 0 && covers_band(search, low, high)) return status;
         if (status < 0 && status != DMB_ERR_NO_CONVERGENCE) return status;
@@ -414,9 +368,9 @@ int32_t dmb_modes_find(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
     int32_t status = set_rigid_apart(search);
-    if (status >= 0 && options->select != DMB_MODES_ALL) status = choose_shift(search);
+    if (status >= 0 && options->select != DMB_MODES_ALL) status = dmb_modes_choose_shift(search);
     if (status >= 0)
-        status = options->select == DMB_MODES_LOWEST ? find_lowest(search)
+        status = options->select == DMB_MODES_LOWEST ? dmb_modes_lowest(search)
                  : options->select == DMB_MODES_ALL  ? dmb_modes_dense(search)
                                                      : find_band(search);
     if (status >= 0) status = dmb_modes_put_rigid(search);

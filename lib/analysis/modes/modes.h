@@ -42,7 +42,14 @@ typedef struct dmb_mode_search {
     double *rigid, *rigid_momentum; /* all rigid-body motions r, r^T M r = I, and M r, shape (rigid_count, rows) */
     size_t rigid_bytes;
     uint32_t rigid_count;
-    int32_t partly; /* 1: a search may give back fewer modes than wanted, those that have converged */
+    int32_t partly;   /* 1: a search may give back fewer modes than wanted, those that have converged */
+    int32_t counted;  /* 1: counts of eigenvalues confirm what a search finds */
+    size_t most;      /* vectors in the subspace of a search, 0: as dmb_krylov_largest says */
+    double window[2]; /* [1/s2] likewise it ends when `enough` modes of eigenvalues inside have converged */
+    uint32_t enough;  /* 0: it does not */
+    double definite;  /* [1/s2] no eigenvalue is known to be below minus this; 0: not known */
+    double reach;     /* [1/s2] of the last symmetric search: estimated distance of the last mode wanted from the
+                         shift, where fewer converged; 0: no estimate */
     int32_t apart; /* 1: they are uncoupled from all else, r^T K = 0, C r = 0, r^T C = 0, and taken out of the search */
 } dmb_mode_search;
 
@@ -119,6 +126,20 @@ int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega,
                           double *least);
 /* Value that the operator of a shift has at the root re + i im. */
 double dmb_shifted_value(double growth, double omega, double re, double im);
+/* Whether the dense way to so many modes is the faster one. */
+int dmb_modes_is_dense(const dmb_mode_search *search, uint32_t wanted);
+/* No shift where K is regular or pinned; otherwise a small one off the eigenvalues of a stable system; K is factored
+ * with it. Errors of dmb_modes_sparse. */
+int32_t dmb_modes_choose_shift(dmb_mode_search *search);
+/* The modes of smallest |s|, at least as many as the options ask for, or all there are; after
+ * dmb_modes_choose_shift. */
+int32_t dmb_modes_lowest(dmb_mode_search *search);
+/* Number of eigenvalues s^2 below *square, those 0 of rigid-body motions left out where they are apart. *square moves
+ * by `aside` where a block is singular; -1 if that does not help. The factors are gone. */
+int64_t dmb_modes_count_below(const dmb_mode_search *search, double *square, double aside);
+/* Adds all modes of eigenvalues from <= s^2 < to of a symmetric problem, piece by piece, each with as many as the
+ * counts give. DMB_ERR_NO_CONVERGENCE, _SINGULAR, _NO_MEMORY. */
+int32_t dmb_modes_squares(dmb_mode_search *search, double from, double to);
 /* All modes of low to high [Hz] and some at its edges, piece by piece: of symmetric problems, and of general ones.
  * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _TOO_LARGE, _NO_MEMORY. */
 int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high);

@@ -19,8 +19,10 @@
 
 /* Modes of a piece; pieces that wait; how often a piece may be cut. */
 enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
-/* A piece of eigenvalues is not made narrower than this part of them. */
+/* A piece of eigenvalues is not shrunk below this part of them, and not cut below the noise of eigenvalues. */
 #define DMB_NARROW 1e-4
+#define DMB_RESOLVED 1e-12
+#define DMB_NARROW_NOISE 256.0
 /* Half a strip of roots, as a part of the band's upper edge. */
 #define DMB_STRIP_WIDEST 0.5
 #define DMB_STRIP_LEAST 1e-5
@@ -44,8 +46,7 @@ static double square_of(const dmb_modes *modes, uint32_t i)
     return s[0] > 0.0 ? -s[0] * s[0] : s[1] * s[1];
 }
 
-/* Below *square, which steps aside where a block is singular; -1 if that does not help. */
-static int64_t count_below(const dmb_mode_search *search, double *square, double aside)
+int64_t dmb_modes_count_below(const dmb_mode_search *search, double *square, double aside)
 {
     for (int i = 0; i < 4; i++, *square += aside) {
         const int64_t count = dmb_linear_count(search->linear, *square);
@@ -54,10 +55,11 @@ static int64_t count_below(const dmb_mode_search *search, double *square, double
     return -1;
 }
 
-/* An eigenvalue or several equal ones may be all of it. */
-static int is_narrow(const interval *piece)
+/* An eigenvalue or several that are nearly equal may be all of it. */
+static int is_narrow(const interval *piece, double part, const dmb_mode_search *search)
 {
-    return piece->to - piece->from <= DMB_NARROW * fmax(fabs(piece->from), fabs(piece->to));
+    return piece->to - piece->from <=
+           part * fmax(fabs(piece->from), fabs(piece->to)) + DMB_NARROW_NOISE * search->noise;
 }
 
 /* Those from `first` on that are in the interval stay; how many. */
@@ -74,17 +76,47 @@ static int64_t keep_squares(dmb_modes *modes, uint32_t first, const interval *in
     return (int64_t)kept - first;
 }
 
-/* 1: all that the counts promise was found; 0: not so. */
-static int32_t search_interval(dmb_mode_search *search, const interval *piece, uint32_t there)
+/* Where most eigenvalues of the piece are: the part of it that holds at least so large a share of them is halved until
+ * neither half does, since a search from its middle separates them best. */
+#define DMB_DENSE_PART 0.6
+enum { DMB_DENSE_HALVES = 10 };
+
+static interval densest_part(const dmb_mode_search *search, const interval *piece)
+{
+    interval part = *piece;
+    const double least = DMB_DENSE_PART * (double)(piece->below_to - piece->below_from);
+    for (int i = 0; i < DMB_DENSE_HALVES && !is_narrow(&part, DMB_RESOLVED, search); i++) {
+        double middle = 0.5 * (part.from + part.to);
+        const int64_t below = dmb_modes_count_below(search, &middle, 1e-3 * (part.to - part.from));
+        if (below < 0) return part;
+        if ((double)(below - part.below_from) >= least) {
+            part.to = middle;
+            part.below_to = below;
+        } else if ((double)(part.below_to - below) >= least) {
+            part.from = middle;
+            part.below_from = below;
+        } else {
+            return part;
+        }
+    }
+    return part;
+}
+
+/* 1: all that the counts promise was found, from shifts in a part of the piece; 0: not so. */
+static int32_t search_interval(dmb_mode_search *search, const interval *piece, interval part, uint32_t there)
 {
     dmb_modes *modes = search->modes;
     const uint32_t first = modes->count;
     int32_t status = DMB_ERR_SINGULAR;
+    search->window[0] = piece->from;
+    search->window[1] = piece->to;
+    search->enough = there;
     for (int i = 0; i < 3 && status == DMB_ERR_SINGULAR; i++) { /* a shift may hit an eigenvalue */
-        search->shift = piece->from + (0.5 + 0.01 * i) * (piece->to - piece->from);
+        search->shift = part.from + (0.5 + 0.01 * i) * (part.to - part.from);
         modes->count = first;
         status = dmb_modes_sparse(search, there + DMB_MARGIN + search->rigid_count);
     }
+    search->enough = 0;
     if (status < 0 && status != DMB_ERR_NO_CONVERGENCE) return status;
     if (status >= 0 && keep_squares(modes, first, piece) == (int64_t)there) return 1;
     modes->count = first;
@@ -97,11 +129,11 @@ static int shrink(const dmb_mode_search *search, interval *piece, double *middle
 {
     for (int i = 0; i < DMB_CUTS; i++) {
         *middle = piece->from + 0.4567 * (piece->to - piece->from);
-        *below = count_below(search, middle, 1e-3 * (piece->to - piece->from));
+        *below = dmb_modes_count_below(search, middle, 1e-3 * (piece->to - piece->from));
         if (*below < 0) return 0;
-        if (*below == piece->below_from && !is_narrow(piece))
+        if (*below == piece->below_from && !is_narrow(piece, DMB_NARROW, search))
             piece->from = *middle;
-        else if (*below == piece->below_to && !is_narrow(piece))
+        else if (*below == piece->below_to && !is_narrow(piece, DMB_NARROW, search))
             piece->to = *middle;
         else
             break;
@@ -109,31 +141,71 @@ static int shrink(const dmb_mode_search *search, interval *piece, double *middle
     return 1;
 }
 
-static int32_t search_squares(dmb_mode_search *search, interval all)
-{
+typedef struct pieces {
     interval waiting[DMB_PIECES];
-    uint32_t count = 0;
-    all.below_from = count_below(search, &all.from, -1e-9 * fabs(all.from));
-    all.below_to = count_below(search, &all.to, 1e-9 * fabs(all.to));
-    if (all.below_from < 0 || all.below_to < 0) return DMB_ERR_NO_CONVERGENCE;
-    waiting[count++] = all;
-    while (count > 0) {
-        interval piece = waiting[--count];
-        const int64_t there = piece.below_to - piece.below_from;
-        double middle;
-        int64_t below;
-        if (there <= 0) continue;
-        if (!shrink(search, &piece, &middle, &below)) return DMB_ERR_NO_CONVERGENCE;
-        if (there <= DMB_PIECE) {
-            const int32_t status = search_interval(search, &piece, (uint32_t)there);
-            if (status < 0) return status;
-            if (status > 0) continue;
-        }
-        if (piece.cuts == DMB_CUTS || count + 2 > DMB_PIECES) return DMB_ERR_NO_CONVERGENCE;
-        waiting[count++] = (interval){middle, piece.to, below, piece.below_to, piece.cuts + 1};
-        waiting[count++] = (interval){piece.from, middle, piece.below_from, below, piece.cuts + 1};
+    uint32_t count;
+} pieces;
+
+static void push(pieces *all, const interval *piece, double from, double to, int64_t below_from, int64_t below_to)
+{
+    if (below_to > below_from) all->waiting[all->count++] = (interval){from, to, below_from, below_to, piece->cuts + 1};
+}
+
+/* Where the eigenvalues are much denser in a part of the piece than in the whole, the part is a piece of its own: 1. */
+#define DMB_MUCH_DENSER 32.0
+
+static int set_apart(pieces *all, const interval *piece, const interval *part)
+{
+    if (!(piece->to - piece->from > DMB_MUCH_DENSER * (part->to - part->from))) return 0;
+    if (part->below_to - part->below_from == piece->below_to - piece->below_from) return 0;
+    push(all, piece, part->to, piece->to, part->below_to, piece->below_to);
+    push(all, piece, part->from, part->to, part->below_from, part->below_to);
+    push(all, piece, piece->from, part->from, piece->below_from, part->below_from);
+    return 1;
+}
+
+/* 1: the modes of the piece were added, or it was cut into others. */
+static int32_t search_piece(dmb_mode_search *search, pieces *all, interval piece)
+{
+    const int64_t there = piece.below_to - piece.below_from;
+    double middle;
+    int64_t below;
+    if (!shrink(search, &piece, &middle, &below)) return DMB_ERR_NO_CONVERGENCE;
+    const int final = piece.cuts == DMB_CUTS || all->count + 3 > DMB_PIECES;
+    if (there <= DMB_PIECE) {
+        const interval part = densest_part(search, &piece);
+        if (!final && set_apart(all, &piece, &part)) return 1;
+        const int32_t status = search_interval(search, &piece, part, (uint32_t)there);
+        if (status != 0) return status;
     }
-    return DMB_OK;
+    if (final || is_narrow(&piece, DMB_RESOLVED, search)) return DMB_ERR_NO_CONVERGENCE;
+    push(all, &piece, middle, piece.to, below, piece.below_to);
+    push(all, &piece, piece.from, middle, piece.below_from, below);
+    return 1;
+}
+
+static int32_t search_squares(dmb_mode_search *search, interval whole)
+{
+    pieces all = {.count = 0};
+    int32_t status = DMB_OK;
+    whole.below_from = dmb_modes_count_below(search, &whole.from, -1e-9 * fabs(whole.from));
+    whole.below_to = dmb_modes_count_below(search, &whole.to, 1e-9 * fabs(whole.to));
+    if (whole.below_from < 0 || whole.below_to < 0) return DMB_ERR_NO_CONVERGENCE;
+    push(&all, &whole, whole.from, whole.to, whole.below_from, whole.below_to);
+    while (all.count > 0 && status >= 0) {
+        all.count--;
+        status = search_piece(search, &all, all.waiting[all.count]);
+    }
+    return status < 0 ? status : DMB_OK;
+}
+
+int32_t dmb_modes_squares(dmb_mode_search *search, double from, double to)
+{
+    search->pinned = 0;
+    search->partly = search->counted = 1; /* those in the piece converge first, and the counts confirm them */
+    const int32_t status = search_squares(search, (interval){.from = from, .to = to});
+    search->partly = search->counted = 0;
+    return status;
 }
 
 int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high)
@@ -141,11 +213,9 @@ int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double hi
     const double a = DMB_TWO_PI * low * DMB_TWO_PI * low, b = DMB_TWO_PI * high * DMB_TWO_PI * high;
     const double edge = 1e-9 * b; /* modes at the ends of the band are told by their frequencies */
     search->modes->count = 0;
-    search->pinned = 0;
-    search->partly = 1; /* those in the piece converge first */
-    if (a <= edge) return search_squares(search, (interval){.from = -b - edge, .to = b + edge});
-    const int32_t status = search_squares(search, (interval){.from = a - edge, .to = b + edge});
-    return status < 0 ? status : search_squares(search, (interval){.from = -b - edge, .to = -a + edge});
+    if (a <= edge) return dmb_modes_squares(search, -b - edge, b + edge);
+    const int32_t status = dmb_modes_squares(search, a - edge, b + edge);
+    return status < 0 ? status : dmb_modes_squares(search, -b - edge, -a + edge);
 }
 
 /* ---- General ----------------------------------------------------------------------------------------------------- */

@@ -224,6 +224,11 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - apart_count(search));
     operator.symmetric = !general;
     operator.partly = search->partly;
+    operator.counted = search->counted;
+    operator.enough = search->enough;
+    operator.beyond[0] = 1.0 /(search->window[0] - search->shift); /* of (s^2 - shift)^-1, shift inside the window */
+    operator.beyond[1] = 1.0 /(search->window[1] - search->shift);
+    operator.most = search->most;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
     operator.draw = general ? general_draw : symmetric_draw;
@@ -243,12 +248,13 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     /* Motions that are not apart are found too, each with one root 0 or two, and left out. */
     const uint32_t values = search->apart ? wanted - search->rigid_count : wanted + search->rigid_count;
     const dmb_operator operator= operator_of(search, &A);
-    status = dmb_krylov_largest(&operator, values, search->shift != 0.0 ? 4 : 2,
+    status = dmb_krylov_largest(&operator, values, search->shift != 0.0 && !search->counted ? 4 : 2,
                                 search->general ? DMB_MODES_GENERAL_TOLERANCE : DMB_MODES_SYMMETRIC_TOLERANCE,
                                 &linear->allocator, &found);
     if (status < 0) return status;
     search->modes->info.solves += found.applications;
-    status = search->general ? take_general(search, &found) : refine(search, &found);
+    search->reach = found.next > 0.0 ? 1.0 / found.next : 0.0;
+    if (found.count > 0) status = search->general ? take_general(search, &found) : refine(search, &found);
     dmb_krylov_release(&found);
     return status;
 }
