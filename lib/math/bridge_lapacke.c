@@ -10,6 +10,7 @@
 /* ---- The functions of LAPACKE ------------------------------------------------------------------------------------ */
 
 #if DMB_WITH_LAPACK
+#include <fenv.h>
 #include <lapacke.h>
 
 _Static_assert(sizeof(lapack_int) == 4, "LAPACKE with 64-bit integers");
@@ -76,6 +77,37 @@ int dmb_has_lapack(void)
     return lapack_of_build().present;
 }
 
+/* ---- Floating-point environment ---------------------------------------------------------------------------------- */
+
+/* LAPACK divides by zero on purpose to learn what the processor makes of it (ieeeck), and raises flags: a host that
+ * traps floating-point exceptions would be ended by SIGFPE. Traps are off during a call; flags and traps of the host
+ * are as before after it. */
+#if DMB_WITH_LAPACK
+typedef fenv_t environment;
+
+static void hold_exceptions(environment *host)
+{
+    (void)feholdexcept(host);
+}
+
+static void restore_environment(const environment *host)
+{
+    (void)fesetenv(host);
+}
+#else
+typedef int32_t environment;
+
+static void hold_exceptions(environment *host)
+{
+    *host = 0;
+}
+
+static void restore_environment(const environment *host)
+{
+    (void)host;
+}
+#endif
+
 /* ---- Eigenproblems ----------------------------------------------------------------------------------------------- */
 
 /* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
@@ -116,8 +148,12 @@ int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
     const lapack_int m = (lapack_int)n;
     const lapack found = lapack_of_build();
     if (!found.present) return dmb_dense_symmetric(n, A, values, work);
-    return ((syevd *)found.function[SYEVD])(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work, doubles(n),
-                                            integer_work(n, work), integers(n));
+    environment host;
+    hold_exceptions(&host);
+    const lapack_int failed = ((syevd *)found.function[SYEVD])(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work,
+                                                               doubles(n), integer_work(n, work), integers(n));
+    restore_environment(&host);
+    return failed;
 }
 
 int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work)
@@ -125,8 +161,12 @@ int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *w
     const lapack_int m = (lapack_int)n;
     const lapack found = lapack_of_build();
     if (!found.present) return dmb_dense_pair(n, K, M, values, work);
-    return ((sygvd *)found.function[SYGVD])(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values, work, doubles(n),
-                                            integer_work(n, work), integers(n));
+    environment host;
+    hold_exceptions(&host);
+    const lapack_int failed = ((sygvd *)found.function[SYGVD])(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values,
+                                                               work, doubles(n), integer_work(n, work), integers(n));
+    restore_environment(&host);
+    return failed;
 }
 
 int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work)
@@ -135,7 +175,12 @@ int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V
     const lapack found = lapack_of_build();
     double none;
     if (!found.present) return dmb_dense_general(n, A, re, im, V, work);
-    return ((geev *)found.function[GEEV])(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
+    environment host;
+    hold_exceptions(&host);
+    const lapack_int failed =
+        ((geev *)found.function[GEEV])(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
+    restore_environment(&host);
+    return failed;
 }
 
 /* ---- Rank -------------------------------------------------------------------------------------------------------- */
@@ -206,10 +251,17 @@ static int singular_values(const rank_work *w)
     if (n > DMB_RANK_SINGULAR_MAX) return 0;
     for (uint32_t j = 0; j < rows; j++)
         for (uint32_t i = j + 1; i < (uint32_t)n; i++) w->a[(size_t)j * columns + i] = 0.0;
-    if (!w->found.present) dmb_dense_singular((size_t)n, rows, columns, w->a, w->s);
-    return !w->found.present ||
-           ((gesvd *)w->found.function[GESVD])(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, w->a,
-                                               (lapack_int)columns, w->s, NULL, 1, NULL, 1, w->rest, w->size) == 0;
+    if (!w->found.present) {
+        dmb_dense_singular((size_t)n, rows, columns, w->a, w->s);
+        return 1;
+    }
+    environment host;
+    hold_exceptions(&host);
+    const lapack_int failed =
+        ((gesvd *)w->found.function[GESVD])(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, w->a, (lapack_int)columns,
+                                            w->s, NULL, 1, NULL, 1, w->rest, w->size);
+    restore_environment(&host);
+    return failed == 0;
 }
 
 /* Rows by rows is, column by column, the transpose: its columns are the equations. LAPACK counts them from 1. */
@@ -220,8 +272,11 @@ static void order_rows(const rank_work *w, int32_t *order)
         dmb_dense_pivoted_qr(w->columns, w->rows, w->a, order, w->rest);
         return;
     }
+    environment host;
+    hold_exceptions(&host);
     (void)((geqp3 *)w->found.function[GEQP3])(LAPACK_COL_MAJOR, (lapack_int)w->columns, (lapack_int)w->rows, w->a,
                                               (lapack_int)w->columns, order, w->tau, w->rest, w->size);
+    restore_environment(&host);
     for (uint32_t i = 0; i < w->rows; i++) order[i]--;
 }
 

@@ -226,8 +226,8 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     operator.partly = search->partly;
     operator.counted = search->counted;
     operator.enough = search->enough;
-    operator.beyond[0] = 1.0 /(search->window[0] - search->shift); /* of (s^2 - shift)^-1, shift inside the window */
-    operator.beyond[1] = 1.0 /(search->window[1] - search->shift);
+    for (int side = 0; side < 2 && search->enough > 0; side++) /* of (s^2 - shift)^-1, shift inside the window */
+        operator.beyond[side] = 1.0 /(search->window[side] - search->shift);
     operator.most = search->most;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
