@@ -3,6 +3,7 @@
 #define DMB_ELEMENT_BEAM_ELEMENT_H
 
 #include "element/beam_math.h"
+#include "element/curved_element.h"
 
 /* Inertia of the flexible element (THEORY 3), in a number that is a double or lanes of doubles: the consistent mass of
  * the Timoshenko cubic, constant in the body frames of both ends, its momentum p = M v, the wrench p' + v^ p it takes,
@@ -127,11 +128,13 @@ typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
     int32_t dynamic;                     /* 0: no inertia, damping, nor rates */
     int32_t tangent;                     /* 1: blocks too */
-    int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true one, which is given back */
-    int32_t rates;        /* 1: strain rates are needed, for the energy ledger or for damping */
-    int32_t damped;       /* 1: damping_time is not 0 everywhere */
-    int32_t inertia_only; /* 1: blocks without the stiffness */
-    int32_t arms;         /* 1: some ends stand off their nodes */
+    int32_t extrapolated;  /* 1: geometric stiffness with the stress given, 0: with the true one, which is given back */
+    int32_t rates;         /* 1: strain rates are needed, for the energy ledger or for damping */
+    int32_t damped;        /* 1: damping_time is not 0 everywhere */
+    int32_t inertia_only;  /* 1: blocks without the stiffness */
+    int32_t arms;          /* 1: some ends stand off their nodes */
+    int32_t curved;        /* 1: elements that are bent, with their own mass and weight (element/curved_mass.h) */
+    const double *gravity; /* [m/s2] times the load factor, world, shape (3); NULL: none acts. Read if curved. */
 } dmb_beam_task;
 
 typedef struct dmb_beam_input {
@@ -238,7 +241,10 @@ static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_co
     if (task->dynamic) {
         dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, !task->damped, &out->C);
     }
-    if (!task->arms) return;
+}
+
+static inline void dmb_beam_to_nodes(const dmb_beam_task *task, const dmb_beam_constants *c, dmb_beam_output *out)
+{
     dmb_beam_blocks_to_nodes(c->arm, &out->K);
     if (task->dynamic) dmb_beam_blocks_to_nodes(c->arm, &out->C);
 }
@@ -256,9 +262,43 @@ static inline void dmb_beam_clear(dmb_beam_output *out)
     out->rounding = out->potential = out->damping = out->inertia = dmb_real_of(0.0);
 }
 
-/* Returns 0, or -1 where the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. */
-DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c, dmb_beam_input *in,
-                                     dmb_beam_output *out)
+/* Forces of a bent element, and their tangent, added to what the constant part of its mass did. */
+static inline void dmb_beam_add_curved(const dmb_beam_task *task, const dmb_curved_constants *c,
+                                       const dmb_beam_shape *at, const dmb_beam_input *in, dmb_beam_output *out)
+{
+    const double factor[2] = {task->mass_factor, task->velocity_factor}, none[3] = {0.0, 0.0, 0.0};
+    dmb_curved_shape shape;
+    dmb_curved_state state = {.dynamic = task->dynamic};
+    dmb_real f[12], w[12];
+    for (int i = 0; i < 12; i++) f[i] = w[i] = dmb_real_of(0.0);
+    dmb_curved_shape_at(c, at->d, &shape);
+    dmb_curved_weight(c, &shape, in->Ra, task->gravity ? task->gravity : none, state.weight);
+    dmb_curved_add_weight(c, &shape, state.weight, w);
+    if (task->rates) out->potential += dmb_vec6_dot(w, in->va) + dmb_vec6_dot(w + 6, in->vb);
+    if (task->dynamic) {
+        dmb_vec6_copy(in->va, state.v);
+        dmb_vec6_copy(in->vb, state.v + 6);
+        dmb_vec6_copy(in->aa, state.a);
+        dmb_vec6_copy(in->ab, state.a + 6);
+        dmb_curved_add_inertia(c, &shape, state.v, state.a, f);
+        out->inertia += dmb_vec6_dot(f, in->va) + dmb_vec6_dot(f + 6, in->vb);
+    }
+    for (int i = 0; i < 6; i++) {
+        out->fa[i] += f[i] + w[i];
+        out->fb[i] += f[6 + i] + w[6 + i];
+        out->scale_a[i] += dmb_real_abs(f[i]) + dmb_real_abs(w[i]);
+        out->scale_b[i] += dmb_real_abs(f[6 + i]) + dmb_real_abs(w[6 + i]);
+    }
+    if (!task->tangent) return;
+    if (!task->inertia_only) dmb_curved_add_shape_tangent(c, &shape, &state, &out->K);
+    if (!task->inertia_only) dmb_curved_add_weight_tangent(c, &shape, &state, &out->K);
+    if (task->dynamic) dmb_curved_add_motion_tangent(c, &shape, &state, factor, &out->C);
+}
+
+/* Returns 0, or -1 where the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. `curved` is read if the task
+ * says so. */
+DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c,
+                                     const dmb_curved_constants *curved, dmb_beam_input *in, dmb_beam_output *out)
 {
     dmb_beam_shape shape;
     dmb_real pa[6], pb[6];
@@ -279,6 +319,8 @@ DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_c
         dmb_beam_inertia_force(c, in, pa, pb, out);
     }
     if (task->tangent) dmb_beam_tangent(task, c, &shape, in->va, in->vb, pa, pb, out);
+    if (task->curved) dmb_beam_add_curved(task, curved, &shape, in, out);
+    if (task->tangent && task->arms) dmb_beam_to_nodes(task, c, out);
     if (task->tangent && task->dynamic) dmb_beam_links(task, in, out);
     if (!task->arms) return 0;
     dmb_arm_wrench(c->arm[0], out->fa);

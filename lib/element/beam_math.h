@@ -79,7 +79,7 @@ static inline void dmb_beam_load_constants(const dmb_element_type *type, int lan
         dmb_real_set_lane(&c->bend[i], lane, type->bend[i]);
         dmb_real_set_lane(&c->arm[i], lane, type->arm[i]);
     }
-    dmb_beam_load_mass(&type->mass, lane, c);
+    dmb_beam_load_mass(dmb_element_constant_mass(type), lane, c);
     dmb_real_set_lane(&c->damping_time, lane, type->damping_time);
 }
 

@@ -16,6 +16,18 @@ typedef struct dmb_beam_mass {
     double bending[2][6];
 } dmb_beam_mass;
 
+/* Mass of an element that is bent (element/curved_mass.h): what J, the mean axes and C need. mass = 0: the element
+ * keeps the constant one. */
+typedef struct dmb_curved_mass {
+    double mass;         /* [kg] */
+    double rotary[2];    /* [kg m2] of all sections about the axis, across it */
+    double moving[6];    /* [kg, kg m2] C: what d' moves against the mean axes and the centre */
+    double turn[2];      /* [1/m] Gamma: speed of the mean axes by d'_y about z, by d'_z about -y */
+    double offset[2];    /* [-] k = q/60: first moment of the bending shapes, planes y and z, q = 1/(1 + P) */
+    double tilt[2];      /* [1/m] q/L: mean turn of the sections by d_y, d_z */
+    dmb_beam_mass apart; /* of mud that goes along sideways, constant in the frames of the ends */
+} dmb_curved_mass;
+
 /* Constants that equal elements share. */
 typedef struct dmb_element_type {
     double length;              /* [m] between its two ends, rigid arms not counted */
@@ -26,11 +38,23 @@ typedef struct dmb_element_type {
     double damping_time;        /* [s] tau; 0 when damping is left out */
     double rest[6];             /* [m, rad] d0 = L (1, 0, 0, curvature) */
     double arm[2];              /* [m] along x from node a to the element's end A, and from its end B to node b */
-    dmb_beam_mass mass;
+    dmb_beam_mass mass;         /* all of it where the element is straight */
+    dmb_curved_mass curved;
     double mass_per_metre; /* [kg/m] */
     double weight_mass;    /* [kg] of the element that gravity acts on, buoyancy taken off */
     double displaced;      /* [m3] that a fluid of density 1 takes off it */
 } dmb_element_type;
+
+static inline int dmb_element_is_curved(const dmb_element_type *type)
+{
+    return type->curved.mass > 0.0;
+}
+
+/* The part of the mass that stays as it is while the element bends. */
+static inline const dmb_beam_mass *dmb_element_constant_mass(const dmb_element_type *type)
+{
+    return dmb_element_is_curved(type) ? &type->curved.apart : &type->mass;
+}
 
 /* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric
  * spatial inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric

@@ -35,6 +35,8 @@ typedef struct dmb_beam_job {
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger;
     int32_t apart;            /* 1: nothing is added to the first node yet, it is written */
     int32_t damped, arms;     /* 1: some element of the scene has a damping time, rigid arms */
+    int32_t curved;           /* 1: all elements of the run have the mass of bent ones */
+    const double *gravity;    /* [m/s2] times the load factor, shape (3); NULL: none acts. Read if curved. */
     double *residual, *scale; /* shape (count + 1, 6) */
     double *strain;           /* written, shape (count, 6); NULL: it is not wanted */
     double *stress;           /* read if extrapolated, written by `extrapolate`, shape (count, 6) */

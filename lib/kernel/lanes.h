@@ -14,6 +14,7 @@
 typedef struct lane_types {
     uint32_t type[DMB_REAL_LANES];
     dmb_beam_constants constants;
+    dmb_curved_constants curved; /* where they are bent */
 } lane_types;
 
 static void load_types(const dmb_beam_job *job, const lane_group *g, int first, lane_types *types)
@@ -24,6 +25,7 @@ static void load_types(const dmb_beam_job *job, const lane_group *g, int first, 
         if (!first && types->type[l] == type) continue;
         types->type[l] = type;
         dmb_beam_load_constants(job->types + type, l, &types->constants);
+        if (job->curved) dmb_curved_load(job->types + type, l, &types->curved);
     }
 }
 
@@ -137,7 +139,7 @@ DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
         load_types(job, &g, first == 0, &types);
         load_input(job, task, &g, &in);
         if (task->tangent && task->extrapolated) load(job->stress, 6, 6, &g, 0, out.stress);
-        if (dmb_beam_element(task, &types.constants, &in, &out) < 0) {
+        if (dmb_beam_element(task, &types.constants, &types.curved, &in, &out) < 0) {
             job->failed = failed_of(job, &g, &types.constants, &in);
             return -1;
         }
@@ -152,26 +154,46 @@ DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
  * their own, whose frames on the stack are not added up. */
 DMB_LANES_CALL int32_t beams_in_motion(dmb_beam_job *job, int32_t rates)
 {
-    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, rates, 0, 0, 0};
+    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, rates, 0, 0, 0, 0, NULL};
     return beams_of(job, &task);
 }
 
 DMB_LANES_CALL int32_t beams_damped(dmb_beam_job *job)
 {
-    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, 1, 1, 0, job->arms};
+    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, 1, 1, 0, job->arms, 0, NULL};
     return beams_of(job, &task);
 }
 
 DMB_LANES_CALL int32_t beams_as_asked(dmb_beam_job *job)
 {
-    const dmb_beam_task task = {job->mass_factor, job->velocity_factor, job->dynamic,
-                                job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
-                                job->damped,      job->inertia_only,    job->arms};
+    const dmb_beam_task task = {job->mass_factor,
+                                job->velocity_factor,
+                                job->dynamic,
+                                job->tangent,
+                                job->extrapolated,
+                                job->dynamic && (job->ledger || job->damped),
+                                job->damped,
+                                job->inertia_only,
+                                job->arms,
+                                0,
+                                NULL};
+    return beams_of(job, &task);
+}
+
+DMB_LANES_CALL int32_t beams_curved(dmb_beam_job *job)
+{
+    const dmb_beam_task task = {job->mass_factor,  job->velocity_factor,
+                                job->dynamic,      job->tangent,
+                                job->extrapolated, job->dynamic && (job->ledger || job->damped),
+                                job->damped,       job->inertia_only,
+                                job->arms,         1,
+                                job->gravity};
     return beams_of(job, &task);
 }
 
 static int32_t beams(dmb_beam_job *job)
 {
+    if (job->curved) return beams_curved(job);
     if (!job->dynamic || job->tangent || (job->arms && !job->damped)) return beams_as_asked(job);
     return job->damped ? beams_damped(job) : beams_in_motion(job, job->ledger);
 }

@@ -59,6 +59,8 @@ typedef struct dmb_mesh_element {
     uint32_t run;   /* in the model's runs */
     uint32_t type;
     int32_t kernel;
+    int32_t curved; /* 1: has the mass of bent elements */
+    int32_t reserved;
 } dmb_mesh_element;
 
 /* A ring at its place on a string. */
@@ -205,6 +207,8 @@ int32_t dmb_mesh_bodies(dmb_mesh *mesh);
 int32_t dmb_mesh_rings(dmb_mesh *mesh);
 int32_t dmb_mesh_poses(dmb_mesh *mesh);
 int32_t dmb_mesh_depths(dmb_mesh *mesh);
+/* True for an element that has the mass of bent ones: by what it is described as, or since its sections are thick. */
+bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);

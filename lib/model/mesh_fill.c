@@ -191,6 +191,7 @@ static void fill_elements(const dmb_mesh *mesh, dmb_scene *scene)
     for (uint32_t i = 0; i < scene->type_count; ++i) {
         const dmb_element_type *type = scene->types + i;
         if (type->damping_time != 0.0) scene->damped = 1;
+        if (dmb_element_is_curved(type)) scene->curved = 1;
         if (type->arm[0] != 0.0 || type->arm[1] != 0.0) scene->arms = 1;
     }
     scene->kernels = dmb_kernels_widest();

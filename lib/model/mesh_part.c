@@ -62,7 +62,7 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
 {
     const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
     dmb_element_type type;
-    if (before != NULL && alike(element, before)) {
+    if (before != NULL && before->curved == element->curved && alike(element, before)) {
         element->type = before->type;
         return DMB_OK;
     }
@@ -75,6 +75,7 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
     if (!(mud.inside < 0.0)) type.displaced += dmb_inner_area(def, 0) * type.length;
     const int32_t status = add_mud(mesh, def, &mud, &type);
     if (status < 0) return status;
+    if (element->curved) dmb_element_make_curved(def, &type);
     return share_type(mesh, &type, &element->type);
 }
 
@@ -86,15 +87,16 @@ static int32_t kernel_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
     return a || b ? DMB_KERNEL_MIXED : DMB_KERNEL_PATH;
 }
 
-/* A batch ends where the kernel changes or the chain ends. */
+/* A batch ends where the kernel or the kind of mass changes, or the chain ends. */
 static int32_t add_to_batch(dmb_mesh *mesh, uint32_t e)
 {
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
-    if (e > 0 && element[-1].kernel == element->kernel && element[-1].node + 1 == element->node) {
+    if (e > 0 && element[-1].kernel == element->kernel && element[-1].curved == element->curved &&
+        element[-1].node + 1 == element->node) {
         ++DMB_VECTOR_AT(dmb_batch, &mesh->batches, mesh->batches.count - 1)->count;
         return DMB_OK;
     }
-    const dmb_batch batch = {e, 1, element->kernel, 0};
+    const dmb_batch batch = {e, 1, element->kernel, element->curved};
     return dmb_vector_append(&mesh->batches, &mesh->model->allocator, &batch, 1);
 }
 
@@ -104,6 +106,7 @@ int32_t dmb_mesh_types(dmb_mesh *mesh)
     for (uint32_t e = 0; e < mesh->elements.count && status >= 0; ++e) {
         dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
         element->kernel = kernel_of(mesh, element);
+        element->curved = element->kernel != DMB_KERNEL_PATH && dmb_mesh_is_curved(mesh, element);
         status = find_type(mesh, element, e > 0 ? element - 1 : NULL);
         if (status >= 0) status = add_to_batch(mesh, e);
     }

@@ -215,7 +215,7 @@ typedef struct dmb_flow_piece {
 typedef struct dmb_batch {
     uint32_t first, count; /* elements */
     int32_t kernel;        /* DMB_KERNEL_... */
-    int32_t reserved;
+    int32_t curved;        /* 1: elements with the mass of bent ones (element/curved_mass.h) */
 } dmb_batch;
 
 typedef struct dmb_scene {
@@ -224,6 +224,7 @@ typedef struct dmb_scene {
     int32_t features;                  /* DMB_FEATURE_... that the scene really has: asked for and described */
     int32_t damped, arms;              /* 1: some element has a damping time, stands off its nodes by rigid arms */
     int32_t beams_only;                /* 1: every element has two FULL nodes */
+    int32_t curved, curved_reserved;   /* 1: some element has the mass of bent ones */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t added_mass_count, added_reserved;

@@ -7,9 +7,11 @@
 
 #include "element/added_mass.h"
 #include "element/beam.h"
+#include "element/curved.h"
 #include "element/rigid_mass.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/energy.h"
 
 DMB_DECLARE_STRUCT(dmb_momentum)
 
@@ -65,14 +67,27 @@ static void add_mass(const carrier *at, double mass, const double moment[3], dmb
     dmb_vec3_add(sum->centre, b, sum->centre);
 }
 
+/* The element's first moment: +-rho A L^2/12 at its ends, of a bent one where its centre is. */
+static void add_element_mass(const dmb_element_type *type, const double d[6], const carrier *A, const carrier *B,
+                             dmb_momentum *sum)
+{
+    const double half = type->mass.axial[0] + type->mass.axial[1];
+    double near_moment[3] = {type->mass.bending[0][1] - type->mass.bending[0][3], 0.0, 0.0}, weight[3];
+    double far_moment[3] = {-near_moment[0], 0.0, 0.0};
+    if (dmb_element_is_curved(type)) {
+        dmb_element_bent_centre(type, d, near_moment, weight);
+        dmb_vec3_scale(2.0 * half, near_moment, near_moment);
+        dmb_vec3_zero(far_moment);
+    }
+    add_mass(A, half, near_moment, sum);
+    add_mass(B, half, far_moment, sum);
+}
+
 static void add_element(const dmb_scene *scene, const dmb_configuration *c, uint32_t element, dmb_momentum *sum)
 {
     const dmb_element_type *type = &scene->types[scene->element_type[element]];
     const uint32_t a = scene->element_node[element], b = a + 1;
-    const double half = type->mass.axial[0] + type->mass.axial[1];
-    double near_moment[3] = {type->mass.bending[0][1] - type->mass.bending[0][3], 0.0, 0.0};
-    double far_moment[3] = {-near_moment[0], 0.0, 0.0};
-    double pa[6], pb[6];
+    double pa[6], pb[6], d[6];
     carrier A, B;
     carrier_of(scene, c, a, type->arm[0], &A);
     carrier_of(scene, c, b, -type->arm[1], &B);
@@ -80,11 +95,11 @@ static void add_element(const dmb_scene *scene, const dmb_configuration *c, uint
         keep_rows(A.velocity);
         keep_rows(B.velocity);
     }
-    dmb_beam_mass_times(&type->mass, A.velocity, B.velocity, pa, pb);
+    dmb_element_relative_pose(scene, c, element, d);
+    dmb_element_momentum(type, d, A.velocity, B.velocity, pa, pb);
     add_momentum(&A, pa, sum);
     add_momentum(&B, pb, sum);
-    add_mass(&A, half, near_moment, sum);
-    add_mass(&B, half, far_moment, sum);
+    add_element_mass(type, d, &A, &B, sum);
 }
 
 static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, const dmb_rigid_mass *rigid_mass,

@@ -40,7 +40,8 @@ static uint64_t add_type(uint64_t h, const dmb_element_type *t)
     h = DMB_NUMBERS(h, t->mass.axial);
     h = DMB_NUMBERS(h, t->mass.torsion);
     h = DMB_NUMBERS(h, t->mass.bending[0]);
-    return DMB_NUMBERS(h, t->mass.bending[1]);
+    h = DMB_NUMBERS(h, t->mass.bending[1]);
+    return dmb_element_is_curved(t) ? dmb_fnv_number(h, t->curved.mass) : h;
 }
 
 static uint64_t add_elements(uint64_t h, const dmb_scene *s)

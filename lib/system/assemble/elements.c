@@ -39,6 +39,7 @@ static dmb_beam_job job_of(const dmb_sim *sim, const dmb_batch *batch)
         .increment = sim->increment + row,
         .damped = scene->damped,
         .arms = scene->arms,
+        .curved = batch->curved,
         .residual = sim->residual + row,
         .scale = sim->scale_row + row,
         .strain = sim->element_strain + 6 * e,
@@ -64,6 +65,7 @@ static int strain_is_kept(const dmb_evaluation *evaluation)
 static dmb_beam_job task_of(const dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     dmb_beam_job job = job_of(evaluation->sim, batch);
+    job.gravity = evaluation->gravity;
     if (!strain_is_kept(evaluation)) job.strain = NULL;
     job.mass_factor = evaluation->mass_factor;
     job.velocity_factor = evaluation->velocity_factor;
@@ -321,16 +323,20 @@ DMB_OWN_FRAME static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e
                                 evaluation->dynamic && (sim->options.energy_ledger || scene->damped),
                                 scene->damped,
                                 evaluation->inertia_only,
-                                scene->arms};
+                                scene->arms,
+                                dmb_element_is_curved(type),
+                                evaluation->gravity};
     dmb_beam_constants constants;
+    dmb_curved_constants curved = {.mass = 0.0};
     dmb_beam_input in;
     dmb_beam_output out;
     mixed_side_of(evaluation, a, &A);
     mixed_side_of(evaluation, b, &B);
     mixed_input(scene, e, &A, &B, &in);
     dmb_beam_load_constants(type, 0, &constants);
+    if (task.curved) dmb_curved_load(type, 0, &curved);
     if (task.extrapolated) dmb_vec6_copy(sim->element_stress + 6 * e, out.stress);
-    if (dmb_beam_element(&task, &constants, &in, &out) < 0) {
+    if (dmb_beam_element(&task, &constants, &curved, &in, &out) < 0) {
         evaluation->element = e;
         return DMB_ERR_ROTATION;
     }
@@ -369,6 +375,9 @@ static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 void dmb_gather_elements(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
+    const int heavy = scene->curved && scene->features & DMB_FEATURE_GRAVITY;
+    if (heavy) dmb_vec3_scale(evaluation->load_factor, scene->gravity, evaluation->gravity);
+    if (!heavy) dmb_vec3_zero(evaluation->gravity);
     for (uint32_t i = 0; i < scene->batch_count && evaluation->status >= 0; i++)
         evaluation->status = gather_batch(evaluation, scene->batches + i);
 }

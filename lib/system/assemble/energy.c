@@ -5,6 +5,7 @@
 
 #include "element/added_mass.h"
 #include "element/beam.h"
+#include "element/curved.h"
 #include "element/rigid_mass.h"
 #include "force/hole.h"
 #include "sim/node.h"
@@ -33,6 +34,39 @@ static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, u
     dmb_arm_velocity(-type_of(scene, e)->arm[1], vb);
 }
 
+/* Pose of a node as quaternion, rotation and displacement. */
+static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double q[4], double R[9],
+                    double u[3])
+{
+    dmb_node_pose(scene, c, node, R, u);
+    if (is_path(scene, node))
+        dmb_quat_from_matrix(R, q);
+    else
+        memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
+}
+
+/* Relative pose of an element's ends, d = log(H_A^-1 H_B), from displacements, which keep the digits that positions
+ * far from the origin lose. */
+static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
+{
+    const uint32_t a = scene->element_node[e];
+    double qa[4], qb[4], Ra[9], Rb[9], ua[3], ub[3], span[3];
+    pose_of(scene, c, a, qa, Ra, ua);
+    pose_of(scene, c, a + 1, qb, Rb, ub);
+    for (uint32_t i = 0; i < 3; i++) span[i] = scene->element_span[3 * e + i] + (ub[i] - ua[i]);
+    (void)dmb_beam_deform(type_of(scene, e), qa, Ra, qb, span, shape);
+}
+
+void dmb_element_relative_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double d[6])
+{
+    dmb_beam_shape shape;
+    memset(d, 0, 6 * sizeof *d);
+    if (!dmb_element_is_curved(type_of(scene, element))) return;
+    shape_of(scene, configuration, element, &shape);
+    dmb_vec6_copy(shape.d, d);
+}
+
 typedef struct ends {
     double va[6], vb[6], pa[6], pb[6];
 } ends;
@@ -40,7 +74,7 @@ typedef struct ends {
 /* Velocities and momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
 static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, ends *m)
 {
-    double *va = m->va, *vb = m->vb;
+    double *va = m->va, *vb = m->vb, d[6];
     const uint32_t a = scene->element_node[e];
     if (is_path(scene, a) && is_path(scene, a + 1)) {
         const double *v = c->velocity;
@@ -51,10 +85,11 @@ static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint
     } else {
         end_velocities(scene, c, e, va, vb);
     }
-    dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, m->pa, m->pb);
+    dmb_element_relative_pose(scene, c, e, d);
+    dmb_element_momentum(type_of(scene, e), d, va, vb, m->pa, m->pb);
 }
 
-/* (v_A . p_A + v_B . p_B)/2 with p = M v, M constant in the body frames of the ends (THEORY 3). */
+/* (v_A . p_A + v_B . p_B)/2 */
 double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
 {
     ends m;
@@ -127,29 +162,6 @@ double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum;
 }
 
-/* Pose of a node as quaternion, rotation and displacement. */
-static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double q[4], double R[9],
-                    double u[3])
-{
-    dmb_node_pose(scene, c, node, R, u);
-    if (is_path(scene, node))
-        dmb_quat_from_matrix(R, q);
-    else
-        memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
-}
-
-/* Relative pose of an element's ends, d = log(H_A^-1 H_B), from displacements, which keep the digits that positions
- * far from the origin lose. */
-static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
-{
-    const uint32_t a = scene->element_node[e];
-    double qa[4], qb[4], Ra[9], Rb[9], ua[3], ub[3], span[3];
-    pose_of(scene, c, a, qa, Ra, ua);
-    pose_of(scene, c, a + 1, qb, Rb, ub);
-    for (uint32_t i = 0; i < 3; i++) span[i] = scene->element_span[3 * e + i] + (ub[i] - ua[i]);
-    (void)dmb_beam_deform(type_of(scene, e), qa, Ra, qb, span, shape);
-}
-
 void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6])
 {
     const uint32_t a = scene->element_node[element];
@@ -197,6 +209,35 @@ double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *config
     return sum;
 }
 
+/* Where the centre of a bent element's weight is off the point that its nodes' weight acts at, world, and at time 0. */
+static void bent_centre(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double now[3], double start[3])
+{
+    const uint32_t a = scene->element_node[e];
+    const double *q = scene->reference_quaternion + 4 * (size_t)a;
+    dmb_beam_shape shape;
+    double R[9], mass[3], x[3];
+    shape_of(scene, c, e, &shape);
+    dmb_node_pose(scene, c, a, R, x);
+    dmb_element_bent_centre(type_of(scene, e), shape.d, mass, x);
+    dmb_mat3_vec(R, x, now);
+    dmb_quat_to_matrix(q, R);
+    (void)dmb_beam_deform(type_of(scene, e), q, R, q + 4, scene->element_span + 3 * (size_t)e, &shape);
+    dmb_element_bent_centre(type_of(scene, e), shape.d, mass, x);
+    dmb_mat3_vec(R, x, start);
+}
+
+static double bent_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0, now[3], start[3];
+    for (uint32_t e = 0; scene->curved && e < scene->element_count; e++) {
+        if (!dmb_element_is_curved(type_of(scene, e))) continue;
+        bent_centre(scene, configuration, e, now, start);
+        dmb_vec3_sub(now, start, now);
+        sum -= type_of(scene, e)->weight_mass * dmb_vec3_dot(scene->gravity, now);
+    }
+    return sum;
+}
+
 /* -m g.u - g.((R - R0) b) */
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
@@ -213,7 +254,7 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
         dmb_vec3_sub(now, start, now);
         sum -= dmb_vec3_dot(scene->gravity, now);
     }
-    return sum;
+    return sum + bent_energy(scene, configuration);
 }
 
 /* Sum over the rings of length times the integral of K d^n (THEORY 5); damping stores nothing. */
@@ -300,27 +341,20 @@ static void add_end_flow(const dmb_scene *scene, const dmb_configuration *config
 }
 
 /* M a - ad_v^T p of a beam on its two ends, in the frame of each; 0 in a quasi-static state. */
-static void end_inertia(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double fa[6],
-                        double fb[6])
+static void end_inertia(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                        const double d[6], double f[12])
 {
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element];
-    double va[6], vb[6], aa[6], ab[6], pa[6], pb[6], ga[6], gb[6];
-    for (int i = 0; i < 6; i++) fa[i] = fb[i] = 0.0;
+    double v[12], acceleration[12];
+    memset(f, 0, 12 * sizeof *f);
     if (dmb_is_quasi_static(configuration)) return;
-    end_velocities(scene, configuration, element, va, vb);
-    dmb_node_vector(scene, configuration, a, configuration->acceleration, aa);
-    dmb_node_vector(scene, configuration, a + 1, configuration->acceleration, ab);
-    dmb_arm_velocity(type->arm[0], aa);
-    dmb_arm_velocity(-type->arm[1], ab);
-    dmb_beam_mass_times(&type->mass, va, vb, pa, pb);
-    dmb_beam_mass_times(&type->mass, aa, ab, fa, fb);
-    dmb_ad_transpose(va, pa, ga);
-    dmb_ad_transpose(vb, pb, gb);
-    for (int i = 0; i < 6; i++) {
-        fa[i] -= ga[i];
-        fb[i] -= gb[i];
-    }
+    end_velocities(scene, configuration, element, v, v + 6);
+    dmb_node_vector(scene, configuration, a, configuration->acceleration, acceleration);
+    dmb_node_vector(scene, configuration, a + 1, configuration->acceleration, acceleration + 6);
+    dmb_arm_velocity(type->arm[0], acceleration);
+    dmb_arm_velocity(-type->arm[1], acceleration + 6);
+    dmb_element_inertia(type, d, v, acceleration, f);
 }
 
 /* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
@@ -330,19 +364,21 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
 {
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element];
-    double fa[6], fb[6], wa[6], wb[6], R[9], u[3];
+    double f[12], bent[12], w[12], d[6], R[9], u[3];
     dmb_element_section_force(scene, configuration, element, load);
     if (is_path(scene, a) && is_path(scene, a + 1)) return;
-    end_inertia(scene, configuration, element, fa, fb);
+    dmb_element_relative_pose(scene, configuration, element, d);
+    end_inertia(scene, configuration, element, d, f);
     dmb_node_pose(scene, configuration, a, R, u);
-    end_weight(scene, type, R, 1.0, wa);
-    add_end_flow(scene, configuration, element, 0, wa);
-    dmb_node_pose(scene, configuration, a + 1, R, u);
-    end_weight(scene, type, R, -1.0, wb);
-    add_end_flow(scene, configuration, element, 1, wb);
+    dmb_element_bent_weight(type, d, R, scene->gravity, bent);
+    for (uint32_t end = 0; end < 2; end++) {
+        dmb_node_pose(scene, configuration, a + end, R, u);
+        end_weight(scene, type, R, end ? -1.0 : 1.0, w + 6 * end);
+        add_end_flow(scene, configuration, element, end, w + 6 * end);
+    }
     for (int i = 0; i < 6; i++) {
-        load[i] -= fa[i] - wa[i];
-        load[6 + i] += fb[i] - wb[i];
+        load[i] -= f[i] - w[i] - bent[i];
+        load[6 + i] += f[6 + i] - w[6 + i] - bent[6 + i];
     }
 }
 

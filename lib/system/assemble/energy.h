@@ -16,6 +16,9 @@ double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *config
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Stored in the wall's normal stiffness. Energy stored in bristles counts as spent by friction until it comes back. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* d = log(H_A^-1 H_B) of the ends of a bent element, shape (6); 0 of others, of which nothing asks for it. */
+void dmb_element_relative_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double d[6]);
 /* Strain of an element times its length, e of element/beam_math.h, shape (6). */
 void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6]);
 /* Change of that by a small motion of the nodes, given as `velocity` of the configuration, shape (6). */

@@ -33,10 +33,11 @@ typedef struct dmb_evaluation {
     int32_t slipping;       /* statics: friction acts as at the speed slip[] */
     double wall_softness;   /* statics: rings press as on a wall this much softer; 0: as it is */
     double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
-    double rounding;  /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
-    double power[8];  /* [W] of each class of force on the bodies, DMB_POWER_... */
-    int32_t status;   /* of this evaluation */
-    uint32_t element; /* where status says DMB_ERR_ROTATION */
+    double rounding;   /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
+    double gravity[3]; /* [m/s2] times load_factor, on bent elements */
+    double power[8];   /* [W] of each class of force on the bodies, DMB_POWER_... */
+    int32_t status;    /* of this evaluation */
+    uint32_t element;  /* where status says DMB_ERR_ROTATION */
 } dmb_evaluation;
 
 /* Residual into sim->residual, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,

@@ -13,7 +13,7 @@ enum { ELEMENTS = 19, NODES = ELEMENTS + 1, ROWS = 6 * NODES, BLOCKS = 36 * NODE
 static const double much = 2.49, too_far = 2.51;
 
 typedef struct beam_input {
-    dmb_element_type types[TYPES];
+    dmb_element_type types[TYPES], curved[TYPES];
     uint32_t type[ELEMENTS];
     double span[3 * ELEMENTS], displacement[3 * NODES], quaternion[4 * NODES];
     double velocity[ROWS], acceleration[ROWS], increment[ROWS], stress[6 * ELEMENTS];
@@ -27,11 +27,13 @@ typedef struct beam_output {
 
 /* One way of asking. */
 typedef struct beam_case {
-    int32_t dynamic, tangent, extrapolated, inertia_only, damped;
+    int32_t dynamic, tangent, extrapolated, inertia_only, damped, curved;
 } beam_case;
 
-static const beam_case cases[] = {{0, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 1},
-                                  {1, 1, 0, 0, 1}, {1, 1, 1, 0, 0}, {1, 1, 0, 1, 0}};
+static const beam_case cases[] = {{0, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}, {1, 0, 0, 0, 1, 0}, {1, 1, 0, 0, 1, 0},
+                                  {1, 1, 1, 0, 0, 0}, {1, 1, 0, 1, 0, 0}, {0, 1, 0, 0, 0, 1}, {1, 0, 0, 0, 1, 1},
+                                  {1, 1, 0, 0, 0, 1}, {1, 1, 1, 1, 0, 1}};
+static const double gravity[3] = {2.0, 3.0, -9.0};
 enum { CASES = sizeof cases / sizeof cases[0] };
 
 /* ---- Chains of elements ------------------------------------------------------------------------------------------ */
@@ -52,6 +54,9 @@ static void set_types(beam_input *in)
         def.section_inertia[0] = 0.3;
         def.section_inertia[1] = 0.2;
         dmb_element_type_of(&def, arms[t], 0.01 * t, in->types + t);
+        in->types[t].weight_mass = def.length;
+        in->curved[t] = in->types[t];
+        dmb_element_make_curved(&def, in->curved + t);
     }
 }
 
@@ -102,7 +107,7 @@ static int32_t run_part(uint32_t lanes, const beam_case *c, const beam_input *in
     dmb_beam_job job = {
         .count = count,
         .failed = DMB_NONE,
-        .types = in->types,
+        .types = c->curved ? in->curved : in->types,
         .type = in->type + first,
         .span = in->span + 3 * first,
         .displacement = in->displacement + 3 * first,
@@ -119,6 +124,8 @@ static int32_t run_part(uint32_t lanes, const beam_case *c, const beam_input *in
         .ledger = 1,
         .damped = c->damped,
         .arms = 1,
+        .curved = c->curved,
+        .gravity = gravity,
         .residual = out->residual + 6 * first,
         .scale = out->scale + 6 * first,
         .strain = out->strain + 6 * first,
