@@ -372,7 +372,8 @@ enum { DMB_FRAME_WORLD = 0, DMB_FRAME_BODY = 1, DMB_FRAME_HOLE = 2 };
 typedef struct dmb_load_def {
     uint32_t struct_size;
     int32_t frame;    /* DMB_FRAME_WORLD: dead load (default); DMB_FRAME_BODY: follower */
-    dmb_place place;  /* any place of a pipe, or a body; between nodes by the element's own interpolation */
+    dmb_place place;  /* any place of a pipe, or a body; inside an element it gets a node, which divides the element.
+                         Within a quarter of the pipe's diameter of a node it acts by the element's interpolation */
     double force[3];  /* [N] in `frame`, shape (3) */
     double moment[3]; /* [N m] in `frame`, shape (3) */
     dmb_id programme; /* [-] factor over time; {0, 0}: 1 */

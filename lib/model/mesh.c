@@ -54,6 +54,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .pipes = {.item_size = sizeof(dmb_pipe_map)},
         .bodies = {.item_size = sizeof(dmb_body_map)},
         .ring_order = {.item_size = sizeof(dmb_mesh_ring)},
+        .divisions = {.item_size = sizeof(dmb_mesh_ring)},
         .rings = {.item_size = sizeof(dmb_ring_map)},
     };
     *mesh = empty;
@@ -62,14 +63,14 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 void dmb_mesh_release(dmb_mesh *mesh)
 {
     dmb_vector *const all[] = {
-        &mesh->stations,    &mesh->pieces,      &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
-        &mesh->elements,    &mesh->types,       &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
-        &mesh->path_sites,  &mesh->drives,      &mesh->loads,         &mesh->actuators,    &mesh->bits,
-        &mesh->joints,      &mesh->couplings,   &mesh->callbacks,     &mesh->laws,         &mesh->driven,
-        &mesh->constraints, &mesh->clusters,    &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
-        &mesh->bodies,      &mesh->inputs,      &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
-        &mesh->events,      &mesh->forces,      &mesh->ring_order,    &mesh->rings,        &mesh->inside,
-        &mesh->stuck,       &mesh->flow_pieces, &mesh->gain_tables,   &mesh->added_masses};
+        &mesh->stations,    &mesh->pieces,    &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
+        &mesh->elements,    &mesh->types,     &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
+        &mesh->path_sites,  &mesh->drives,    &mesh->loads,         &mesh->actuators,    &mesh->bits,
+        &mesh->joints,      &mesh->couplings, &mesh->callbacks,     &mesh->laws,         &mesh->driven,
+        &mesh->constraints, &mesh->clusters,  &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
+        &mesh->bodies,      &mesh->inputs,    &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
+        &mesh->events,      &mesh->forces,    &mesh->ring_order,    &mesh->divisions,    &mesh->rings,
+        &mesh->inside,      &mesh->stuck,     &mesh->flow_pieces,   &mesh->gain_tables,  &mesh->added_masses};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 
@@ -141,7 +142,17 @@ static uint64_t elements_of(const dmb_mesh *mesh, const dmb_pipe_run *run)
     return dmb_mesh_kind(mesh, run) == DMB_PIPE_RIGID ? 0 : (uint64_t)run->count * run->def.elements;
 }
 
-/* Each string has one node more than elements, each free body one node, each ring at most one. */
+/* Points at which forces may divide an element, at most. */
+static uint64_t points_of(const dmb_model *model)
+{
+    uint64_t count = (uint64_t)model->loads.count + model->stuck.count + 2 * (uint64_t)model->springs.count;
+    for (uint32_t i = 0; i < model->forces.count; ++i)
+        count += DMB_LIST_AT(const dmb_force_def, model->forces, i)->place_count;
+    return count;
+}
+
+/* Each string has one node more than elements, each free body one node, each ring and each point of a force at most
+ * one. */
 int32_t dmb_mesh_count(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -151,7 +162,7 @@ int32_t dmb_mesh_count(dmb_mesh *mesh)
         elements += elements_of(mesh, dmb_mesh_run_at(mesh, i)); /* 2^24 runs of 2^30 at most */
         pipes += dmb_mesh_run_at(mesh, i)->count;
     }
-    elements += model->rings.count;
+    elements += model->rings.count + points_of(model);
     const uint64_t nodes = elements + model->strings.count + model->bodies.count;
     if (status >= 0 && (nodes > (uint64_t)DMB_NODES_MAX || pipes > (uint64_t)DMB_NODES_MAX)) {
         dmb_message_set(&mesh->model->message, "model: nodes = %zu and pipes = %zu, must be <= %u each", (size_t)nodes,
@@ -253,9 +264,10 @@ static int32_t take_options(dmb_model *model, const dmb_compile_options *given, 
 static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
 {
     static int32_t (*const steps[])(dmb_mesh *) = {
-        dmb_mesh_hole,   dmb_mesh_count,   dmb_mesh_check,  dmb_mesh_ring_places, dmb_mesh_strings, dmb_mesh_bodies,
-        dmb_mesh_rings,  dmb_mesh_poses,   dmb_mesh_depths, dmb_mesh_types,       dmb_mesh_masses,  dmb_mesh_sites,
-        dmb_mesh_joints, dmb_mesh_actions, dmb_mesh_forces, dmb_mesh_constraints, dmb_mesh_inputs,  dmb_mesh_flow,
+        dmb_mesh_hole,    dmb_mesh_count,       dmb_mesh_check,  dmb_mesh_ring_places, dmb_mesh_divisions,
+        dmb_mesh_strings, dmb_mesh_bodies,      dmb_mesh_rings,  dmb_mesh_poses,       dmb_mesh_depths,
+        dmb_mesh_types,   dmb_mesh_masses,      dmb_mesh_sites,  dmb_mesh_joints,      dmb_mesh_actions,
+        dmb_mesh_forces,  dmb_mesh_constraints, dmb_mesh_inputs, dmb_mesh_flow,
     };
     int32_t status = DMB_OK;
     mesh->features = dmb_mesh_features(mesh);

@@ -5,7 +5,8 @@
  *   step            reads                      fills
  *   count           runs                       run_order, room in nodes and elements
  *   ring_places     rings, runs                ring_order
- *   strings         runs, masks, ring_order    nodes (at, size, free), elements (node, arms, length), pipes, strings
+ *   divisions       ring_order, forces, ...    divisions
+ *   strings         runs, masks, divisions     nodes (at, size, free), elements (node, arms, length), pipes, strings
  *   bodies          bodies, bits               nodes of free bodies, bodies
  *   rings           ring_order, elements       bodies, rings
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
@@ -63,12 +64,12 @@ typedef struct dmb_mesh_element {
     int32_t reserved;
 } dmb_mesh_element;
 
-/* A ring at its place on a string. */
+/* A ring, or the point of a force, at its place on a string. */
 typedef struct dmb_mesh_ring {
     double along;    /* [m] of its middle from the near end of the pipe */
     uint32_t string; /* index */
     uint32_t pipe;
-    uint32_t ring; /* in the model's rings */
+    uint32_t ring; /* in the model's rings; DMB_NONE: the point of a force */
     uint32_t reserved;
 } dmb_mesh_ring;
 
@@ -116,7 +117,8 @@ typedef struct dmb_mesh {
     dmb_vector pipes;         /* dmb_pipe_map */
     dmb_vector bodies;        /* dmb_body_map: bodies, then bits, then rings */
     dmb_vector ring_order;    /* dmb_mesh_ring: by string, pipe and place */
-    dmb_vector rings;         /* dmb_ring_map, in that order */
+    dmb_vector divisions;     /* dmb_mesh_ring: the same with the points of forces inside pipes */
+    dmb_vector rings;         /* dmb_ring_map, in the order of ring_order */
     uint32_t tool_joints;     /* pipes that have one */
     uint32_t history_count;
     uint32_t delays;   /* drives with a delay line */
@@ -164,6 +166,12 @@ typedef struct dmb_ring_range {
     uint32_t count;
 } dmb_ring_range;
 dmb_ring_range dmb_mesh_rings_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
+/* Likewise of rings and points of forces, which divide its elements. */
+dmb_ring_range dmb_mesh_divisions_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
+/* By string, pipe and distance along it. */
+void dmb_mesh_sort_places(dmb_mesh_ring *items, size_t count);
+/* Run that holds a pipe of a string; NULL: there is no such pipe. */
+const dmb_pipe_run *dmb_mesh_run_with(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
 /* [m] Closer to a node than this, a quarter of the pipe's diameter, a ring is carried by that node on a rigid arm: over
  * such lengths a beam does not deform by itself. Farther away it has a node of its own, which divides an element. */
 double dmb_ring_reach(const dmb_pipe_def *def);
@@ -202,6 +210,7 @@ double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring);
 int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);
 int32_t dmb_mesh_ring_places(dmb_mesh *mesh);
+int32_t dmb_mesh_divisions(dmb_mesh *mesh);
 int32_t dmb_mesh_strings(dmb_mesh *mesh);
 int32_t dmb_mesh_bodies(dmb_mesh *mesh);
 int32_t dmb_mesh_rings(dmb_mesh *mesh);

@@ -10,7 +10,7 @@
 
 #define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
 
-/* Ends of elements that rings divide. */
+/* Ends of elements that rings or forces divide. */
 static bool place_on_divided(const dmb_mesh *mesh, const dmb_pipe_map *map, double along, dmb_mesh_place *found)
 {
     double fraction;

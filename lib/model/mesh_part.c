@@ -174,13 +174,13 @@ typedef struct pipe_walk {
     uint8_t size; /* of its nodes */
 } pipe_walk;
 
-/* Nodes of rings inside one of the pipe's equal elements, which goes from `from` to `to` [m] of the pipe. Returns the
- * place of the last node before `to`. */
-static double divide(string_walk *walk, const pipe_walk *pipe, double from, double to, dmb_ring_range *rings)
+/* Nodes of rings and forces inside one of the pipe's equal elements, which goes from `from` to `to` [m] of the pipe.
+ * Returns the place of the last node before `to`. */
+static double divide(string_walk *walk, const pipe_walk *pipe, double from, double to, dmb_ring_range *places)
 {
     const double reach = dmb_ring_reach(&dmb_mesh_run_at(walk->mesh, pipe->run)->def);
-    for (; rings->count > 0 && rings->first->along < to; ++rings->first, --rings->count) {
-        const double at = rings->first->along;
+    for (; places->count > 0 && places->first->along < to; ++places->first, --places->count) {
+        const double at = places->first->along;
         if (at - from <= reach || to - at <= reach) continue;
         push_element(walk, pipe->run, at - from, 0.0);
         walk->node = push_node(walk, pipe->size, pipe->near + at);
@@ -189,16 +189,17 @@ static double divide(string_walk *walk, const pipe_walk *pipe, double from, doub
     return from;
 }
 
-/* Equal elements, divided where rings have nodes of their own, and the tool joint as the far arm of the last one. */
+/* Equal elements, divided where rings and forces have nodes of their own, and the tool joint as the far arm of the last
+ * one. */
 static void mesh_pipe(string_walk *walk, const pipe_walk *pipe)
 {
     const dmb_pipe_def *def = &dmb_mesh_run_at(walk->mesh, pipe->run)->def;
     const double length = (def->length - def->joint_length) / def->elements;
-    dmb_ring_range rings = dmb_mesh_rings_of(walk->mesh, walk->string, pipe->number);
+    dmb_ring_range places = dmb_mesh_divisions_of(walk->mesh, walk->string, pipe->number);
     for (uint32_t e = 1; e <= def->elements; ++e) {
         const bool last = e == def->elements;
         const double start = (e - 1) * length, end = e * length;
-        const double from = rings.count > 0 ? divide(walk, pipe, start, end, &rings) : start;
+        const double from = places.count > 0 ? divide(walk, pipe, start, end, &places) : start;
         push_element(walk, pipe->run, from > start ? end - from : length, last ? def->joint_length : 0.0);
         walk->node = push_node(walk, pipe->size, last ? pipe->near + def->length : pipe->near + e * length);
     }

@@ -17,63 +17,7 @@ static dmb_check check_of(const dmb_mesh *mesh, uint32_t ring, dmb_message *text
     return dmb_check_of(&mesh->model->message, dmb_model_part_text(mesh->model, DMB_PART_RING, ring, text), DMB_NONE);
 }
 
-double dmb_ring_reach(const dmb_pipe_def *def)
-{
-    return 0.25 * def->outer_diameter;
-}
-
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
-
-/* Run that holds a pipe of a string; NULL: there is no such pipe. Runs of a string stand in the order of their pipes.
- */
-static const dmb_pipe_run *run_with(const dmb_mesh *mesh, uint32_t string, uint32_t pipe)
-{
-    const uint32_t *order = mesh->run_order.items;
-    uint32_t low = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
-    uint32_t high = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
-    if (low == high) return NULL;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (dmb_mesh_run_at(mesh, order[middle])->first <= pipe)
-            low = middle;
-        else
-            high = middle;
-    }
-    const dmb_pipe_run *run = dmb_mesh_run_at(mesh, order[low]);
-    return pipe - run->first < run->count ? run : NULL;
-}
-
-static bool comes_before(const dmb_mesh_ring *a, const dmb_mesh_ring *b)
-{
-    if (a->string != b->string) return a->string < b->string;
-    if (a->pipe != b->pipe) return a->pipe < b->pipe;
-    return a->along < b->along;
-}
-
-/* Sinks item i of a heap whose largest item comes first. */
-static void sink(dmb_mesh_ring *items, size_t i, size_t count)
-{
-    for (size_t child = 2 * i + 1; child < count; child = 2 * i + 1) {
-        if (child + 1 < count && comes_before(items + child, items + child + 1)) child++;
-        if (!comes_before(items + i, items + child)) return;
-        const dmb_mesh_ring moved = items[i];
-        items[i] = items[child];
-        items[child] = moved;
-        i = child;
-    }
-}
-
-/* Heapsort (Williams 1964): in place, n log n whatever the order. */
-static void sort(dmb_mesh_ring *items, size_t count)
-{
-    for (size_t i = count / 2; i-- > 0;) sink(items, i, count);
-    for (size_t end = count; end-- > 1;) {
-        const dmb_mesh_ring largest = items[0];
-        items[0] = items[end];
-        items[end] = largest;
-        sink(items, 0, end);
-    }
-}
 
 static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
 {
@@ -86,7 +30,7 @@ static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
         return DMB_ERR_ID;
     }
     const uint32_t string = dmb_mesh_string_of(mesh, def->string);
-    const dmb_pipe_run *run = run_with(mesh, string, def->pipe);
+    const dmb_pipe_run *run = dmb_mesh_run_with(mesh, string, def->pipe);
     if (run == NULL) {
         const uint32_t pipes = DMB_LIST_AT(const dmb_string_plan, mesh->model->strings, string)->pipes;
         dmb_message_set(check.message,
@@ -114,7 +58,7 @@ static double way_to_next(const dmb_mesh *mesh, const dmb_mesh_ring *ring, doubl
 {
     double way = ring[1].along - ring->along;
     for (uint32_t pipe = ring->pipe; pipe < ring[1].pipe && way < enough; pipe++)
-        way += run_with(mesh, ring->string, pipe)->def.length;
+        way += dmb_mesh_run_with(mesh, ring->string, pipe)->def.length;
     return way;
 }
 
@@ -140,31 +84,13 @@ int32_t dmb_mesh_ring_places(dmb_mesh *mesh)
     for (uint32_t i = 0; i < mesh->model->rings.count && status >= 0; i++) status = place_ring(mesh, i);
     if (status < 0) return status;
     dmb_mesh_ring *items = mesh->ring_order.items;
-    sort(items, mesh->ring_order.count);
+    dmb_mesh_sort_places(items, mesh->ring_order.count);
     for (size_t i = 0; i + 1 < mesh->ring_order.count; i++) {
         if (items[i].string != items[i + 1].string) continue;
         status = check_apart(mesh, items + i);
         if (status < 0) return status;
     }
     return DMB_OK;
-}
-
-dmb_ring_range dmb_mesh_rings_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe)
-{
-    const dmb_mesh_ring *items = mesh->ring_order.items, begin = {.along = -1.0, .string = string, .pipe = pipe};
-    size_t low = 0, high = mesh->ring_order.count;
-    dmb_ring_range range = {NULL, 0};
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (comes_before(items + middle, &begin))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (; low < mesh->ring_order.count && items[low].string == string && items[low].pipe == pipe; low++) {
-        if (range.count++ == 0) range.first = items + low;
-    }
-    return range;
 }
 
 /* ---- Elements of a pipe ------------------------------------------------------------------------------------------ */
@@ -212,7 +138,7 @@ static double start_of(const dmb_mesh *mesh, const dmb_mesh_ring *ring, uint32_t
     if (*string != ring->string) *number = 0, *at = 0.0;
     *string = ring->string;
     while (*number < ring->pipe) {
-        const dmb_pipe_run *run = run_with(mesh, ring->string, *number);
+        const dmb_pipe_run *run = dmb_mesh_run_with(mesh, ring->string, *number);
         const uint32_t left = run->count - (*number - run->first), want = ring->pipe - *number;
         const uint32_t pass = left < want ? left : want;
         *at += pass * run->def.length;

@@ -116,7 +116,7 @@ typedef struct dmb_pipe_map {
     uint32_t element;  /* first element; DMB_NONE: rigid */
     uint32_t elements; /* 0: rigid */
     int32_t kind;      /* DMB_PIPE_... after compile options */
-    int32_t divided;   /* 1: nodes of rings divide it, so that its elements differ in length */
+    int32_t divided;   /* 1: nodes of rings or forces divide it, so that its elements differ in length */
     int32_t reserved;
 } dmb_pipe_map;
 

@@ -2911,7 +2911,7 @@ class LoadDef(Sized):
     ]
     field_docs = {
         "frame": ("", "FRAME_WORLD: dead load (default); FRAME_BODY: follower"),
-        "place": ("", "any place of a pipe, or a body; between nodes by the element's own interpolation"),
+        "place": ("", "any place of a pipe, or a body; inside an element it gets a node, which divides the element. Within a quarter of the pipe's diameter of a node it acts by the element's interpolation"),
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
         "programme": ("-", "factor over time; {0, 0}: 1"),
