@@ -47,6 +47,17 @@ int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const do
     return DMB_OK;
 }
 
+/* The horizontal across a tangent; across the vertical the world's y axis. */
+static void side_of(const double t[3], double y[3])
+{
+    dmb_vec3_set(0.0 - t[1], t[0], 0.0, y);
+    if (dmb_vec3_norm(y) < DMB_HORIZONTAL_MIN) {
+        dmb_vec3_set(0.0, 1.0, 0.0, y);
+        dmb_vec3_axpy(-t[1], t, y);
+    }
+    (void)normalise(y);
+}
+
 static void survey_tangent(const double row[3], double t[3])
 {
     double sine, cosine, sine_azimuth, cosine_azimuth;
@@ -105,6 +116,25 @@ static void straighten(dmb_hole *hole)
     hole->stations = 0;
 }
 
+/* Across to the end of a station's arc: with v = a n + b (t x n) it becomes a (cos n - sin t) + b (t x n). */
+static void carry(const dmb_hole_station *from, double r, const double across[3], double carried[3])
+{
+    double sine, cosine;
+    const double a = dmb_vec3_dot(across, from->normal);
+    dmb_sin_cos(from->curvature * r, &sine, &cosine);
+    dmb_vec3_copy(across, carried);
+    dmb_vec3_axpy(a * (cosine - 1.0), from->normal, carried);
+    dmb_vec3_axpy(-a * sine, from->tangent, carried);
+}
+
+/* Rounding does not add up: orthogonal to the tangent, of length 1. */
+static void carry_to(const dmb_hole_station *from, dmb_hole_station *to)
+{
+    carry(from, to->depth - from->depth, from->carried, to->carried);
+    dmb_vec3_axpy(-dmb_vec3_dot(to->carried, to->tangent), to->tangent, to->carried);
+    (void)normalise(to->carried);
+}
+
 static int64_t place_stations(uint32_t stations, const double *survey, const double origin[3],
                               dmb_hole_station *storage)
 {
@@ -119,8 +149,10 @@ static int64_t place_stations(uint32_t stations, const double *survey, const dou
         dmb_vec3_zero(station->normal);
         survey_tangent(row, station->tangent);
         dmb_vec3_copy(origin, station->point);
+        if (i == 0) side_of(station->tangent, station->carried);
         if (i == 0) continue;
         if (!survey_arc(station - 1, station)) return (int64_t)i;
+        carry_to(station - 1, station);
         along_arc(station - 1, row[0] - station[-1].depth, station->point, unused_tangent, unused_curvature);
     }
     return -1;
@@ -187,23 +219,45 @@ void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], do
         along_arc(from, s - from->depth, x, tangent, bend);
 }
 
-void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9])
+static void columns_of(const double t[3], const double y[3], double R[9])
 {
-    double x[3], t[3], z[3];
-
-    dmb_hole_frame(hole, s, x, t, NULL);
-    double y[3] = {0.0 - t[1], t[0], 0.0};
-    if (dmb_vec3_norm(y) < DMB_HORIZONTAL_MIN) {
-        dmb_vec3_set(0.0, 1.0, 0.0, y);
-        dmb_vec3_axpy(-t[1], t, y);
-    }
-    (void)normalise(y);
+    double z[3];
     dmb_vec3_cross(t, y, z);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         R[3 * i] = t[i];
         R[3 * i + 1] = y[i];
         R[3 * i + 2] = z[i];
     }
+}
+
+void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9])
+{
+    double x[3], t[3], y[3];
+
+    dmb_hole_frame(hole, s, x, t, NULL);
+    side_of(t, y);
+    columns_of(t, y, R);
+}
+
+void dmb_hole_carried_rotation(const dmb_hole *hole, double s, double R[9])
+{
+    double x[3], t[3], y[3];
+    if (dmb_hole_is_straight(hole)) {
+        dmb_hole_frame_rotation(hole, s, R);
+        return;
+    }
+    const dmb_hole_station *from = &hole->station[dmb_hole_segment_at(hole, s)];
+    dmb_hole_frame(hole, s, x, t, NULL);
+    carry(from, fmax(0.0, s - from->depth), from->carried, y);
+    columns_of(t, y, R);
+}
+
+void dmb_hole_carry(const dmb_hole *hole, double from, double to, double R[9])
+{
+    double before[9], after[9];
+    dmb_hole_carried_rotation(hole, from, before);
+    dmb_hole_carried_rotation(hole, to, after);
+    dmb_mat3_mul_nt(after, before, R);
 }
 
 /* ---- About the axis ---------------------------------------------------------------------------------------------- */

@@ -20,6 +20,7 @@ typedef struct dmb_hole_station {
     double point[3];   /* [m] on the axis, world frame */
     double tangent[3]; /* [-] unit, towards greater depth */
     double normal[3];  /* [-] unit, towards the centre of the arc; 0 where straight */
+    double carried[3]; /* [-] unit, across the axis: y axis of the frame that the axis carries along without twist */
 } dmb_hole_station;
 
 typedef struct dmb_hole_piece dmb_hole_piece; /* below */
@@ -66,7 +67,16 @@ void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], do
  * there y is the world's y axis (what azimuth 0 tends to). */
 void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 
-/* Turning of that frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector dt/ds:
+/* Frame that the axis carries along without any twist about itself, (3,3) row by row: its x axis is the tangent. It is
+ * the hole's frame at the first station (a straight hole: everywhere) and turns by t x dt/ds per metre from there on,
+ * through the vertical as elsewhere (Bishop, There is more than one way to frame a curve, 1975). Exact along arcs.
+ * O(log stations). */
+void dmb_hole_carried_rotation(const dmb_hole *hole, double s, double R[9]);
+
+/* Rotation (3,3) that carries a frame across the axis from depth `from` to depth `to` without twist: world axes. */
+void dmb_hole_carry(const dmb_hole *hole, double from, double to, double R[9]);
+
+/* Turning of the hole's frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector dt/ds:
  * t x dt/ds, and about t what keeps its y axis horizontal. */
 void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3]);
 

@@ -55,7 +55,18 @@ static void turn_to(const double t[3], double q[4])
     dmb_quat_normalize(q);
 }
 
-/* PATH nodes take the hole's own frame, as they do in every step; FULL ones carry on that of the node before. */
+/* As the axis carries PATH nodes in every step. */
+static void carry(const dmb_mesh *mesh, double from, double to, double q[4])
+{
+    double turn[9], turned[4];
+    dmb_hole_carry(&mesh->hole, from, to, turn);
+    dmb_quat_from_matrix(turn, turned);
+    dmb_quat_mul(turned, q, q);
+    dmb_quat_normalize(q);
+}
+
+/* The rig end has the hole's own frame. From there on frames are carried along without twist, between PATH nodes by the
+ * axis itself: these turn about it by nothing but torsion wherever they move. */
 static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_node *node, const dmb_mesh_node *before)
 {
     double tangent[3], shift[3] = {0.0, def->offset[0], def->offset[1]}, frame[4];
@@ -65,9 +76,12 @@ static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_no
     dmb_quat_rotate(frame, shift, shift);
     dmb_vec3_add(node->position, shift, node->position);
     dmb_quat_copy(frame, node->quaternion);
-    if (before == NULL || node->size == DMB_NODE_PATH) return;
+    if (before == NULL) return;
     dmb_quat_copy(before->quaternion, node->quaternion);
-    turn_to(tangent, node->quaternion);
+    if (node->size == DMB_NODE_PATH && before->size == DMB_NODE_PATH && !dmb_hole_is_straight(&mesh->hole))
+        carry(mesh, before->depth, node->depth, node->quaternion);
+    else
+        turn_to(tangent, node->quaternion);
 }
 
 /* [m] from node to node along an unbent element. */

@@ -111,6 +111,8 @@ void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration 
 {
     if (material_point->fixed)
         fixed_pose(scene, configuration, material_point, pose);
+    else if (dmb_is_on_curved_axis(scene, material_point))
+        dmb_axis_pose_of(scene, configuration, material_point, pose);
     else
         section_pose(scene, configuration, material_point, pose);
 }
@@ -122,6 +124,10 @@ void dmb_material_point_start_axes(const dmb_scene *scene, const dmb_material_po
     dmb_end_pose_at_start(scene, material_point->node, &a);
     if (material_point->fixed) {
         dmb_mat3_copy(a.rotation, R);
+        return;
+    }
+    if (dmb_is_on_curved_axis(scene, material_point)) {
+        dmb_axis_start_rotation(scene, material_point, a.rotation, R);
         return;
     }
     dmb_end_pose_at_start(scene, material_point->node + 1, &b);
@@ -230,6 +236,8 @@ void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuratio
 {
     if (material_point->fixed)
         node_motion(scene, configuration, material_point->node, material_point->arm, motion);
+    else if (dmb_is_on_curved_axis(scene, material_point))
+        dmb_axis_motion_of(scene, configuration, material_point, motion);
     else
         section_motion(scene, configuration, material_point, motion);
     if (dmb_is_quasi_static(configuration)) rest(motion);

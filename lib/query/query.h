@@ -95,6 +95,16 @@ typedef struct dmb_material_point_motion {
 void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
                                   const dmb_material_point *point, dmb_material_point_motion *motion);
 
+/* Pose, motion and axes at time 0 of a section between two PATH nodes of a curved hole, which is on its axis
+ * (query/motion_axis). */
+int dmb_is_on_curved_axis(const dmb_scene *scene, const dmb_material_point *point);
+void dmb_axis_pose_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
+                      dmb_material_point_pose *pose);
+void dmb_axis_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
+                        dmb_material_point_motion *motion);
+/* R_a: axes of node A at time 0. */
+void dmb_axis_start_rotation(const dmb_scene *scene, const dmb_material_point *point, const double R_a[9], double R[9]);
+
 /* [rad] turn about the pipe's axis since time 0, linear between nodes */
 double dmb_material_point_turn(const dmb_configuration *configuration, const dmb_material_point *point);
 

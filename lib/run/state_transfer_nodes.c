@@ -96,16 +96,27 @@ static double path_shift(const dmb_scene *scene, uint32_t node, const dmb_scene 
     return dmb_vec3_dot(line, between);
 }
 
+/* Frame of the old node, carried along the axis to the described depth of the new one. */
+static void carried_frame(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, double q[4])
+{
+    double turn[9], turned[4];
+    dmb_quat_copy(from->reference_quaternion + 4 * (size_t)old, q);
+    if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) return;
+    dmb_hole_carry(&scene->hole, from->reference_depth[old], scene->reference_depth[node], turn);
+    dmb_quat_from_matrix(turn, turned);
+    dmb_quat_mul(turned, q, q);
+}
+
 static void transfer_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double along)
 {
     const dmb_scene *scene = sim->scene;
-    const double *q = from->scene->reference_quaternion + 4 * (size_t)old;
-    const int bent = scene->has_hole && !dmb_hole_is_straight(&scene->hole); /* there the frame goes with the depth */
+    double q[4];
     double *u = sim->now.displacement + 3 * (size_t)node;
     const double turn = from->now.turn[old];
     dmb_vec3_set(from->now.displacement[3 * (size_t)old] + along, 0.0, 0.0, u);
     dmb_quat_copy(scene->reference_quaternion + 4 * (size_t)node, sim->now.quaternion + 4 * (size_t)node);
-    sim->now.turn[node] = bent ? turn : turn + turn_of(scene, node, q, 0.0);
+    carried_frame(scene, node, from->scene, old, q);
+    sim->now.turn[node] = turn + turn_of(scene, node, q, 0.0);
     memcpy(sim->now.velocity + scene->layout.row[node], from->now.velocity + from->scene->layout.row[old],
            DMB_NODE_PATH * sizeof(double));
 }

@@ -39,20 +39,24 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
     return dmb_hole_segment_at(&scene->hole, known->site_depth[s] + described);
 }
 
-/* Turned by `turn` about the axis of the hole where it now is; without a hole the line through its pose at time 0. */
+/* Carried along the hole's axis without twist from its pose at time 0, and turned by `turn` about the axis; without a
+ * hole the line through its pose at time 0. */
 static void path_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
                       double displacement[3])
 {
     const double advance = configuration->displacement[3 * node];
     const double spin[3] = {configuration->turn[node], 0.0, 0.0};
-    double frame[9], torsion[9];
+    double frame[9], frame_now[9], torsion[9];
     dmb_so3_exp(spin, NULL, torsion);
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, frame);
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
-        double point[3], tangent[3], curvature[3], start[3];
-        dmb_hole_frame(&scene->hole, scene->reference_depth[node], start, tangent, curvature);
-        dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
-        dmb_hole_frame_rotation(&scene->hole, dmb_path_depth(scene, configuration, node), frame);
+        const double from = scene->reference_depth[node], to = dmb_path_depth(scene, configuration, node);
+        double point[3], start[3], carried[9];
+        dmb_hole_frame(&scene->hole, from, start, NULL, NULL);
+        dmb_hole_frame(&scene->hole, to, point, NULL, NULL);
+        dmb_hole_carry(&scene->hole, from, to, carried);
+        dmb_mat3_mul(carried, frame, frame_now);
+        dmb_mat3_copy(frame_now, frame);
         dmb_vec3_sub(point, start, displacement);
     } else {
         const double along[3] = {advance, 0.0, 0.0};
@@ -80,7 +84,7 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
         double point[3], tangent[3], curvature[3], frame_rate[3];
         dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
-        dmb_hole_frame_rate(tangent, curvature, frame_rate);
+        dmb_vec3_cross(tangent, curvature, frame_rate);
         dmb_mat3_tvec(rotation, frame_rate, columns + 3);
     }
 }

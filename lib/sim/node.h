@@ -10,7 +10,7 @@
 void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
                    double displacement[3]);
 /* Body-frame 6-vector from an array over rows (velocity or acceleration): PATH rows become components x and rx, on a
- * curved hole with the turning of the axis. */
+ * curved hole with the turning of the tangent. */
 void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
                      double vector[6]);
 /* 1: a quasi-static state, in equilibrium with friction at an assumed slip (dmb_static_options). Neither inertia nor

@@ -261,6 +261,69 @@ static void a_nudged_well_comes_to_rest(void **state)
     rig_close(&s);
 }
 
+/* ---- Axial-torsional pipes --------------------------------------------------------------------------------------- */
+
+/* Through the vertical, from one azimuth to the opposite one. */
+static void make_drop(double from)
+{
+    const double deg = PI / 180.0;
+    double depth = 50.0;
+    shape.stations = 0;
+    for (double angle = from, at = 0.0; angle > -from - 0.5; angle -= at > 0.0 ? 1.0 : 0.0) {
+        double *row = shape.survey[shape.stations++];
+        row[0] = at;
+        row[1] = fabs(angle) * deg;
+        row[2] = angle < 0.0 ? PI : 0.0;
+        at = depth;
+        depth += 10.0;
+    }
+}
+
+/* They stand on the axis everywhere, and neither they nor flexible pipes between them are twisted where the horizontal
+ * across the hole turns over. A spatial hole turns that horizontal, too. */
+static void bars_pass_the_vertical(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        const int mixed = i % 2;
+        dmb_string_def string = dmb_string_def_default();
+        double off = 0.0, turned = 0.0, before[9] = {0.0};
+        rig s;
+        if (i < 4)
+            make_drop(i < 2 ? 10.0 : 7.5);
+        else
+            random_hole_draw(2026, 3, &shape);
+        open_in(&s, 0.0);
+        const dmb_id id = add_string(&s, &string);
+        dmb_pipe_def pipe = pipe_of(id, 1);
+        const uint32_t pipes = (uint32_t)(end_depth() / 9.0);
+        for (uint32_t k = 0; k < pipes; k++) {
+            pipe.kind = mixed && (k / 4) % 2 ? DMB_PIPE_FLEXIBLE : DMB_PIPE_AXIAL_TORSIONAL;
+            (void)add_pipes(&s, &pipe, 1);
+        }
+        (void)add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_X, add_constant(&s, 1.0));
+        (void)add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_RX, add_constant(&s, 0.0));
+        (void)rig_start(&s, NULL);
+        for (int round = 0; round < (mixed ? 1 : 2); round++) {
+            for (uint32_t k = 0; k < pipes; k++)
+                for (int q = 0; q < 4; q++) {
+                    dmb_hole_point at = dmb_hole_point_default();
+                    double trace = 0.0;
+                    const dmb_pose pose = pose_at(&s, dmb_station(id, k, q / 4.0));
+                    must_model(&s, dmb_query_hole(s.model, pose.depth, &at));
+                    if (!mixed) off = fmax(off, largest_difference(3, pose.position, at.position));
+                    for (int n = 0; n < 9; n++) trace += pose.rotation[n] * before[n];
+                    if (k + (uint32_t)q > 0) turned = fmax(turned, acos(fmin(1.0, 0.5 * (trace - 1.0))));
+                    memcpy(before, pose.rotation, sizeof before);
+                }
+            if (!mixed) take_divided_steps(&s, 0.1, 10);
+        }
+        if (!mixed) check_below("off the axis [m]", off, 1e-9);
+        check_below("turned from section to section [rad]", turned, 0.025);
+        rig_close(&s);
+    }
+}
+
 /* ---- What does not follow the hole ------------------------------------------------------------------------------- */
 
 /* A rod on the axis of a straight piece behind a loop, where the beginning of the hole passes it closely. */
@@ -302,9 +365,13 @@ static void a_rod_of_its_own_is_found_over_its_length(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bit_advances_along_the_hole), cmocka_unit_test(loads_in_the_frame_of_the_hole),
-        cmocka_unit_test(sections_behind_a_sub),       cmocka_unit_test(pipes_added_in_a_turn),
-        cmocka_unit_test(a_nudged_well_comes_to_rest), cmocka_unit_test(a_rod_of_its_own_is_found_over_its_length),
+        cmocka_unit_test(bit_advances_along_the_hole),
+        cmocka_unit_test(loads_in_the_frame_of_the_hole),
+        cmocka_unit_test(sections_behind_a_sub),
+        cmocka_unit_test(pipes_added_in_a_turn),
+        cmocka_unit_test(a_nudged_well_comes_to_rest),
+        cmocka_unit_test(bars_pass_the_vertical),
+        cmocka_unit_test(a_rod_of_its_own_is_found_over_its_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,6 +102,66 @@ static void refusals(void **state)
     assert_int_equal(dmb_hole_setup_survey(&hole, 2, sharp, zero, 0.05, storage), -1);
 }
 
+/* R' = (t x dt/ds)^ R: no turning about the tangent, also where the hole passes the vertical. */
+static void carried_frame_does_not_twist(void **state)
+{
+    dmb_hole_station storage[WINDING], drop[3];
+    const double survey[9] = {0, 10 * DEG, 0, 100, 10 * DEG, PI, 160, 30 * DEG, PI};
+    const dmb_hole holes[2] = {winding(storage), surveyed(3, survey, drop)};
+    (void)state;
+
+    for (int i = 0; i < 2; ++i)
+        for (double s = 8.0; s < 150.0; s += 0.37) {
+            const double h = 1e-4;
+            double x[3], t[3], k[3], w[3], a[9], b[9], R[9];
+            dmb_hole_frame(&holes[i], s, x, t, k);
+            dmb_vec3_cross(t, k, w);
+            dmb_hole_carried_rotation(&holes[i], s - h, a);
+            dmb_hole_carried_rotation(&holes[i], s, R);
+            dmb_hole_carried_rotation(&holes[i], s + h, b);
+            for (int c = 0; c < 3; ++c) {
+                const double v[3] = {R[c], R[3 + c], R[6 + c]};
+                double rate[3];
+                dmb_vec3_cross(w, v, rate);
+                CHECK_CLOSE(R[3 * c], t[c], 1e-14);
+                CHECK_CLOSE(dot(v, v), 1, 1e-13);
+                for (int r = 0; r < 3; ++r) /* the curvature jumps at stations */
+                    CHECK_CLOSE((b[3 * r + c] - a[3 * r + c]) / (2 * h), rate[r], 1e-2);
+            }
+        }
+}
+
+/* Every minimum of the distance is found, and the one that is asked for is taken. */
+static void places_are_searched(void **state)
+{
+    enum { LOOP = 38 };
+    dmb_hole_station storage[LOOP];
+    double survey[3 * LOOP], x[3], t[3], s;
+    (void)state;
+    for (int i = 0; i < LOOP; ++i) { /* a full circle of radius 100/(10 DEG) and on */
+        survey[3 * i] = 100.0 * i;
+        survey[3 * i + 1] = 90 * DEG;
+        survey[3 * i + 2] = 10 * DEG * (i < 37 ? i : 36);
+    }
+    const dmb_hole hole = surveyed(LOOP, survey, storage);
+    dmb_hole_frame(&hole, 0.0, x, t, NULL);
+    assert_int_equal(dmb_hole_search(&hole, x, 10.0, 500.0, NULL, &s), 0);
+    CHECK_CLOSE(s, 0, 1e-9);
+    assert_int_equal(dmb_hole_search(&hole, x, 3500.0, 500.0, NULL, &s) >= 35, 1);
+    CHECK_CLOSE(s, 3600, 1e-9);
+    for (double at = 50.0; at < 3600.0; at += 333.0) {
+        dmb_hole_frame(&hole, at, x, t, NULL);
+        (void)dmb_hole_search(&hole, x, 0.0, (double)INFINITY, t, &s);
+        CHECK_CLOSE(s, at, 1e-9);
+    }
+    dmb_hole_frame(&hole, 1800.0, x, t, NULL);
+    x[0] *= 1.5, x[1] *= 1.5;
+    uint32_t feet = 0;
+    for (uint32_t arc = dmb_hole_next_foot(&hole, x, 0); arc < LOOP; arc = dmb_hole_next_foot(&hole, x, arc + 1))
+        feet++;
+    assert_in_range(feet, 1, 3);
+}
+
 /* Angles mean what the header says; a survey without bends is the straight hole. */
 static void directions(void **state)
 {
@@ -381,6 +441,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(straight_hole),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(carried_frame_does_not_twist),
+        cmocka_unit_test(places_are_searched),
         cmocka_unit_test(directions),
         cmocka_unit_test(constant_dogleg_is_a_circle),
         cmocka_unit_test(textbook_station),

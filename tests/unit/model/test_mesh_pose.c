@@ -283,7 +283,7 @@ static void offset_is_along_the_hole_frame(void **state)
     dmb_model_destroy(&model);
 }
 
-/* PATH nodes have the frame of the hole, and slide as the rig end does. */
+/* PATH nodes have the frame that the axis of the hole carries along without twist, and slide as the rig end does. */
 static void path_nodes_in_a_curved_hole(void **state)
 {
     dmb_model *model = curved_hole(survey_3d, 4);
@@ -298,7 +298,7 @@ static void path_nodes_in_a_curved_hole(void **state)
     add_pipes(model, &pipe, 40);
     scene = compiled_with(model, DMB_FEATURE_ALL, DMB_PIPE_AXIAL_TORSIONAL);
     for (uint32_t i = 0; i <= 40; ++i) {
-        dmb_hole_frame_rotation(&scene->hole, scene->reference_depth[i], R);
+        dmb_hole_carried_rotation(&scene->hole, scene->reference_depth[i], R);
         dmb_quat_to_matrix(quaternion(scene, i), Rq);
         for (int k = 0; k < 9; ++k) assert_close(R[k], Rq[k], 1e-14);
         assert_near(scene->initial_velocity[2 * i], 0.25, 0.0);
