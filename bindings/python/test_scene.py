@@ -779,9 +779,9 @@ class BadFilesTest(unittest.TestCase):
         self.assertEqual(told('survey_file = "s.csv"', good), "")
         feet = "Measured depth [ft],Inclination [rad],Azimuth [deg]\n0,1.5,0\n99,1.6,0\n"
         self.assertEqual(told('survey_file = "s.csv"', feet), "")
-        for csv, part in ((None, "could not be read"), ("", "line 1 must be heads"), (heads, "at least two rows"),
-                          (heads + "0, ninety, 0\n30, 95, 1\n", "line 2 (0, ninety, 0)"),
-                          (heads + "0, 90\n30, 95, 1\n", "has 2 columns"), ("depth [kg], i [deg], a [deg]\n", "heads"),
+        for csv, part in ((None, "could not be read"), ("", "is empty"), (heads, "at least two stations"),
+                          (heads + "0, ninety, 0\n30, 95, 1\n", 'line 2, column 2 (inclination [deg]) = "ninety"'),
+                          (heads + "0, 90\n30, 95, 1\n", "azimuth is empty"), ("depth [kg], i [deg], a [deg]\n", "heads"),
                           (heads + "30, 90, 0\n0, 95, 1\n", "must"), (heads + "0, 900, 0\n30, 95, 1\n", "must")):
             self.assertIn(part, told('survey_file = "s.csv"', csv), csv)
         self.assertIn("at least two rows", told("survey = []"))

@@ -11,7 +11,7 @@ except ImportError:
     numpy = None
 
 DEBIAN = {"numpy": "python3-numpy", "pandas": "python3-pandas", "matplotlib.pyplot": "python3-matplotlib",
-          "plotly.offline": "python3-plotly", "tqdm": "python3-tqdm",
+          "openpyxl": "python3-openpyxl", "plotly.offline": "python3-plotly", "tqdm": "python3-tqdm",
           **{f"scipy.{part}": "python3-scipy" for part in ("stats", "special", "optimize", "signal")},
           "h5py": "python3-h5py", "openturns": "python3-openturns", "mpi4py.MPI": "python3-mpi4py",
           "mpi4py.futures": "python3-mpi4py", "distributed": "python3-distributed"}

@@ -164,7 +164,7 @@ class Draw:
                 for row, error in zip(rows, values[one.name]):
                     row[column] = row[column] * error if one.relative else row[column] + error
                     row[1] = min(max(row[1], 0.0), math.pi) if column == 1 else row[1]
-            found["hole.survey_file"] = None
+            found["hole.survey_file"] = found["hole.survey_columns"] = None
             found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))] for row in rows]
         along = [one for one, _ in self.fields if one.ends[1]]
         if along:

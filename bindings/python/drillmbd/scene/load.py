@@ -13,7 +13,7 @@ from .._keep import station
 from .._structs import Channel, Id, Motor, Place, Term
 from ..errors import Error
 from ..model import Model, motor_drive
-from . import failure, fields, survey, units, variability
+from . import failure, fields, hole, units, variability
 from .asked import Asked
 from .changes import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
@@ -257,7 +257,7 @@ class Loader:
         return None if part is None else station(part, pipe, float(fraction))
 
     # ---- Parts into the model ---------------------------------------------------------------------------------------
-    def _add(self, path: Path, add: Callable[..., Any], struct: Any, values: dict[str, Any]) -> Any:
+    def add(self, path: Path, add: Callable[..., Any], struct: Any, values: dict[str, Any]) -> Any:
         """The id of what was added. Each field that the library refuses becomes a problem; it is left out then, so that
         the next one is found."""
         values = dict(values)
@@ -299,9 +299,9 @@ class Loader:
     def _describe(self) -> None:
         if "environment" in self.content:
             values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]))
-            self._add(("environment",), self.model.set_environment, DEFINITIONS["environment"], values)
+            self.add(("environment",), self.model.set_environment, DEFINITIONS["environment"], values)
         if "hole" in self.content:
-            self._hole()
+            hole.describe(self)
         for number, (path, table) in enumerate(self.parts("programme")):
             self._programme(path, self.name("programme", number, table), table)
         for number, (path, table) in enumerate(self.parts("string")):
@@ -310,26 +310,6 @@ class Loader:
         for kind in PARTS[1:]:
             for number, (path, table) in enumerate(self.parts(kind)):
                 self._part(kind, path, self.name(kind, number, table), table)
-
-    def _hole(self) -> None:
-        path, table = ("hole",), self.table(("hole",))
-        exponent = table.get("exponent", 1.0)
-        power = float(exponent) if isinstance(exponent, (int, float)) and 0 < exponent < 10 else 1.0
-        special = {"stiffness": f"N/m^{power + 1.0:g}"}
-        values = self.read(path, table, fields_of(DEFINITIONS["hole"]), ("survey", "survey_file", "section"),
-                           special.get)
-        if "survey" in table and "survey_file" in table:
-            self.problems.add(path + ("survey_file",), table["survey_file"], "must be left out where there is a survey")
-        elif "survey" in table:
-            values["stations"] = survey.inline(self.problems, path + ("survey",), table["survey"])
-        elif "survey_file" in table:
-            values["stations"] = survey.from_file(self.problems, path + ("survey_file",), table["survey_file"], self.folder)
-        if values.get("stations", ()) is not None:
-            self._add(path, self.model.add_wall, DEFINITIONS["hole"], values)
-        known = fields_of(DEFINITIONS["section"])
-        for where, section in self.tables(table, path, "section"):
-            self._add(where, self.model.add_hole_sections, DEFINITIONS["section"],
-                      self.read(where, section, known, (), special.get))
 
     def _programme(self, path: Path, name: str, table: dict[str, Any]) -> None:
         for key in table:
@@ -418,7 +398,7 @@ class Loader:
     def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
         values = self.read(path, table, fields_of(DEFINITIONS["string"]), ("name", "pipes"))
         self.own_name(path, table, values)
-        string = self._add(path, self.model.add_string, DEFINITIONS["string"], values)
+        string = self.add(path, self.model.add_string, DEFINITIONS["string"], values)
         self.put(name, "string", string)
         self.pipes_of(path, name, table, string)
 
@@ -437,7 +417,7 @@ class Loader:
             plain = self.read(where, section, known, ("count",))
             if string is not None:
                 plain["string"] = string
-                self._add(where, lambda one, n=count: self.model.add_pipes(n, one),
+                self.add(where, lambda one, n=count: self.model.add_pipes(n, one),
                           DEFINITIONS["pipes"], plain)
             if "elements" not in section:
                 self.undivided.append(Divided(name, where, self.pipes[name], count))
@@ -476,7 +456,7 @@ class Loader:
         self.put(name, kind, None)
         if not refused and not (kind == "drive" and "programme" not in values) and not (
                 len(self.problems.found) > before and kind in ("joint", "coupling", "spring", "input", "load")):
-            self.put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+            self.put(name, kind, self.add(path, getattr(self.model, "add_" + kind), struct, values))
 
     def _motor(self, path: Path, table: dict[str, Any]) -> dict[str, Any]:
         """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no programme."""
@@ -525,7 +505,7 @@ class Loader:
             return
         output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
         values["name"] = name
-        self.put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
+        self.put(name, "event", self.add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
 
     def channel_unit(self, quantity: int, place: Any) -> str:
         """The unit of a channel at a place as the file names it."""

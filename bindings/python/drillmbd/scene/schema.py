@@ -7,7 +7,7 @@ from typing import Any
 from .. import enums
 from .._structs import Motor
 from ..channels import Named
-from . import failure, sub, variability
+from . import failure, hole, sub, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, event_fields, fields_of, words_of
@@ -64,9 +64,13 @@ def schema() -> dict[str, Any]:
                     count={"type": "integer", "minimum": 1})
     properties: dict[str, Any] = {
         "title": {"type": "string"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
-        "hole": _object(fields_of(DEFINITIONS["hole"]), section=_many(_object(fields_of(DEFINITIONS["section"]))),
+        "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT}, section=_many(_object(fields_of(DEFINITIONS["section"]))),
                         survey={"type": "array", "minItems": 2, "items": row},
-                        survey_file={"type": "string", "description": "CSV: depth [m], inclination [deg], azimuth [deg]"}),
+                        survey_columns={"type": "array", "items": _NAME, "description": "heads of the columns of survey or of survey_file "
+                                        "in their order, where it has none: depth [m], inclination [deg] or dip [deg], azimuth [deg]"},
+                        survey_file={"type": "string", "description": "CSV, text with blanks, LAS 2.0 or Excel, with heads: depth [m], "
+                                     "inclination [deg] (from the downward vertical) or dip [deg] (from the horizontal, up positive), "
+                                     "azimuth [deg] (clockwise from north)"}),
         "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
         "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS),

@@ -1,0 +1,258 @@
+"""Columns of numbers out of a table as it comes: found by their heads, with units out of heads, of a line of units or of
+the scene file. Messages name line, column, the value as written and the likely cause."""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+from . import number_text, units
+from .table_file import Row, Table, TableError
+from .unit_text import plain
+
+MOST_FAULTS = 8  # that are listed of one file
+_MISSING = re.compile(r"-?9{3,5}(?:[.,]\d*)?|nan|null|none|n/?a|#n/?a|-+|\*+|x+", re.I)
+
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity that a table has."""
+    key: str
+    unit: str                     #: in SI; "": a text
+    names: tuple[str, ...]        #: small letters, without signs; Chinese ones count within a head, too
+    assumed: str = ""             #: unit where the file gives none; "": it must give one
+    needed: bool = True
+    may_be_empty: bool = False
+
+
+@dataclass
+class Cell:
+    """A number of a table."""
+    value: float | None           #: SI; None: empty
+    text: str                     #: as written, with its unit
+    number: float = 0.0           #: as written
+
+
+@dataclass
+class Found:
+    """The numbers of a table."""
+    rows: list[tuple[int, dict[str, Cell]]]   #: line, cells
+    heads: dict[str, str]                     #: of the columns, as they are understood: "MD [m]"
+    unit: dict[str, str]
+    faults: list[str]
+    remarks: list[str]
+
+
+@dataclass
+class _Place:
+    """A column of the file."""
+    index: int
+    column: Column
+    unit: str
+    head: str
+
+
+def _name_and_unit(head: str) -> tuple[str, str]:
+    """"Measured Depth (ft)" as name and unit."""
+    text = plain(head).strip()
+    match = re.search(r"[\[({<]\s*([^\])}>]*?)\s*[\])}>]", text)
+    name, unit = (text[:match.start()] + " " + text[match.end():], match[1]) if match else (text, "")
+    return re.sub(r"[^\w°]+", " ", name.replace("_", " ")).strip().casefold(), unit
+
+
+def _is(name: str, column: Column) -> bool:
+    return name in column.names or any(not one.isascii() and one in name for one in column.names)
+
+
+def names_column(head: str, column: Column) -> bool:
+    """Whether a head names a column."""
+    known = _column_of(head, (column,))
+    return known is not None
+
+
+def _column_of(head: str, columns: tuple[Column, ...]) -> tuple[Column, str] | None:
+    """The column that a head names, and its unit; "depth m" and "MD_ft" count, too."""
+    name, unit = _name_and_unit(head)
+    for column in columns:
+        if _is(name, column):
+            return column, unit if unit and column.unit and units.fits(unit, column.unit) else ""
+    words = name.split()
+    if not unit and len(words) > 1 and words[-1] not in ("s",):
+        for column in columns:
+            if column.unit and " ".join(words[:-1]) in column.names and units.fits(words[-1], column.unit):
+                return column, words[-1]
+    return None
+
+
+def _places(row: Row, columns: tuple[Column, ...]) -> list[_Place]:
+    found: dict[str, _Place] = {}
+    for index, head in enumerate(row.cells):
+        known = _column_of(head, columns) if head else None
+        if known and known[0].key not in found:
+            found[known[0].key] = _Place(index, known[0], known[1], head)
+    return list(found.values())
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        number_text.split(cell)
+        return True
+    except number_text.NoNumber:
+        return bool(re.match(r"[-+]?\d", cell))
+
+
+def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row]]:
+    """Columns and the rows below their heads. Raises TableError."""
+    if given is not None:
+        return _places(Row(0, given), columns), _from_numbers(table.rows)
+    if table.heads is not None:
+        return _places(table.heads, columns), table.rows
+    best: tuple[list[_Place], int] = ([], -1)
+    for at, row in enumerate(table.rows[:200]):
+        if sum(map(_is_number, row.cells)) > 1:
+            continue
+        places = _places(row, columns)
+        if len(places) > len(best[0]):
+            best = places, at
+    return best[0], table.rows[best[1] + 1:]
+
+
+def _from_numbers(rows: list[Row]) -> list[Row]:
+    at = next((i for i, row in enumerate(rows) if sum(map(_is_number, row.cells)) >= 2), len(rows))
+    return rows[at:]
+
+
+def _take_units(places: list[_Place], rows: list[Row]) -> list[Row]:
+    """Units of a line below the heads."""
+    if not rows:
+        return rows
+    cells = [re.sub(r"^[\[({]|[\])}]$", "", one.strip()).strip() for one in rows[0].cells]
+    own = [(one, cells[one.index] if one.index < len(cells) else "") for one in places if one.column.unit]
+    if any(_is_number(text) for _, text in own) or not any(text and units.fits(text, one.column.unit) for one, text in own):
+        return rows
+    for one, text in own:
+        if text and units.fits(text, one.column.unit):
+            one.unit = text
+    return rows[1:]
+
+
+def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = None) -> Found:
+    """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. Raises TableError
+    where the columns are not found."""
+    places, rows = _heads(table, columns, given)
+    rows = _take_units(places, rows)
+    keys = {one.column.key for one in places}
+    missing = [one for one in columns if one.needed and one.key not in keys]
+    if missing:
+        raise TableError(_no_columns(table, missing, given))
+    found = Found([], {}, {}, [], [])
+    for one in places:
+        _settle_unit(one, found, rows)
+    comma = _decimal_comma(table, places, rows)
+    for row in rows:
+        if any(any(row.cells[one.index:one.index + 1]) for one in places if one.column.unit):
+            _read_row(row, places, table, comma, found)
+    if table.separator == "," and not found.faults:
+        _check_widths(places, rows, found)
+    if len(found.faults) > MOST_FAULTS:
+        found.faults[MOST_FAULTS:] = [f"and {len(found.faults) - MOST_FAULTS} more lines are wrong"]
+    return found
+
+
+def _no_columns(table: Table, missing: list[Column], given: list[str] | None) -> str:
+    words = " and ".join(one.key for one in missing)
+    if given is not None:
+        return f"survey_columns must name {words}"
+    first = table.heads or next(iter(table.rows), None)
+    if first is None:
+        return "is empty"
+    return (f"line {first.line} ({', '.join(first.cells)[:80]}): no head names {words}; give the heads in the file, as \"depth [m], inclination "
+            "[deg], azimuth [deg]\", or in the scene file, as survey_columns = [\"depth [m]\", \"dip [deg]\", \"azimuth [deg]\"]")
+
+
+def _settle_unit(one: _Place, found: Found, rows: list[Row]) -> None:
+    column = one.column
+    if not column.unit:
+        return
+    if not one.unit and any(_own_unit(row, one) for row in rows[:1]):
+        one.unit = column.assumed or column.unit  # each cell has its own
+    elif not one.unit and column.assumed:
+        found.remarks.append(f"column {one.index + 1} ({one.head}) has no unit: {column.assumed} is assumed")
+        one.unit = column.assumed
+    elif not one.unit:
+        found.faults.append(f"column {one.index + 1} ({one.head}) has no unit; write it in the head, as \"{one.head} [m]\", or give "
+                            f"survey_columns in the scene file")
+        one.unit = column.unit
+    found.heads[column.key], found.unit[column.key] = one.head, one.unit
+
+
+def _own_unit(row: Row, one: _Place) -> bool:
+    text = row.cells[one.index] if one.index < len(row.cells) else ""
+    try:
+        return bool(number_text.split(text)[1])
+    except number_text.NoNumber:
+        return False
+
+
+def _decimal_comma(table: Table, places: list[_Place], rows: list[Row]) -> bool:
+    """Whether some cell has a comma that can only be decimal, and none has a point: then all commas of the file are."""
+    if table.separator == ",":
+        return False
+    cells = [row.cells[one.index] for row in rows for one in places if one.column.unit and one.index < len(row.cells)]
+    if any("." in cell for cell in cells):
+        return False
+    sure = [cell for cell in cells if re.fullmatch(r"[-+]?(?:\d{4,},\d+|\d+,\d{1,2}|\d+,\d{4,}|0\d*,\d+)", cell.strip())]
+    return bool(sure)
+
+
+def _read_row(row: Row, places: list[_Place], table: Table, comma: bool, found: Found) -> None:
+    cells: dict[str, Cell] = {}
+    for one in places:
+        text = row.cells[one.index].strip() if one.index < len(row.cells) else ""
+        try:
+            cells[one.column.key] = _cell(text, one, table.missing, comma)
+        except units.UnitError as error:
+            where = f"line {row.line}, column {one.index + 1} ({one.head})"
+            found.faults.append(f"{where} = \"{text}\": {error}")
+            return
+    found.rows.append((row.line, cells))
+
+
+def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
+    if not one.column.unit or (not text and one.column.may_be_empty):
+        return Cell(None, text)
+    if not text:
+        raise units.UnitError("is empty; fill in the value or delete the line")
+    if (missing and text == missing) or _MISSING.fullmatch(text):
+        raise units.UnitError("is a missing value; fill in the value or delete the line")
+    if comma:
+        text = text.replace(",", ".")
+    bearing = re.fullmatch(r"([NS])\s*([\d.]+)\s*°?\s*([EW])", text, re.I) if one.column.unit == "rad" else None
+    if bearing:
+        return _cell_of(_of_bearing(bearing), one, "")
+    try:
+        number, rest, _ = number_text.split(text)
+    except number_text.NoNumber as error:
+        raise units.UnitError(str(error) or "is no number") from error
+    return _cell_of(number, one, rest)
+
+
+def _of_bearing(match: re.Match[str]) -> Decimal:
+    """N 45 E, S 30 W."""
+    angle = Decimal(match[2])
+    from_north = angle if match[1].upper() == "N" else 180 - angle
+    return from_north if match[3].upper() == "E" else -from_north
+
+
+def _cell_of(number: Decimal, one: _Place, rest: str) -> Cell:
+    unit = rest or one.unit
+    return Cell(float(number * units.factor(unit, one.column.unit)), f"{number} {unit}", float(number))
+
+
+def _check_widths(places: list[_Place], rows: list[Row], found: Found) -> None:
+    """Twice the number of cells, separated by commas: their commas are decimal."""
+    width = max(one.index for one in places) + 1
+    bad = [row for row in rows if len(row.cells) >= 2 * width]
+    if bad and len(bad) == len(rows):
+        found.faults.append(f"line {bad[0].line} has {len(bad[0].cells)} cells below {width} heads: with decimal commas the cells must "
+                            "be separated by semicolons, tabs or blanks")
