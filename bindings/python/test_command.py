@@ -173,7 +173,7 @@ class CommandTest(FolderTest):
         self.assertIn("middle [m]: largest", out)
         out, summary = self.answer("speeds")
         self.assertTrue(summary["speeds"])
-        self.assertIn("keep away from", out)
+        self.assertIn("avoid ", out)
 
     def test_buckle(self):
         self.scene = self.write("column.toml", COLUMN)
@@ -207,7 +207,10 @@ class CommandTest(FolderTest):
 
     def test_sweep(self):
         self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary", "hole.diameter=94 mm,5 mm",
-                 "-o", self.output, "--", "--depths", "2")
+                 "-o", self.output, "--", "--depths", "2", status=1)
+        self.ask("sweep", self.scene, "check", "--vary", "hole.mu_dynamic=0.1:0.35:6", "-o", self.folder / "grid")  # 0.35, not more
+        self.assertIn("\n6,0.35,ok", (self.folder / "grid" / "sweep.csv").read_text())
+        self.assertIn("--output", self.ask("sweep", self.scene, "report", "--vary", "hole.mu_dynamic=0.1,0.2", status=2))
         with open(self.output / "sweep.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["status"] for row in rows], ["ok", "failed"] * 3)
@@ -278,15 +281,59 @@ class CommandTest(FolderTest):
         self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n'
                                 '[fatigue]\ncurve_stress = "100 MPa"\nslope = 4\n')
         out, summary = self.answer("report")
-        self.assertIn("EXCEEDED", out)
+        self.assertRegex(out, r"Thrust at the rig: .*, OVER \(\d+ % of 1 N")
+        self.assertRegex(out, r"Torque at the rig: .*, OK \(")
         self.assertIn("0.02", str(summary["run"]["time_s"]))
         page = (self.output / "report.html").read_text(encoding="utf-8")
         self.assertLess(len(page), 10_000_000)
         self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
-        for part in ("Speeds to keep away from", "Fatigue along the string", "Push to feed it in", "What was assumed", "model check", summary["hash"]):
+        for part in ("Critical speeds", "Fatigue along the string", "Thrust at the rig", "Assumptions", "model check", summary["hash"]):
             self.assertIn(part, page)
         self.assertIn("--output", self.ask("report", self.scene, status=2))
         self.browse(self.output / "report.html", page.count('class="figure"'))
+
+    def test_verdicts(self):
+        """Each verdict has an input for which it is another one; an analysis that fails leaves the others."""
+        try:
+            import plotly.offline  # noqa: F401
+        except ImportError:
+            self.skipTest("not there: plotly")
+        import drillmbd.report as report
+        from drillmbd import scene
+        from drillmbd.answers import Output
+
+        def verdicts(text, failing=""):
+            study = report.Study(scene.loads(text), Output(None, "x.toml", scene.loads(text), "report", True))
+            if failing:
+                setattr(study, failing, lambda: (_ for _ in ()).throw(ArithmeticError("no solution")))
+            study.ask()
+            return {tile.title: (tile.verdict, tile.text) for tile in study.tiles}
+
+        quick = SCENE.replace('end = "20 ms"', 'end = "2 ms"')
+        known = verdicts(quick + '[limits]\ntorque = "5 kN m"\npush = "100 kN"\n')
+        self.assertEqual((known["Torque at the rig"][0], known["Thrust at the rig"][0]), ("OK", "OK"))
+        self.assertEqual(known["Pull at the rig"][0], "NO LIMIT GIVEN")
+        self.assertEqual(known["Fatigue"][0], "NOT ASSESSED")
+        over = verdicts(quick + '[limits]\ntorque = "1 N m"\npush = "1 N"\n')
+        self.assertEqual((over["Torque at the rig"][0], over["Thrust at the rig"][0]), ("OVER", "OVER"))
+        for failing in ("_torque_drag", "_operations", "_run"):
+            lost = verdicts(quick + '[limits]\ntorque = "5 kN m"\n', failing)
+            self.assertEqual(lost["Torque at the rig"][0], "NOT ASSESSED", failing)
+            self.assertIn("no solution", lost["Torque at the rig"][1])
+        still = "\n".join(one for one in quick.split("\n") if "eccentricity" not in one or "kind" in one)
+        self.assertNotEqual(still, quick)
+        self.assertEqual(verdicts(still)["Critical speeds"][0], "NOT ASSESSED")
+        lost = verdicts(quick, "_speeds")["Critical speeds"]
+        self.assertEqual(lost, ("NOT COMPUTED", "no solution"))
+
+    def test_nothing_excites(self):
+        self.scene = self.write("still.toml", "\n".join(one for one in SCENE.split("\n") if "eccentricity" not in one or "kind" in one))
+        out, summary = self.answer("speeds")
+        self.assertIn("not assessed, because all excitations are zero", out)
+        self.assertFalse(summary["speeds_assessed"])
+        out, summary = self.answer("response")
+        self.assertIn("not assessed", out)
+        self.assertNotIn("largest 0", out)
 
     def browse(self, path, figures):
         """The page in a browser: all figures drawn, nothing on its console."""

@@ -61,7 +61,7 @@ SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
 
-What follows -- are options of the question. Cases that fail are rows too, with their message."""
+Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -100,7 +100,7 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "stuck"])
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "stuck", "report"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
@@ -208,6 +208,8 @@ def _sweep(options: Any) -> int:
     if cases > MOST_CASES:
         raise Usage(f"--vary asks for {cases} cases, must be <= {MOST_CASES}")
     asked = parser().parse_args([options.question, options.scene, *options.more])
+    if options.question == "report" and options.output is None:
+        raise Usage("sweep of report needs --output FOLDER, which holds a page for each case")
     return sweep(options.question, vary, lambda changes: scene.load(options.scene, changes), options.scene, asked,
                  options.output, options.quiet)
 

@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from . import enums, station
+from . import _structs, enums, station
 from ._optional import need
 from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
 from .answers import RPM, Output, count_fatigue, file_name, friction_option, quantity, record, tell_fatigue
@@ -17,6 +17,9 @@ from .running import Bar
 from .sim import Sim
 
 MOST_ROWS = 50_000_000
+NOTHING_EXCITES = ("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
+                   "excite the string by a drive, load or force")
+LINEAR = "The analysis is linear: it does not cover contacts that open or strike, nor stick-slip."
 
 
 def check(scene: Scene, output: Output, options: Any) -> int:
@@ -221,6 +224,10 @@ def response(scene: Scene, output: Output, options: Any) -> int:
         for index, name in enumerate(names):
             size = numpy.abs(found.transfer(output=index))
             at = int(size.argmax())
+            if not size[at] > 0.0:
+                peaks[name] = {"amplitude": None, "frequency_Hz": None}
+                output.say(f"{name}: not assessed, because no input of [response] excites it: " + NOTHING_EXCITES)
+                continue
             peaks[name] = {"amplitude": float(size[at]), "frequency_Hz": float(found.frequencies[at])}
             output.say(f"{name}: largest {size[at]:.4g} at {found.frequencies[at]:.4g} Hz")
         output.summary["response"] = peaks
@@ -231,7 +238,7 @@ def response(scene: Scene, output: Output, options: Any) -> int:
 
 
 def speeds(scene: Scene, output: Output, options: Any) -> int:
-    """Rotary speeds to keep away from."""
+    """Critical rotary speeds."""
     settings = scene.analyses["speeds"]
     with scene.new_sim() as sim:
         to_rest(scene, sim, output, linear=True)
@@ -242,17 +249,50 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
         used: Any = SpeedsOptions(**values)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
     names = scene.output_names("speeds")
+    limits = [one["limit"] for one in settings["output"]]
+    places = scene.outputs("speeds")
     for band in bands:
-        output.say(f"keep away from {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {names[band.output]}, severity "
-                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}")
-    if not bands:
-        output.say(f"no speed to keep away from between {used.speed_low / RPM:.0f} and {used.speed_high / RPM:.0f} rpm, "
-                   f"severity up to {max(severity):.3g}")
+        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {names[band.output]}, severity "
+                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
+                   + touches(scene, places[band.output], band.severity * limits[band.output]))
+    low, high = used.speed_low / RPM, used.speed_high / RPM
+    if not max(severity) > 0.0:
+        output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
+    elif not bands:
+        output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(severity):.3g} of the limit")
+    output.say(LINEAR)
+    output.summary["speeds_assessed"] = bool(max(severity) > 0.0)
     output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in bands]
     output.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(grid, severity)])
     output.picture("speeds.png", lambda plots: plots.severity(grid, severity, bands, used.threshold, scene.title))
     return output.finish()
+
+
+def touches(scene: Scene, place: Any, amplitude: float) -> str:
+    """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
+    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.OUTPUT_DISPLACEMENT else None
+    if clearance is None or amplitude <= clearance:
+        return ""
+    return (f"; the amplitude of {1e3 * amplitude:.3g} mm exceeds the radial clearance of {1e3 * clearance:.3g} mm: the string "
+            "touches the wall, beyond the range of the linear analysis")
+
+
+def clearance_at(scene: Scene, place: Any) -> float | None:
+    """[m] Radial clearance of the pipe at a place of a string; None without hole or pipe."""
+    first = 0
+    if not any(name == "add_wall" for name, _ in scene.model.calls):
+        return None
+    for name, arguments in scene.model.calls:
+        if name != "add_pipes" or arguments[1].get("string", place.place.part) != place.place.part:
+            continue
+        if first <= place.place.pipe < first + arguments[0]:
+            with scene.new_sim() as sim:
+                depth = sim.pose(place.place).depth
+            outer = float(arguments[1].get("outer_diameter", _structs.PipeDef().outer_diameter))
+            return 0.5 * (float(scene.model.hole(depth).diameter) - outer)
+        first += arguments[0]
+    return None
 
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:

@@ -40,7 +40,7 @@ def _between(text: str) -> list[Any]:
     if n < 2:
         raise ValueError(f"{text!r}: COUNT = {n}, must be >= 2")
     a, b = float(first.group(1)), float(last.group(1))
-    numbers = [a + (b - a) * i / (n - 1) for i in range(n)]
+    numbers = [float(f"{a + (b - a) * i / (n - 1):.12g}") for i in range(n)]  # 0.35, not 0.35000000000000003
     return [f"{number!r} {first.group(2)}" if first.group(2) else number for number in numbers]
 
 
@@ -111,7 +111,7 @@ class Sweep:
 
 def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict[str, Any]], Scene], file: str,
           options: Any, folder: str | None, quiet: bool) -> int:
-    """Asks it of all combinations; returns the exit status: 1 where every case failed. Ctrl-C leaves what is done."""
+    """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished cases."""
     target = pathlib.Path(folder) if folder is not None else None
     if target is not None:
         target.mkdir(parents=True, exist_ok=True)
@@ -123,4 +123,4 @@ def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict
         if target is not None and found.rows:
             found.write(target / "sweep.csv")
     found.say(f"{len(found.rows)} cases, {found.failed} failed" + (f"; {target / 'sweep.csv'}" if target is not None else ""))
-    return 1 if found.failed == len(found.rows) else 0
+    return 1 if found.failed or not found.rows else 0

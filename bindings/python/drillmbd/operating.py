@@ -1,0 +1,72 @@
+"""The operation that a scene describes: rotation, feed and load on the bit, as its programmes give them."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from . import _structs, enums
+from .scene import Scene
+
+#: Torque of the bit over a third of its diameter times its load, where the scene has no rock law (the bit-specific
+#: coefficient of sliding friction of Pessier and Fear 1992); between roller-cone and drag bits.
+BIT_FRICTION = 0.5
+
+
+@dataclass
+class Operating:
+    """Magnitudes; None where the scene does not give them as numbers."""
+    rotation: float | None = None       #: [rad/s] of the rotation drive
+    feed: float | None = None           #: [m/s] of the feed drive
+    weight_on_bit: float | None = None  #: [N]
+    torque_on_bit: float = 0.0          #: [N m] estimated from the load and diameter of the bit
+    estimated: bool = False             #: torque_on_bit is an estimate
+
+
+def largest_of(terms: Any) -> float | None:
+    """The largest magnitude of a sum of terms; None if a function of the caller is among them."""
+    total = 0.0
+    for term in terms:
+        kind = int(term.get("kind", enums.TERM_CONSTANT))
+        if "table" in term or kind == enums.TERM_TABLE:
+            total += max((abs(float(value)) for _, value in term.get("table", ())), default=0.0)
+        elif kind == enums.TERM_CALLBACK or term.get("function") is not None:
+            return None
+        elif kind == enums.TERM_HARMONIC:
+            total += abs(term.get("h0", 0.0)) + abs(term.get("h1", 0.0))
+        elif kind == enums.TERM_CONSTANT:
+            total += abs(term.get("h0", 0.0))
+        else:
+            total += max(abs(term.get("h0", 0.0)), abs(term.get("h1", 0.0)))
+    return total
+
+
+def operating(scene: Scene) -> Operating:
+    """Of the first drives along and about x, and the first bit."""
+    programmes: list[Any] = [terms for name, terms in scene.model.calls if name == "add_programme"]
+    found = Operating()
+    for name, arguments in scene.model.calls:
+        fields = arguments[0] if arguments and isinstance(arguments[0], dict) else {}
+        if name == "add_drive" and fields.get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD:
+            value = _value(programmes, fields.get("programme"))
+            if fields.get("component", enums.X) == enums.RX and found.rotation is None:
+                found.rotation = value
+            elif fields.get("component", enums.X) == enums.X and found.feed is None:
+                found.feed = value
+        if name == "add_bit" and found.weight_on_bit is None:
+            found.weight_on_bit = _value(programmes, fields.get("load"))
+            _estimate(found, fields)
+    return found
+
+
+def _value(programmes: list[Any], part: Any) -> float | None:
+    """Of a programme by its id, whose low 24 bits are its number."""
+    return largest_of(programmes[part.index & 0xFFFFFF]) if part else None
+
+
+def _estimate(found: Operating, bit: dict[str, Any]) -> None:
+    law = bit.get("law", bit.get("rock", enums.ROCK_NONE))
+    diameter = float(bit.get("diameter", _structs.BitDef().diameter))
+    if found.weight_on_bit and law == enums.ROCK_NONE and math.isfinite(diameter):
+        found.torque_on_bit = BIT_FRICTION * found.weight_on_bit * diameter / 3.0
+        found.estimated = True

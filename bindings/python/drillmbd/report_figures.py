@@ -1,0 +1,93 @@
+"""Figures of the report as plotly reads them."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from . import _structs
+from ._optional import need
+from .plots import COLOURS
+from .scene import Scene
+
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+
+
+def rounded(values: Any) -> list[float]:
+    """Six digits are enough to draw."""
+    return [float(f"{float(value):.6g}") for value in values]
+
+
+def line(x: Any, y: Any, name: str, number: int) -> dict[str, Any]:
+    """A curve of a figure."""
+    return {"type": "scatter", "mode": "lines", "x": rounded(x), "y": rounded(y), "name": name,
+            "line": {"color": COLOURS[(1 + number) % len(COLOURS)], "dash": DASHES[number % len(DASHES)], "width": 2}}
+
+
+def picture_in_space(scene: Scene, shapes: list[Any], times: list[float]) -> dict[str, Any]:
+    """The string over time, its displacement across the hole exaggerated or to scale, in a tube that is the hole."""
+    numpy = need("numpy")
+    axis = shapes[0][0] - shapes[0][1]
+    tangent = numpy.gradient(axis, axis=0)
+    tangent = tangent / numpy.maximum(numpy.linalg.norm(tangent, axis=1, keepdims=True), 1e-300)
+    length = float(numpy.linalg.norm(numpy.diff(axis, axis=0), axis=1).sum())
+    radius = _hole_radius(scene)
+    across = max([float(numpy.abs(moved).max()) for _, moved in shapes[:1]] + [1e-6])
+    factor = max(1.0, float(f"{length / 30.0 / (radius or across):.1g}"))
+
+    def drawn(shape: Any, scale: float) -> Any:
+        along = (shape[1] * tangent).sum(axis=1, keepdims=True) * tangent
+        return axis + along + scale * (shape[1] - along)
+
+    def trace(points: Any, **more: Any) -> dict[str, Any]:
+        return {"type": "scatter3d", "mode": "lines", "x": rounded(points[:, 0]), "y": rounded(points[:, 1]),
+                "z": rounded(points[:, 2]), **more}
+
+    data = [trace(drawn(shapes[0], factor), name=f"string, across {factor:g} times", line={"color": "#0072B2", "width": 6}),
+            trace(drawn(shapes[0], 1.0), name="string, to scale", line={"color": "#000000", "width": 4}, visible=False),
+            trace(axis, name="axis of the hole", line={"color": "#D55E00", "width": 2, "dash": "dash"})]
+    if radius:
+        data.append(_tube(axis, tangent, factor * radius, f"hole, {factor:g} times"))
+    frames = [{"name": f"{time:.4g}", "traces": [0, 1], "data": [
+        {key: values for key, values in trace(drawn(shape, scale)).items() if key in "xyz" or key == "type"}
+        for scale in (factor, 1.0)]} for shape, time in zip(shapes, times)] if len(shapes) > 1 else []
+    layout: dict[str, Any] = {"scene": {"aspectmode": "data", "camera": {
+        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": f"{name} [m]"}}
+                                                                for name in "xyz"}}, "height": 560, "showlegend": True}
+    tube = len(data) - 3
+    layout["updatemenus"] = [_buttons([("drawn larger", "restyle", [{"visible": [True, False, True] + [True] * tube}]),
+                                       ("to scale", "restyle", [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
+    if frames:
+        playing = {"frame": {"duration": 100}, "fromcurrent": True}
+        layout["updatemenus"].append(_buttons([("play", "animate", [None, playing]),
+                                               ("stop", "animate", [[None], {"mode": "immediate"}])], 0.5))
+        at_once = {"mode": "immediate", "frame": {"duration": 0}}
+        layout["sliders"] = [{"currentvalue": {"prefix": "time [s]: "}, "steps": [
+            {"label": one["name"], "method": "animate", "args": [[one["name"]], at_once]} for one in frames]}]
+    return {"data": data, "layout": layout, "frames": frames}
+
+
+def _buttons(buttons: list[tuple[str, str, list[Any]]], x: float) -> dict[str, Any]:
+    return {"type": "buttons", "direction": "left", "x": x, "xanchor": "left", "y": 1.12,
+            "buttons": [{"label": label, "method": method, "args": args} for label, method, args in buttons]}
+
+
+def _hole_radius(scene: Scene) -> float:
+    wall = next((arguments[0] for name, arguments in scene.model.calls if name == "add_wall"), None)
+    return 0.0 if wall is None else float(wall.get("diameter", _structs.WallDef().diameter)) / 2.0
+
+
+def _tube(axis: Any, tangent: Any, radius: float, name: str) -> dict[str, Any]:
+    """A surface of rings around the axis."""
+    numpy = need("numpy")
+    some = slice(None, None, max(1, len(axis) // 80))
+    axis, tangent = axis[some], tangent[some]
+    up = numpy.where(numpy.abs(tangent[:, 2:3]) < 0.9, numpy.array([[0.0, 0.0, 1.0]]), numpy.array([[0.0, 1.0, 0.0]]))
+    side = numpy.cross(tangent, up)
+    side = side / numpy.linalg.norm(side, axis=1, keepdims=True)
+    other = numpy.cross(tangent, side)
+    angle = numpy.linspace(0.0, 2.0 * math.pi, 17)
+    rings = axis[:, None, :] + radius * (numpy.cos(angle)[None, :, None] * side[:, None, :]
+                                         + numpy.sin(angle)[None, :, None] * other[:, None, :])
+    return {"type": "surface", **{key: [rounded(row) for row in rings[:, :, i]] for i, key in enumerate("xyz")},
+            "opacity": 0.18, "showscale": False, "hoverinfo": "skip", "name": name,
+            "colorscale": [[0, "#8a8a8a"], [1, "#8a8a8a"]]}
