@@ -220,7 +220,7 @@ def response(scene: Scene, output: Output, options: Any) -> int:
         to_rest(scene, sim, output, linear=True)
         found = sim.response(scene.inputs(), scene.outputs("response"), **scene.fields_of("response"))
         names = scene.output_names("response")
-        peaks = {}
+        peaks: dict[str, dict[str, float | None]] = {}
         for index, name in enumerate(names):
             size = numpy.abs(found.transfer(output=index))
             at = int(size.argmax())

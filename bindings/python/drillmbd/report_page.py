@@ -15,7 +15,7 @@ CLASSES = {OK: "ok", NEAR: "near", OVER: "over", NOT_ASSESSED: "open", NOT_COMPU
 
 
 class Content(Protocol):
-    """What a page shows."""
+    """The content of a page."""
     title: str
     headline: str
     output: Output
