@@ -32,8 +32,23 @@ void dmb_beam_strain_of(const dmb_element_type *type, const dmb_beam_shape *shap
 
 void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, double stress[6])
 {
-    const dmb_beam_constants c = constants_of(type);
-    dmb_beam_elastic_stress(&c, shape, stress);
+    double e[6];
+    dmb_beam_strain_of(type, shape, e);
+    dmb_beam_stiffness_times(type, e, stress);
+}
+
+double dmb_beam_cross_energy(const dmb_element_type *type, const double e[6])
+{
+    double s[6] = {0.0};
+    if (!dmb_element_is_curved(type)) return 0.0;
+    dmb_curved_add_cross(type->curved.cross, e, s);
+    return dmb_vec6_dot(e, s);
+}
+
+void dmb_beam_stiffness_times(const dmb_element_type *type, const double e[6], double stress[6])
+{
+    for (int i = 0; i < 6; i++) stress[i] = type->stiffness[i] * e[i];
+    if (dmb_element_is_curved(type)) dmb_curved_add_cross(type->curved.cross, e, stress);
 }
 
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6])

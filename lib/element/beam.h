@@ -12,6 +12,10 @@ int32_t dmb_beam_deform(const dmb_element_type *type, const double quaternion_a[
 /* Strain e and elastic stress (K/L) e [m, rad], [N, N m]. */
 void dmb_beam_strain_of(const dmb_element_type *type, const dmb_beam_shape *shape, double e[6]);
 void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, double stress[6]);
+/* e.X e of the entries of K/L off its diagonal; 0 of elements whose unstressed shape is straight. */
+double dmb_beam_cross_energy(const dmb_element_type *type, const double e[6]);
+/* (K/L) e of a strain or of its rate. */
+void dmb_beam_stiffness_times(const dmb_element_type *type, const double e[6], double stress[6]);
 /* e_x [m] from d alone. */
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */

@@ -163,13 +163,27 @@ static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real sca
     for (int i = 0; i < 6; i++) scale[i] += dmb_real_abs(force[i]);
 }
 
+static inline void dmb_beam_add_cross_damping(const dmb_beam_constants *c, const dmb_curved_constants *curved,
+                                              const dmb_real rate[6], dmb_real stress[6], dmb_beam_output *out)
+{
+    dmb_real viscous[6];
+    for (int i = 0; i < 6; i++) viscous[i] = dmb_real_of(0.0);
+    dmb_curved_add_cross(curved->cross, rate, viscous);
+    for (int i = 0; i < 6; i++) {
+        out->damping += c->damping_time * viscous[i] * rate[i];
+        stress[i] += c->damping_time * viscous[i];
+    }
+}
+
 /* Elastic and damping stress, their power, and the stress for the geometric stiffness. */
 DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_beam_constants *c,
-                                             const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
-                                             dmb_beam_output *out)
+                                             const dmb_curved_constants *curved, const dmb_beam_shape *shape,
+                                             const dmb_beam_input *in, dmb_beam_output *out)
 {
+    const dmb_real *va = in->va, *vb = in->vb;
     dmb_real stress[6], rate[6];
     dmb_beam_elastic_stress(c, shape, stress);
+    if (task->curved) dmb_curved_add_cross_stress(curved, c, shape, stress);
     dmb_vec6_copy(shape->d, out->strain);
     if (task->damped && task->rates) {
         dmb_beam_strain_rate(shape, va, vb, rate);
@@ -179,6 +193,7 @@ DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dm
             out->damping += viscous * rate[i];
             stress[i] += viscous;
         }
+        if (task->curved) dmb_beam_add_cross_damping(c, curved, rate, stress, out);
     }
     if (!task->extrapolated) dmb_vec6_copy(stress, out->stress); /* the viscous part too */
     dmb_beam_add_force(shape, stress, out->fa, out->fb);
@@ -262,6 +277,24 @@ static inline void dmb_beam_clear(dmb_beam_output *out)
     out->rounding = out->potential = out->damping = out->inertia = dmb_real_of(0.0);
 }
 
+/* Tangent of the part of the stiffness that couples components of e: B^T X B, and tau times that with what changes e'.
+ */
+static inline void dmb_beam_add_cross_tangent(const dmb_beam_task *task, const dmb_beam_constants *c,
+                                              const dmb_curved_constants *curved, const dmb_beam_shape *shape,
+                                              const dmb_beam_input *in, dmb_beam_output *out)
+{
+    dmb_real B[12][6], Y[12][6], v[12];
+    dmb_curved_strain_columns(shape, B);
+    if (!task->inertia_only) dmb_curved_add_cross_product(curved->cross, dmb_real_of(1.0), B, B, &out->K);
+    if (!task->dynamic || !task->damped) return;
+    dmb_curved_add_cross_product(curved->cross, task->velocity_factor * c->damping_time, B, B, &out->C);
+    if (task->inertia_only) return;
+    dmb_vec6_copy(in->va, v);
+    dmb_vec6_copy(in->vb, v + 6);
+    dmb_curved_rate_columns(curved, c, shape, v, Y);
+    dmb_curved_add_cross_product(curved->cross, c->damping_time, B, Y, &out->K);
+}
+
 /* Forces of a bent element, and their tangent, added to what the constant part of its mass did. */
 static inline void dmb_beam_add_curved(const dmb_beam_task *task, const dmb_curved_constants *c,
                                        const dmb_beam_shape *at, const dmb_beam_input *in, dmb_beam_output *out)
@@ -312,7 +345,7 @@ DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_c
         dmb_arm_velocity(-c->arm[1], in->ab);
     }
     out->rounding = c->stiffness[0] * c->stiffness[0] * in->reach * in->reach;
-    dmb_beam_internal_force(task, c, &shape, in->va, in->vb, out);
+    dmb_beam_internal_force(task, c, curved, &shape, in, out);
     for (int i = 0; i < 6; i++) pa[i] = pb[i] = dmb_real_of(0.0);
     if (task->dynamic) {
         dmb_beam_momentum(c, in->va, in->vb, pa, pb);
@@ -320,6 +353,7 @@ DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_c
     }
     if (task->tangent) dmb_beam_tangent(task, c, &shape, in->va, in->vb, pa, pb, out);
     if (task->curved) dmb_beam_add_curved(task, curved, &shape, in, out);
+    if (task->curved && task->tangent) dmb_beam_add_cross_tangent(task, c, curved, &shape, in, out);
     if (task->tangent && task->arms) dmb_beam_to_nodes(task, c, out);
     if (task->tangent && task->dynamic) dmb_beam_links(task, in, out);
     if (!task->arms) return 0;

@@ -3,6 +3,7 @@
 #define DMB_ELEMENT_CURVED_ELEMENT_H
 
 #include "element/curved_mass.h"
+#include "element/curved_stiffness.h"
 
 /* Motion of the ends and weight of an element. */
 typedef struct dmb_curved_state {
@@ -33,19 +34,10 @@ static inline void dmb_curved_forces(const dmb_curved_constants *c, const dmb_re
     dmb_curved_add_weight(c, &shape, state->weight, f);
 }
 
-/* Entry (r, k) of a matrix of the ends, 12 by 12. */
-static inline dmb_real *dmb_curved_entry(dmb_beam_blocks *blocks, int r, int k)
-{
-    dmb_real *block = r < 6 ? (k < 6 ? blocks->aa : blocks->ab) : (k < 6 ? blocks->ba : blocks->bb);
-    return block + 6 * (r % 6) + k % 6;
-}
-
 static inline void dmb_curved_add_column(dmb_real factor, const dmb_real f[12], int k, dmb_beam_blocks *blocks)
 {
     for (int r = 0; r < 12; r++) *dmb_curved_entry(blocks, r, k) += factor * f[r];
 }
-
-#define DMB_CURVED_STEP 1e-5 /* [rad; element lengths] of differences: errors of 1e-11 of the forces */
 
 /* By d at motion and weight as they are, times d' of the ends; central differences. */
 static inline void dmb_curved_add_shape_tangent(const dmb_curved_constants *c, const dmb_curved_shape *shape,

@@ -9,6 +9,7 @@
 typedef struct dmb_curved_constants {
     dmb_real mass, rotary[2], moving[6];  /* [kg], [kg m2], C */
     dmb_real turn[2], offset[2], tilt[2]; /* [1/m] Gamma, [-] k, [1/m] */
+    dmb_real cross[15];                   /* [N/m, N, N m] of the stiffness */
     dmb_real sixth, weight;               /* [m] L/12 of the nodes' weight, [kg] that gravity acts on */
 } dmb_curved_constants;
 
@@ -38,6 +39,7 @@ static inline void dmb_curved_load(const dmb_element_type *type, int lane, dmb_c
         dmb_real_set_lane(&c->tilt[i], lane, m->tilt[i]);
     }
     for (int i = 0; i < 6; i++) dmb_real_set_lane(&c->moving[i], lane, m->moving[i]);
+    for (int i = 0; i < 15; i++) dmb_real_set_lane(&c->cross[i], lane, m->cross[i]);
 }
 
 /* p(x) and p'(x) of a power series. */

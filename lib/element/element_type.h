@@ -19,12 +19,13 @@ typedef struct dmb_beam_mass {
 /* Mass of an element that is bent (element/curved_mass.h): what J, the mean axes and C need. mass = 0: the element
  * keeps the constant one. */
 typedef struct dmb_curved_mass {
-    double mass;         /* [kg] */
-    double rotary[2];    /* [kg m2] of all sections about the axis, across it */
-    double moving[6];    /* [kg, kg m2] C: what d' moves against the mean axes and the centre */
-    double turn[2];      /* [1/m] Gamma: speed of the mean axes by d'_y about z, by d'_z about -y */
-    double offset[2];    /* [-] k = q/60: first moment of the bending shapes, planes y and z, q = 1/(1 + P) */
-    double tilt[2];      /* [1/m] q/L: mean turn of the sections by d_y, d_z */
+    double mass;      /* [kg] */
+    double rotary[2]; /* [kg m2] of all sections about the axis, across it */
+    double moving[6]; /* [kg, kg m2] C: what d' moves against the mean axes and the centre */
+    double turn[2];   /* [1/m] Gamma: speed of the mean axes by d'_y about z, by d'_z about -y */
+    double offset[2]; /* [-] k = q/60: first moment of the bending shapes, planes y and z, q = 1/(1 + P) */
+    double tilt[2];   /* [1/m] q/L: mean turn of the sections by d_y, d_z */
+    double cross[15]; /* [N/m, N, N m] K above its diagonal, row by row, where the unstressed shape is bent; else 0 */
     dmb_beam_mass apart; /* of mud that goes along sideways, constant in the frames of the ends */
 } dmb_curved_mass;
 

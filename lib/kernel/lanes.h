@@ -219,6 +219,10 @@ static void extrapolate(const dmb_beam_job *job)
         dmb_beam_strain_rate(&shape, za, zb, dd);
         dmb_beam_elastic_stress(&types.constants, &shape, stress);
         for (int i = 0; i < 6; i++) stress[i] = stress[i] + types.constants.stiffness[i] * dd[i];
+        if (job->curved) {
+            dmb_curved_add_cross_stress(&types.curved, &types.constants, &shape, stress);
+            dmb_curved_add_cross(types.curved.cross, dd, stress);
+        }
         store(stress, 6, &g, job->stress);
     }
 }

@@ -216,7 +216,8 @@ int32_t dmb_mesh_bodies(dmb_mesh *mesh);
 int32_t dmb_mesh_rings(dmb_mesh *mesh);
 int32_t dmb_mesh_poses(dmb_mesh *mesh);
 int32_t dmb_mesh_depths(dmb_mesh *mesh);
-/* True for an element that has the mass of bent ones: by what it is described as, or since its sections are thick. */
+/* True for an element that has the mass of bent ones: its unstressed shape is bent, it is described bent by more than
+ * DMB_CURVED_BEND, or its sections are thick. */
 bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);

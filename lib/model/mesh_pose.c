@@ -167,23 +167,23 @@ static void string_on_its_own(dmb_mesh *mesh, uint32_t string, uint32_t *element
 
 /* ---- Bend -------------------------------------------------------------------------------------------------------- */
 
-/* [rad] between the axes of an element's ends as described, or of its unstressed shape, whichever is more. */
+/* [rad] between the axes of an element's ends as described. */
 static double bend_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
 {
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node);
-    const double *curvature = dmb_mesh_run_at(mesh, element->run)->def.curvature;
     double q[4];
     dmb_quat_between(a->quaternion, a[1].quaternion, q);
-    return fmax(2.0 * sqrt(q[2] * q[2] + q[3] * q[3]),
-                element->length * sqrt(curvature[1] * curvature[1] + curvature[2] * curvature[2]));
+    return 2.0 * hypot(q[2], q[3]);
 }
 
 bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element)
 {
+    const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
     dmb_pipe_section section;
-    dmb_section_of(&dmb_mesh_run_at(mesh, element->run)->def, &section);
+    dmb_section_of(def, &section);
     const double radius = sqrt(section.inertia[1] / section.mass);
-    return bend_of(mesh, element) > DMB_CURVED_BEND || radius > DMB_CURVED_THICK * element->length;
+    return fabs(def->curvature[1]) > 0.0 || fabs(def->curvature[2]) > 0.0 || bend_of(mesh, element) > DMB_CURVED_BEND ||
+           radius > DMB_CURVED_THICK * element->length;
 }
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */

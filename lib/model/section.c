@@ -278,43 +278,6 @@ static void shares_of(const dmb_pipe_def *def, const dmb_pipe_section *section, 
     share[1] = section->inertia[0] * length / (section->inertia[0] * length + joint.inertia[0]);
 }
 
-/* One bending plane, EI and GA about it: the shapes N3 - x and G3 beside the helix have the first moment k and the mean
- * turn q/L; G/J is the speed of the mean axes, C - G^2/J what moves against them. */
-static void curved_plane(double length, double ratio, int plane, dmb_curved_mass *curved)
-{
-    const double q = 1.0 / (1.0 + ratio), m = curved->mass, rotary = curved->rotary[1];
-    const double moment = m * length * (1.0 / 12.0 + q / 60.0) + rotary * q / length;
-    const double inertia = m * length * length / 12.0 + rotary;
-    const double own = m * (1.0 / 12.0 + q / 30.0 + q * q / 210.0) + 1.2 * rotary * q * q / (length * length);
-    curved->turn[plane] = moment / inertia;
-    curved->moving[1 + plane] = own - moment * moment / inertia;
-    curved->offset[plane] = q / 60.0;
-    curved->tilt[plane] = q / length;
-}
-
-void dmb_element_make_curved(const dmb_pipe_def *def, dmb_element_type *type)
-{
-    const double L = type->length;
-    dmb_curved_mass *curved = &type->curved;
-    dmb_pipe_section section;
-    dmb_beam_mass steel;
-    double share[2];
-    dmb_section_of(def, &section);
-    shares_of(def, &section, share);
-    dmb_beam_mass_of(&section, L, share, &steel);
-    curved->mass = section.mass * L;
-    curved->rotary[0] = section.inertia[0] * L;
-    curved->rotary[1] = section.inertia[1] * L;
-    curved->moving[0] = curved->mass * (1.0 + share[0]) / 12.0; /* as straight_mass */
-    curved->moving[3] = curved->rotary[0] * (1.0 + share[1]) / 12.0;
-    curved->moving[4] = curved->moving[5] = curved->mass * L * L / 720.0 + curved->rotary[1] / 12.0;
-    for (int p = 0; p < 2; ++p) {
-        const double *K = section.stiffness;
-        curved_plane(L, dmb_shear_ratio(K[5 - p], K[1 + p], L), p, curved);
-        for (int k = 0; k < 6; ++k) curved->apart.bending[p][k] = type->mass.bending[p][k] - steel.bending[p][k];
-    }
-}
-
 /* ---- Type -------------------------------------------------------------------------------------------------------- */
 
 double dmb_element_length(const dmb_pipe_def *def)

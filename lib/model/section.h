@@ -94,7 +94,8 @@ void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double da
 #define DMB_CURVED_BEND 0.01 /* [rad] as described */
 #define DMB_CURVED_THICK 0.3 /* [-] r/L */
 
-/* Gives a complete type the mass of elements that are bent (element/curved_mass.h). */
+/* Gives a complete type the mass of elements that are bent (element/curved_mass.h) and, where its unstressed shape is,
+ * the stiffness (THEORY 3, stiffness of curved elements). */
 void dmb_element_make_curved(const dmb_pipe_def *def, dmb_element_type *type);
 
 #endif

@@ -57,6 +57,7 @@ static void add_strain_parts(const dmb_sim *view, uint32_t first, uint32_t count
         double rate[6];
         dmb_element_strain_rate(view->scene, &view->now, e, rate);
         for (int i = 0; i < 6; i++) sum[i % 3 ? 2 : i / 3] += 0.5 * type->stiffness[i] * rate[i] * rate[i];
+        sum[2] += 0.5 * dmb_beam_cross_energy(type, rate);
     }
 }
 

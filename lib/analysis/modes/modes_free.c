@@ -5,6 +5,7 @@
 
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
+#include "element/beam.h"
 #include "math/dense.h"
 #include "system/assemble/energy.h"
 
@@ -21,6 +22,7 @@ double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
         double rate[6];
         dmb_element_strain_rate(modes->state->scene, &moved, e, rate);
         for (int i = 0; i < 6; i++) sum += type->stiffness[i] * rate[i] * rate[i];
+        sum += dmb_beam_cross_energy(type, rate);
     }
     return sum;
 }

@@ -205,6 +205,7 @@ double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *config
         const dmb_element_type *type = type_of(scene, e);
         dmb_element_strain(scene, configuration, e, x);
         for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * x[i] * x[i];
+        sum += 0.5 * dmb_beam_cross_energy(type, x);
     }
     return sum;
 }
@@ -279,7 +280,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element], ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
     const double tau = dmb_is_quasi_static(configuration) ? 0.0 : type->damping_time;
-    double va[6], vb[6], stress[6], rate[6];
+    double va[6], vb[6], stress[6], rate[6], viscous[6];
     memset(force, 0, 12 * sizeof(double));
     if (is_path(scene, a) && is_path(scene, a + 1)) {
         double e[6];
@@ -297,7 +298,8 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     end_velocities(scene, configuration, element, va, vb);
     dmb_beam_strain_rate(&shape, va, vb, rate);
     dmb_beam_stress(type, &shape, stress);
-    for (int i = 0; i < 6; i++) stress[i] += tau * type->stiffness[i] * rate[i];
+    dmb_beam_stiffness_times(type, rate, viscous);
+    for (int i = 0; i < 6; i++) stress[i] += tau * viscous[i];
     dmb_beam_add_force(&shape, stress, force, force + 6);
     for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
 }

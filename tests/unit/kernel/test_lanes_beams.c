@@ -55,8 +55,12 @@ static void set_types(beam_input *in)
         def.section_inertia[1] = 0.2;
         dmb_element_type_of(&def, arms[t], 0.01 * t, in->types + t);
         in->types[t].weight_mass = def.length;
-        in->curved[t] = in->types[t];
+        def.curvature[1] = 0.2;
+        def.curvature[2] = -0.1;
+        dmb_element_type_of(&def, arms[t], 0.01 * t, in->curved + t);
+        in->curved[t].weight_mass = def.length;
         dmb_element_make_curved(&def, in->curved + t);
+        def.curvature[1] = def.curvature[2] = 0.0;
     }
 }
 
