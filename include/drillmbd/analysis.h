@@ -61,8 +61,9 @@ typedef struct dmb_static_report {
     double lateral_move;    /* [m] largest displacement from the starting pose */
     uint32_t cuts;          /* [-] load steps that did not converge and were halved */
     uint32_t line_searches; /* [-] corrections that were shortened by a line search */
-    int32_t negative;  /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
-                          for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
+    int32_t negative;  /* [-] negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC:
+                          exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is
+                          known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: real negative ones
                           among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two
                           at once may have come of a complex pair, without the determinant having passed 0);
                           -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
@@ -73,7 +74,10 @@ typedef struct dmb_static_report {
     int32_t steady_reserved;
     int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn
                            together counted once: every angle is an equilibrium, and the starting one is kept */
-    int32_t free_reserved;
+    int32_t unresolved; /* [-] eigenvalues of rounding size, whose signs the count does not resolve: motions that
+                           nothing resists, or a mesh too fine for double precision; SYMMETRIC only */
+    double resolution;  /* [N/m] largest eigenvalue, rotations over the square of the mean element length, that may be
+                           of rounding size: 4 eps of the largest stiffness */
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
@@ -90,9 +94,10 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL.
  * A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis
  * sum to 0; else DMB_ERR_SINGULAR.
- * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors:
- * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
- * that before the call. O(number of elements) an iteration. */
+ * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0);
+ * DMB_NOTE_INCOMPLETE where the stability of an equilibrium at rest is not resolved (report->negative < 0; message
+ * states the bound). Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION,
+ * _CALLBACK; the state is then that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------

@@ -131,26 +131,48 @@ static void shift(front *f)
     f->n = f->rows = size;
 }
 
-static void append(front *f, size_t m, const double *D, const double raise[2], const double *U, const double *L)
+static void append(front *f, size_t m, const double *D, const double *U, const double *L)
 {
     const size_t n = f->n;
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < m; j++) row(f, n + i)[n + j] = 0.5 * (D[m * i + j] + D[m * j + i]);
-    for (size_t i = 0; i < m && raise != NULL; i++) row(f, n + i)[n + i] += raise[2 * i < m ? 0 : 1];
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < m; j++) row(f, i)[n + j] = row(f, n + j)[i] = 0.5 * (U[m * i + j] + L[n * j + i]);
     f->rows = n + m;
 }
 
+void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const uint8_t *solved, double floor,
+                         double *size)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double weight = 2 * i < n ? 1.0 : arm_square, own = fabs(D[(size_t)(n + 1) * i]);
+        size[i] = solved == NULL || solved[i] ? own : 0.0;
+        most = fmax(most, size[i] / weight);
+    }
+    for (uint32_t i = 0; i < n; i++)
+        if (solved == NULL || solved[i]) size[i] = fmax(size[i], floor * most * (2 * i < n ? 1.0 : arm_square));
+}
+
+/* Raises the diagonal of the block D that was appended last, whose first row is `at`. */
+static void raise_last(front *f, const dmb_block_raise *raise, const double *D, uint32_t at)
+{
+    double size[DMB_BLOCK_SIZE_MAX];
+    dmb_block_row_sizes((uint32_t)(f->rows - f->n), D, raise->arm_square,
+                        raise->solved != NULL ? raise->solved + at : NULL, raise->floor, size);
+    for (size_t i = f->n; i < f->rows; i++) row(f, i)[i] += raise->part * size[i - f->n];
+}
+
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
-                            const double *upper, const double raise[2], uint32_t first, uint32_t count)
+                            const double *upper, const dmb_block_raise *raise, uint32_t first, uint32_t count)
 {
     double a[4 * DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
     front f = {.a = a, .stride = 2 * DMB_BLOCK_SIZE_MAX};
     uint32_t negative = 0;
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t link = i > first ? layout->link[i - 1] : 0;
-        append(&f, layout->size[i], diagonal + layout->diag[i], raise, upper + link, lower + link);
+        append(&f, layout->size[i], diagonal + layout->diag[i], upper + link, lower + link);
+        if (raise != NULL) raise_last(&f, raise, diagonal + layout->diag[i], layout->row[i]);
         if (i > first) negative += eliminate(&f);
         shift(&f);
     }

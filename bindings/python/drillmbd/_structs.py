@@ -852,9 +852,10 @@ class StaticReport(Sized):
     steady: int
     steady_reserved: int
     free_spins: int
-    free_reserved: int
+    unresolved: int
+    resolution: float
     if TYPE_CHECKING:
-        def __init__(self, *, iterations: int = ..., load_steps: int = ..., method: int = ..., residual: SupportsFloat = ..., largest_force: SupportsFloat = ..., lateral_move: SupportsFloat = ..., cuts: int = ..., line_searches: int = ..., negative: int = ..., stiffness: int = ..., steady: int = ..., free_spins: int = ...) -> None: ...
+        def __init__(self, *, iterations: int = ..., load_steps: int = ..., method: int = ..., residual: SupportsFloat = ..., largest_force: SupportsFloat = ..., lateral_move: SupportsFloat = ..., cuts: int = ..., line_searches: int = ..., negative: int = ..., stiffness: int = ..., steady: int = ..., free_spins: int = ..., unresolved: int = ..., resolution: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("iterations", c_uint32),
@@ -870,7 +871,8 @@ class StaticReport(Sized):
         ("steady", c_int32),
         ("steady_reserved", c_int32),
         ("free_spins", c_int32),
-        ("free_reserved", c_int32),
+        ("unresolved", c_int32),
+        ("resolution", c_double),
     ]
     field_docs = {
         "iterations": ("-", "in all"),
@@ -881,10 +883,12 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two at once may have come of a complex pair, without the determinant having passed 0); -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
+        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two at once may have come of a complex pair, without the determinant having passed 0); -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
         "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
+        "unresolved": ("-", "eigenvalues of rounding size, whose signs the count does not resolve: motions that nothing resists, or a mesh too fine for double precision; SYMMETRIC only"),
+        "resolution": ("N/m", "largest eigenvalue, rotations over the square of the mean element length, that may be of rounding size: 4 eps of the largest stiffness"),
     }
 
 

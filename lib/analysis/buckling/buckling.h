@@ -64,7 +64,8 @@ typedef struct dmb_path {
     double *mode;        /* (rows) softest shape of the stiffness factored last, unit length */
     double side;         /* rate of the last point but at limit points, where it is that beyond */
     double softest;      /* [N/m] eigenvalue of that shape */
-    double rounding;     /* [N/m] of eigenvalues of the stiffness judged last */
+    double *sizes;       /* (rows) rounding sizes of the rows of the stiffness judged last */
+    double rounding;     /* [N/m] rounding of `softest` */
     double weakest;      /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations; /* of the point sought */
     uint32_t turned;     /* element that a step has twisted or bent too far; DMB_NONE: none */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
+#include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
 #include "sim/access.h"
 #include "sim/layout.h"
@@ -45,7 +46,7 @@ static void solve(dmb_path *path, double *x)
 /* Factors of the stiffness; `judged`: its stability too, for the next point. */
 static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, int64_t *bad)
 {
-    dmb_stability found = {0};
+    dmb_stability found = {.size = path->sizes};
     if (!judged) {
         dmb_system_iteration_matrix(&path->search.evaluation);
         *bad = dmb_factor_stiffness(path->work, weakest);
@@ -54,7 +55,6 @@ static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, in
     const int32_t status = dmb_stability_judge(&path->search, 0, weakest, bad, &found);
     path->next.negative = found.negative;
     path->next.stiffness = found.stiffness;
-    path->rounding = found.rounding;
     return status;
 }
 
@@ -248,6 +248,7 @@ static double softness(dmb_path *path)
         grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
         memcpy(path->mode, x, rows * sizeof(double));
     }
+    path->rounding = dmb_stiffness_rounding_of(path->work, path->sizes, path->mode);
     return 1.0 / grown;
 }
 
@@ -318,7 +319,7 @@ static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double withi
  * then has a corner, and goes on so that det K times the sense of (-K^-1 q, 1) stays as it was: the factor turns back.
  */
 #define DMB_CORNER 1e-4
-#define DMB_ROUNDINGS 100.0
+#define DMB_ROUNDINGS 3.0
 
 /* next stands just beyond it. */
 static void turn_corner(dmb_path *path, int32_t *event)

@@ -203,16 +203,31 @@ void dmb_linear_add_whole_joints(dmb_linear *linear, double factor);
 /* R and the rows of its coordinates. DMB_ERR_NO_MEMORY. */
 int32_t dmb_linear_make_coordinates(dmb_linear *linear);
 
-/* The stiffness of a static state, as the static iteration leaves it, and what its signs tell. */
+/* ---- The stiffness of a static state (stiffness_signs.c) --------------------------------------------------------- */
 
-/* Factors the iteration matrix in the stiffness_ blocks (held rows identity) as dmb_factor_stiffness, and counts its
- * negative eigenvalues in the independent coordinates, of its symmetric part where friction makes it unsymmetric. A
- * pivot that is 0 but for rounding does not count in chains without joints: a buckled column may turn about its load.
- */
+/* As the static iteration leaves it in the stiffness_ blocks, held rows identity. */
+
+/* Factors it as dmb_factor_stiffness, and counts its negative eigenvalues in the independent coordinates, of its
+ * symmetric part where friction makes it unsymmetric; those of rounding size do not count in chains without joints: a
+ * buckled column may turn about its load. */
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative);
-/* Of the chains that no joint connects, from the iteration matrix as it is formed; raised by rounding: *rounding [N/m]
- * of displacements, below which an eigenvalue counts as 0. */
-uint32_t dmb_stiffness_negative_of_chains(const dmb_sim *sim, double *rounding);
+
+typedef struct dmb_signs {
+    int32_t negative;   /* [-] negative eigenvalues beyond rounding; -1: they cannot be counted */
+    int32_t unresolved; /* [-] eigenvalues of rounding size: their signs are not known */
+    double bound;       /* [N/m] largest size of those */
+} dmb_signs;
+
+/* Signs of the eigenvalues of K, symmetric, not factored and left as it is. both 0: `unresolved` is not looked for, at
+ * half the cost. The reduced system is made anew. DMB_ERR_NO_MEMORY. */
+int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, dmb_signs *out);
+/* Rounding sizes of the rows of K, shape (rows), 0 of rows that are held (eq:signs.size). */
+void dmb_stiffness_row_sizes(const dmb_sim *sim, double *size);
+/* [N/m] Rounding of the Rayleigh quotient of a shape x (rows) in K x = mu D x, D the weights 1 of displacements and
+ * length_scale^2 of rotations, by the sizes of the rows. */
+double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *size, const double *x);
+/* [N/m] Largest diagonal entry, rotations over the square of the length scale. */
+double dmb_stiffness_largest(const dmb_sim *sim);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */
 int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
 /* Tells which part nothing holds. DMB_ERR_SINGULAR. */

@@ -11,6 +11,9 @@
 #include "sim/access.h"
 #include "system/solve/solve.h"
 
+/* Part of the largest stiffness, rotations over the length scale, that counts as 0 of an unsymmetric one. */
+#define DMB_STIFFNESS_ROUNDING 1e-14
+
 /* ---- Symmetric part ---------------------------------------------------------------------------------------------- */
 
 /* U and L^T of shape (n, m) become their mean, and L its transpose. */
@@ -206,6 +209,32 @@ static uint32_t coordinates_of(const dmb_sim *sim)
     return count - rank;
 }
 
+/* Values sought for the softest one: those beside it are close where a string lies in its hole. */
+#define DMB_SOFTEST_WANTED 8
+#define DMB_SOFTEST_TOLERANCE 1e-7
+
+int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape)
+{
+    dmb_krylov found;
+    const dmb_operator inverse = {.context = sim,
+                                  .length = sim->scene->row_count,
+                                  .dimension = coordinates_of(sim),
+                                  .symmetric = 1,
+                                  .partly = 1,
+                                  .metric = metric,
+                                  .apply = apply,
+                                  .draw = draw,
+                                  .go_on = go_on};
+    const uint32_t wanted = inverse.dimension < DMB_SOFTEST_WANTED ? (uint32_t)inverse.dimension : DMB_SOFTEST_WANTED;
+    const int32_t status =
+        dmb_krylov_largest(&inverse, wanted, 2, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
+    if (status < 0) return status;
+    *value = 1.0 / found.re[0];
+    memcpy(shape, found.x, sim->scene->row_count * sizeof(double));
+    dmb_krylov_release(&found);
+    return DMB_OK;
+}
+
 /* A real double value is split by rounding into two, or into a pair this close to the real axis. */
 #define DMB_REAL_PAIR 1e-5
 
@@ -354,34 +383,31 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
 /* ---- Judgement -----------------------------------------------------------------------------------------------------
  */
 
-/* With joints what is 0 but for rounding has any sign: it is judged again with that much more on the diagonal. */
-static int64_t judge_reduced_again(dmb_sim *sim, uint32_t chains, dmb_stability *out)
+/* The signs of a symmetric K, and its factors. */
+static int32_t judge_symmetric(dmb_sim *sim, int thorough, dmb_block_weakest *weakest, int64_t *bad, dmb_stability *out)
 {
-    raise_diagonal(sim, out->rounding, 1);
-    int64_t bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
-    if (bad < 0) out->negative = (int32_t)(chains + dmb_reduced_negative(sim));
-    raise_diagonal(sim, -out->rounding, 1);
-    if (bad < 0) bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
-    return bad;
+    dmb_signs signs;
+    const int32_t status = dmb_stiffness_signs_of(sim, thorough, &signs);
+    *bad = dmb_factor_stiffness(sim, weakest);
+    out->negative = signs.negative;
+    out->unresolved = signs.unresolved;
+    out->bound = signs.bound;
+    return status;
 }
 
 int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out)
 {
     dmb_sim *sim = state->sim;
-    const dmb_scene *scene = sim->scene;
     dmb_system_iteration_matrix(&state->evaluation);
-    const uint32_t chains = dmb_stiffness_negative_of_chains(sim, &out->rounding);
-    if (scene->cluster_count) dmb_reduced_assemble(sim);
+    if (sim->scene->cluster_count) dmb_reduced_assemble(sim);
+    out->rounding = out->bound = DMB_STIFFNESS_ROUNDING * dmb_stiffness_largest(sim);
+    out->unresolved = 0;
     out->asymmetry = dmb_asymmetry_of(sim, out->rounding);
     out->stiffness = out->asymmetry > DMB_UNSYMMETRIC ? DMB_STIFFNESS_UNSYMMETRIC : DMB_STIFFNESS_SYMMETRIC;
-    out->negative = (int32_t)chains;
+    if (out->size != NULL) dmb_stiffness_row_sizes(sim, out->size);
+    if (out->stiffness == DMB_STIFFNESS_SYMMETRIC) return judge_symmetric(sim, thorough, weakest, bad, out);
     *bad = dmb_factor_stiffness(sim, weakest);
-    if (*bad >= 0) return DMB_OK;
-    if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(state, thorough, out);
-    if (scene->cluster_count == 0) return DMB_OK;
-    const uint32_t jointed = dmb_reduced_negative(sim);
-    out->negative = (int32_t)(chains + jointed);
-    if (jointed > 0 && thorough) *bad = judge_reduced_again(sim, chains, out);
-    return DMB_OK;
+    out->negative = 0;
+    return *bad >= 0 ? DMB_OK : judge_unsymmetric(state, thorough, out);
 }

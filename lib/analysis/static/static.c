@@ -344,7 +344,9 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     if (status >= 0) status = dmb_stability_judge(search, 1, &weakest, &bad, &found);
     out->free_spins = (int32_t)search->spin_count;
     search->spin_count = 0;
-    out->negative = bad >= 0 ? -1 : found.negative;
+    out->unresolved = found.unresolved;
+    out->resolution = found.bound;
+    out->negative = bad >= 0 || (found.negative == 0 && found.unresolved > 0) ? -1 : found.negative;
     out->stiffness = found.stiffness;
     return status;
 }
@@ -406,6 +408,28 @@ static int32_t tell_unstable(dmb_sim *sim, const dmb_static_report *out)
     return DMB_NOTE_UNSTABLE;
 }
 
+static int32_t tell_unresolved(dmb_sim *sim, const dmb_static_report *out)
+{
+    if (out->unresolved > 0)
+        dmb_message_set(&sim->message,
+                        "static: the stability of the equilibrium is not resolved: %d eigenvalue(s) of the stiffness "
+                        "are smaller than its rounding, at most %g N/m; constrain the motion that nothing resists, or "
+                        "use fewer elements",
+                        out->unresolved, out->resolution);
+    else
+        dmb_message_set(&sim->message,
+                        "static: the stability of the equilibrium is not resolved: the negative eigenvalues of the "
+                        "stiffness could not be counted; run in time from a small disturbance");
+    return DMB_NOTE_INCOMPLETE;
+}
+
+/* Status of a state that was found. */
+static int32_t tell_stability(dmb_sim *sim, const dmb_static_report *out)
+{
+    if (out->steady != DMB_STEADY_AT_REST || out->negative == 0) return DMB_OK;
+    return out->negative > 0 ? tell_unstable(sim, out) : tell_unresolved(sim, out);
+}
+
 static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
 {
     dmb_static_options taken;
@@ -419,7 +443,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     status = find_state(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
-    return status == DMB_OK && out.negative > 0 && out.steady == DMB_STEADY_AT_REST ? tell_unstable(sim, &out) : status;
+    return status == DMB_OK ? tell_stability(sim, &out) : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

@@ -260,18 +260,26 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
  * in two directions at once. Flutter is not looked for: it depends on mass and damping (modes). */
 
 typedef struct dmb_stability {
-    int32_t stiffness; /* DMB_STIFFNESS_... */
-    int32_t negative;  /* eigenvalues as above, those of rounding size apart; -1: they could not be counted */
-    double asymmetry;  /* [-] dmb_asymmetry_of */
-    double rounding;   /* [N/m] of eigenvalues in D */
+    int32_t stiffness;  /* DMB_STIFFNESS_... */
+    int32_t negative;   /* eigenvalues as above, those of rounding size apart; -1: they could not be counted */
+    int32_t unresolved; /* eigenvalues of rounding size, whose signs are not known; looked for where `thorough` */
+    int32_t reserved;
+    double bound;     /* [N/m] largest size of those, rotations over the square of the length scale */
+    double asymmetry; /* [-] dmb_asymmetry_of */
+    double rounding;  /* [N/m] of eigenvalues in D, K being unsymmetric */
+    double *size;     /* (rows) in: NULL or room; out: rounding sizes of the rows (eq:signs.size) */
 } dmb_stability;
 
 /* After an evaluation with the true tangent: forms the iteration matrix, judges it and leaves it factored as
  * dmb_factor_stiffness, whose result *bad is; not judged where that is >= 0. `thorough` 1: of a state that was asked
- * for, looked at once more where rounding may decide; 0: of one on a path, where what counts is that the same is
+ * for, with the eigenvalues of rounding size; 0: of one on a path, where what counts is that the same is
  * counted at each point. The residual is left as it was. Errors: DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
 int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out);
+
+/* Eigenvalue of K x = mu D x nearest 0 [N/m], K symmetric, by the factors at hand, and its shape (rows), of length 1 in
+ * the weights D. Errors of dmb_krylov_largest. */
+int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape);
 
 /* Whether rings that slip leave a state without divergence, without an eigenvalue being sought.
  *

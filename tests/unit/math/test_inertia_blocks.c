@@ -93,8 +93,8 @@ static void sturm_count_of_the_laplacian(void **state)
         for (uint32_t i = 0; i < BLOCKS; i++) c.diagonal[i] = 2.0 - mu;
         for (uint32_t i = 0; i + 1 < BLOCKS; i++) c.lower[i] = c.upper[i] = -1.0;
         assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 0, BLOCKS), k);
-        const double raise[2] = {mu, mu};
-        assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, raise, 0, BLOCKS), 0);
+        const dmb_block_raise raise = {mu / fabs(2.0 - mu), 1.0, 0.0, NULL};
+        assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, &raise, 0, BLOCKS), 0);
     }
 }
 
