@@ -160,7 +160,11 @@ static void raise_last(front *f, const dmb_block_raise *raise, const double *D, 
     double size[DMB_BLOCK_SIZE_MAX];
     dmb_block_row_sizes((uint32_t)(f->rows - f->n), D, raise->arm_square,
                         raise->solved != NULL ? raise->solved + at : NULL, raise->floor, size);
-    for (size_t i = f->n; i < f->rows; i++) row(f, i)[i] += raise->part * size[i - f->n];
+    for (size_t i = f->n; i < f->rows; i++) {
+        const size_t k = i - f->n;
+        row(f, i)[i] += raise->part * size[k];
+        if (raise->amount != NULL) row(f, i)[i] += raise->share * raise->amount[at + k];
+    }
 }
 
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,

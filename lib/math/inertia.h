@@ -19,9 +19,11 @@ void dmb_dense_from_factors(uint32_t n, const double *LU, const uint32_t *pivot,
 void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const uint8_t *solved, double floor,
                          double *size);
 
-/* Addition to the diagonal before the signs are counted: `part` times the size of each row as above. */
+/* Addition to the diagonal before the signs are counted: `part` times the size of each row as above, and `share` of
+ * `amount`. */
 typedef struct dmb_block_raise {
-    double part;
+    double part, share;
+    const double *amount;  /* (rows of the layout); NULL: none */
     double arm_square;     /* [m2] */
     double floor;          /* [-] */
     const uint8_t *solved; /* (rows of the layout); NULL: all */

@@ -222,7 +222,8 @@ static void lost_path_is_reported(void **state)
     rig_close(&h.s);
 }
 
-/* A buckled column with a hinged foot may turn about its load, with joints and without: that is no instability. */
+/* A buckled column with a hinged foot may turn about its load, with joints and without: that is no instability, but one
+ * eigenvalue is of rounding size, and the count is reported as not resolved. */
 static void turning_about_the_load_is_neutral(void **state)
 {
     (void)state;
@@ -259,8 +260,10 @@ static void turning_about_the_load_is_neutral(void **state)
         print_message("    %s: end aside %.6f m, %d negative\n", jointed ? "on a joint" : "on a guide",
                       hypot(end.displacement[1], end.displacement[2]), report.negative);
         assert_true(hypot(end.displacement[1], end.displacement[2]) > 1.0);
-        assert_int_equal(status, DMB_OK);
-        assert_int_equal(report.negative, 0);
+        assert_int_equal(status, DMB_NOTE_INCOMPLETE);
+        assert_int_equal(report.negative, -1);
+        assert_int_equal(report.unresolved, 1);
+        assert_true(report.resolution > 0.0 && report.resolution < 1e-6 * 1e6 * EI * 16.0 / LENGTH);
         rig_close(&s);
     }
 }

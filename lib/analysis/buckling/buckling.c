@@ -40,6 +40,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, uint32_t count, dm
     to->vector = DMB_ARENA_DOUBLES(arena, (size_t)count * dmb_pencil_unknowns(scene));
     to->shape = scene->cluster_count ? DMB_ARENA_DOUBLES(arena, count * rows) : to->vector;
     to->response = DMB_ARENA_DOUBLES(arena, rows);
+    to->amount = DMB_ARENA_DOUBLES(arena, rows);
     to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
     dmb_pencil_lay_out(arena, scene, &to->pencil);
     dmb_frames_lay_out(arena, scene, &to->frames);

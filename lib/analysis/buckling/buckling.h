@@ -64,7 +64,7 @@ typedef struct dmb_path {
     double *mode;        /* (rows) softest shape of the stiffness factored last, unit length */
     double side;         /* rate of the last point but at limit points, where it is that beyond */
     double softest;      /* [N/m] eigenvalue of that shape */
-    double *sizes;       /* (rows) rounding sizes of the rows of the stiffness judged last */
+    double *amounts;     /* (rows) rounding of the rows of the stiffness judged last (eq:signs.amount) */
     double rounding;     /* [N/m] rounding of `softest` */
     double weakest;      /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations; /* of the point sought */
@@ -237,6 +237,7 @@ struct dmb_buckling {
     double *vector;   /* (count, unknowns of the pencil) */
     double *shape;    /* (count, rows) body-frame displacements of the nodes; without joints it is the vector */
     double *response; /* (rows) of the state to the pattern */
+    double *amount;   /* (rows) rounding of the rows of K (eq:signs.amount) */
     dmb_load_pattern pattern;
     dmb_pencil pencil;
     dmb_frames frames;

@@ -213,7 +213,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
 {
     dmb_sim *work = buckling->work;
     dmb_block_weakest weakest;
-    dmb_stability found = {0};
+    dmb_stability found = {.amount = buckling->amount};
     int64_t bad = -1;
     const int32_t status = dmb_stability_judge(search, 0, &weakest, &bad, &found);
     if (status < 0) return status;
@@ -263,18 +263,40 @@ static int32_t evaluate_at(dmb_buckling *buckling, dmb_static_search *search, do
     return status < 0 ? status : dmb_system_evaluate(&search->evaluation);
 }
 
+/* Matrices to be summed up begin with zeros. */
+static void clear(const dmb_scene *scene, dmb_pencil_matrix *A)
+{
+    const size_t link = scene->layout.link[scene->layout.n - 1] * sizeof(double);
+    memset(A->diagonal, 0, scene->layout.diag[scene->layout.n] * sizeof(double));
+    memset(A->lower, 0, link);
+    memset(A->upper, 0, link);
+    if (scene->cluster_count) memset(A->jointed, 0, scene->pattern.values * sizeof(double));
+}
+
 static void add_to(size_t n, double factor, const double *from, double *to)
 {
     for (size_t i = 0; i < n; i++) to[i] += factor * from[i];
 }
 
-/* A += factor K of the evaluation, its rows held, in the frames of the present state. 0 where that cannot be done. */
-static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, dmb_pencil_matrix *A)
+/* K + T, T the rounding of its rows (eq:signs.amount). */
+static void raise_diagonal(dmb_sim *work, const double *amount)
+{
+    const dmb_block_layout *layout = &work->scene->layout;
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++)
+            dmb_stiffness_of(work, i)[(size_t)(layout->size[i] + 1) * c] += amount[layout->row[i] + c];
+}
+
+/* A += factor K of the evaluation, its rows held, in the frames of the present state. 0 where that cannot be done.
+ * raised 1: of K + T. */
+static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, int raised,
+                       dmb_pencil_matrix *A)
 {
     dmb_sim *work = evaluation->sim;
     const dmb_block_layout *layout = &work->scene->layout;
     const size_t link = layout->link[layout->n - 1];
     dmb_system_iteration_matrix(evaluation);
+    if (raised) raise_diagonal(work, buckling->amount);
     dmb_frames_turn_chains(work);
     add_to(layout->diag[layout->n], factor, work->stiffness_diagonal, A->diagonal);
     add_to(link, factor, work->stiffness_lower, A->lower);
@@ -299,7 +321,7 @@ static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, do
     for (int side = -1; side <= 1; side += 2) {
         const int32_t status = evaluate_at(buckling, search, side * step);
         if (status < 0) return status;
-        if (!take_matrix(buckling, &search->evaluation, 0.5 * side / step, &pencil->G)) return DMB_ERR_SINGULAR;
+        if (!take_matrix(buckling, &search->evaluation, 0.5 * side / step, 0, &pencil->G)) return DMB_ERR_SINGULAR;
     }
     if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK;
     make_symmetric(buckling->work, &pencil->K);
@@ -314,7 +336,8 @@ static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_se
     if (status >= 0) status = dmb_stiffness_balanced(sim, "buckling", &search->evaluation);
     if (status >= 0)
         status = dmb_load_pattern_derivative(&buckling->pattern, &search->evaluation, buckling->at, buckling->response);
-    if (status >= 0 && !take_matrix(buckling, &search->evaluation, 1.0, &buckling->pencil.K)) status = DMB_ERR_SINGULAR;
+    if (status >= 0 && !take_matrix(buckling, &search->evaluation, 1.0, 0, &buckling->pencil.K))
+        status = DMB_ERR_SINGULAR;
     return status;
 }
 
@@ -339,30 +362,33 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
     dmb_reduced_expand(work, shape);
 }
 
-static int32_t stable(dmb_buckling *buckling, dmb_sim *sim)
+/* An eigenvalue of rounding size is no instability (dmb_stability_judge has found none beyond): K + T has none. */
+static int32_t raise_stiffness(dmb_buckling *buckling, dmb_static_search *search)
+{
+    dmb_pencil *pencil = &buckling->pencil;
+    const int32_t status = evaluate_at(buckling, search, 0.0);
+    if (status < 0) return status;
+    clear(pencil->scene, &pencil->K);
+    if (!take_matrix(buckling, &search->evaluation, 1.0, 1, &pencil->K)) return DMB_ERR_SINGULAR;
+    make_symmetric(buckling->work, &pencil->K);
+    return DMB_OK;
+}
+
+static int32_t stable(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     uint32_t negative;
     if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK; /* judged before */
-    if (!dmb_pencil_count(&buckling->pencil, 0.0, &negative)) {
-        dmb_message_set(&sim->message,
-                        "buckling: the stiffness is singular, its negative eigenvalues cannot be counted");
-        return DMB_ERR_SINGULAR;
+    for (int raised = 0; raised < 2; raised++) {
+        if (!dmb_pencil_count(&buckling->pencil, 0.0, &negative)) {
+            dmb_message_set(&sim->message,
+                            "buckling: the stiffness is singular, its negative eigenvalues cannot be counted");
+            return DMB_ERR_SINGULAR;
+        }
+        if (negative == 0) return DMB_OK;
+        const int32_t status = raised ? DMB_OK : raise_stiffness(buckling, search);
+        if (status < 0) return status;
     }
-    return negative == 0 ? DMB_OK : unstable(sim, (int32_t)negative);
-}
-
-/* Matrices to be summed up begin with zeros. */
-static void clear(dmb_buckling *buckling)
-{
-    const dmb_scene *scene = buckling->work->scene;
-    const size_t link = scene->layout.link[scene->layout.n - 1] * sizeof(double);
-    dmb_pencil_matrix *const both[2] = {&buckling->pencil.K, &buckling->pencil.G};
-    for (int k = 0; k < 2; k++) {
-        memset(both[k]->diagonal, 0, scene->layout.diag[scene->layout.n] * sizeof(double));
-        memset(both[k]->lower, 0, link);
-        memset(both[k]->upper, 0, link);
-        if (scene->cluster_count) memset(both[k]->jointed, 0, scene->pattern.values * sizeof(double));
-    }
+    return unstable(sim, (int32_t)negative);
 }
 
 /* The trial in the state at rest, with a partition that suits it. */
@@ -384,10 +410,11 @@ int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_b
     int32_t status = begin(buckling, &search);
     if (status < 0) return status;
     dmb_load_pattern_begin(&buckling->pattern, buckling->work);
-    clear(buckling);
+    clear(buckling->pencil.scene, &buckling->pencil.K);
+    clear(buckling->pencil.scene, &buckling->pencil.G);
     status = stiffness_now(buckling, sim, &search);
     if (status >= 0) status = respond(buckling, sim, &search);
     if (status >= 0) status = differences(buckling, &search, difference_of(buckling, options->step));
-    if (status >= 0) status = keep_reduction(buckling, &search);
-    return status < 0 ? status : stable(buckling, sim);
+    if (status >= 0) status = stable(buckling, sim, &search);
+    return status < 0 ? status : keep_reduction(buckling, &search);
 }

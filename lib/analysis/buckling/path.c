@@ -60,7 +60,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_path *to)
     to->move = DMB_ARENA_DOUBLES(arena, scene->row_count);
     to->iterate = DMB_ARENA_DOUBLES(arena, scene->row_count);
     to->mode = DMB_ARENA_DOUBLES(arena, scene->row_count);
-    to->sizes = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->amounts = DMB_ARENA_DOUBLES(arena, scene->row_count);
     to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
 }
 

@@ -46,7 +46,7 @@ static void solve(dmb_path *path, double *x)
 /* Factors of the stiffness; `judged`: its stability too, for the next point. */
 static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, int64_t *bad)
 {
-    dmb_stability found = {.size = path->sizes};
+    dmb_stability found = {.amount = path->amounts};
     if (!judged) {
         dmb_system_iteration_matrix(&path->search.evaluation);
         *bad = dmb_factor_stiffness(path->work, weakest);
@@ -248,7 +248,7 @@ static double softness(dmb_path *path)
         grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
         memcpy(path->mode, x, rows * sizeof(double));
     }
-    path->rounding = dmb_stiffness_rounding_of(path->work, path->sizes, path->mode);
+    path->rounding = dmb_stiffness_rounding_of(path->work, path->amounts, path->mode);
     return 1.0 / grown;
 }
 

@@ -218,14 +218,14 @@ typedef struct dmb_signs {
     double bound;       /* [N/m] largest size of those */
 } dmb_signs;
 
-/* Signs of the eigenvalues of K, symmetric, not factored and left as it is. both 0: `unresolved` is not looked for, at
- * half the cost. The reduced system is made anew. DMB_ERR_NO_MEMORY. */
-int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, dmb_signs *out);
-/* Rounding sizes of the rows of K, shape (rows), 0 of rows that are held (eq:signs.size). */
-void dmb_stiffness_row_sizes(const dmb_sim *sim, double *size);
+/* Signs of the eigenvalues of K, symmetric, not factored and left as it is, with the residual of its state at hand.
+ * both 0: `unresolved` is not looked for, at half the cost. amount (rows; may be NULL): what is added to the diagonal
+ * and taken from it (eq:signs.amount). The reduced system is made anew. DMB_ERR_NO_MEMORY. */
+int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, double *amount, dmb_signs *out);
+void dmb_stiffness_amounts(const dmb_sim *sim, double *amount);
 /* [N/m] Rounding of the Rayleigh quotient of a shape x (rows) in K x = mu D x, D the weights 1 of displacements and
- * length_scale^2 of rotations, by the sizes of the rows. */
-double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *size, const double *x);
+ * length_scale^2 of rotations. */
+double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *amount, const double *x);
 /* [N/m] Largest diagonal entry, rotations over the square of the length scale. */
 double dmb_stiffness_largest(const dmb_sim *sim);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */

@@ -1,7 +1,8 @@
 /* The stiffness K of a static state and the signs of its eigenvalues. Elimination counts exactly the signs of a matrix
- * whose entries differ from those of K by some eps sqrt(s_i s_j), s the size of a row (eq:signs.size). So the counts of
- * K + 4 eps S and K - 4 eps S, S = diag(s), enclose that of K: where they agree it is exact, and the eigenvalues by
- * which they differ are of rounding size (eq:signs.bounds). S scales as K does: units do not matter. */
+ * whose entries differ from those of K by some eps sqrt(s_i s_j), s the size of a row (eq:signs.size). A residual r
+ * that rounding or the tolerance leaves has a stiffness too, that of the turning of r with the nodes. With the diagonal
+ * T of both (eq:signs.amount), the counts of K + T and K - T enclose that of K: where they agree it is exact, and the
+ * eigenvalues by which they differ are of rounding size (eq:signs.bounds). T scales as K does: units do not matter. */
 #include "analysis/linear/linear.h"
 
 #include <math.h>
@@ -46,7 +47,7 @@ static void add_tangent(const dmb_sim *sim, const dmb_constraint *c, double *siz
         }
 }
 
-void dmb_stiffness_row_sizes(const dmb_sim *sim, double *size)
+static void row_sizes(const dmb_sim *sim, double *size)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -58,34 +59,67 @@ void dmb_stiffness_row_sizes(const dmb_sim *sim, double *size)
     for (uint32_t k = 0; k < scene->constraint_count; k++) add_tangent(sim, scene->constraints + k, size);
 }
 
-/* ---- Counts ------------------------------------------------------------------------------------------------------ */
+/* Size of components [first, end) of the residual of a node, those that are held apart. */
+static double residual_of(const dmb_sim *sim, uint32_t node, uint32_t first, uint32_t end)
+{
+    const uint32_t row = sim->scene->layout.row[node];
+    double sum = 0.0;
+    for (uint32_t c = first; c < end; c++)
+        if (sim->scene->solved_row[row + c]) sum += sim->residual[row + c] * sim->residual[row + c];
+    return sqrt(sum);
+}
 
-static uint32_t negative_of_chains(const dmb_sim *sim, double part)
+/* A shape with displacements d and rotations a moves the force r of a node by a x d/2 to second order, and
+ * |r . a x d| <= |r| (d^2/L + L a^2)/2, L the length of what may turn as a whole. */
+static void add_residual(const dmb_sim *sim, double *amount)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_block_raise raise = {part, arm_square_of(scene), DMB_SIGNS_FLOOR, scene->solved_row};
+    double length = 0.0;
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        length = fmax(length, scene->chains[c].length * scene->chains[c].count);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t n = scene->layout.size[i], row = scene->layout.row[i];
+        const double force = residual_of(sim, i, 0, n / 2), moment = residual_of(sim, i, n / 2, n);
+        for (uint32_t c = 0; c < n; c++)
+            if (scene->solved_row[row + c])
+                amount[row + c] += 2 * c < n ? 0.5 * force / length : 0.5 * force * length + moment;
+    }
+}
+
+void dmb_stiffness_amounts(const dmb_sim *sim, double *amount)
+{
+    row_sizes(sim, amount);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) amount[i] *= DMB_SIGNS_PART;
+    add_residual(sim, amount);
+}
+
+/* ---- Counts ------------------------------------------------------------------------------------------------------ */
+
+static uint32_t negative_of_chains(const dmb_sim *sim, const dmb_block_raise *raise)
+{
+    const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].jointed)
-            negative +=
-                dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper,
-                                   &raise, scene->chains[c].first, scene->chains[c].count);
+            negative += dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower,
+                                           sim->stiffness_upper, raise, scene->chains[c].first, scene->chains[c].count);
     return negative;
 }
 
 typedef struct row_storage {
-    double *size, *diagonal; /* (rows) of the nodes of jointed chains: sizes, diagonal of K as it is */
+    double *amount, *diagonal; /* (rows) T, and the diagonal of K as it is */
 } row_storage;
 
-/* K + part S in the rows of jointed chains; part 0: K. */
-static void raise_joints(dmb_sim *sim, const row_storage *rows, double part)
+/* K + share T in the rows of jointed chains. */
+static void raise_joints(dmb_sim *sim, const row_storage *rows, double share)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t n = scene->layout.size[i], row = scene->layout.row[i];
         double *D = dmb_stiffness_of(sim, i);
         if (!scene->chains[scene->node_chain[i]].jointed) continue;
-        for (uint32_t c = 0; c < n; c++) D[(size_t)(n + 1) * c] = rows->diagonal[row + c] + part * rows->size[row + c];
+        for (uint32_t c = 0; c < n; c++)
+            D[(size_t)(n + 1) * c] = rows->diagonal[row + c] + share * rows->amount[row + c];
     }
 }
 
@@ -97,44 +131,58 @@ static void keep_diagonal(const dmb_sim *sim, double *diagonal)
             diagonal[scene->layout.row[i] + c] = dmb_stiffness_of(sim, i)[(size_t)(scene->layout.size[i] + 1) * c];
 }
 
+/* [N/m] Largest of the rows of displacements, and of rotations over the square of the length scale. */
+static double largest_amount(const dmb_sim *sim, const double *amount)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            const double weight = 2 * c < scene->layout.size[i] ? 1.0 : arm_square_of(scene);
+            most = fmax(most, amount[scene->layout.row[i] + c] / weight);
+        }
+    return most;
+}
+
 /* A block may be singular before its turn though the whole is not: a little further on it is not. */
 #define DMB_SIGNS_TRIES 3
 
-static int negative_of_joints(dmb_sim *sim, const row_storage *rows, double part, uint32_t *negative)
+static int negative_of_joints(dmb_sim *sim, const row_storage *rows, double share, int32_t *negative)
 {
-    for (int k = 0; k < DMB_SIGNS_TRIES; k++, part *= 1.25) {
-        raise_joints(sim, rows, part);
+    for (int k = 0; k < DMB_SIGNS_TRIES; k++, share *= 1.25) {
+        raise_joints(sim, rows, share);
         if (dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL) >= 0) continue;
-        *negative += dmb_reduced_negative(sim);
+        *negative += (int32_t)dmb_reduced_negative(sim);
         return 1;
     }
     return 0;
 }
 
-static int32_t count_joints(dmb_sim *sim, int both, uint32_t counts[2], int *counted)
+/* Of K + share T; -1: not counted. */
+static int32_t count(dmb_sim *sim, const row_storage *rows, double share)
 {
-    const size_t bytes = 2 * (size_t)sim->scene->row_count * sizeof(double);
-    row_storage rows = {.size = dmb_allocate(&sim->allocator, bytes)};
-    if (rows.size == NULL) return DMB_ERR_NO_MEMORY;
-    rows.diagonal = rows.size + sim->scene->row_count;
-    dmb_stiffness_row_sizes(sim, rows.size);
-    keep_diagonal(sim, rows.diagonal);
-    *counted = negative_of_joints(sim, &rows, DMB_SIGNS_PART, &counts[0]);
-    if (both) *counted = negative_of_joints(sim, &rows, -DMB_SIGNS_PART, &counts[1]) && *counted;
-    raise_joints(sim, &rows, 0.0);
-    dmb_release(&sim->allocator, rows.size, bytes);
-    return DMB_OK;
+    const dmb_block_raise raise = {.share = share, .amount = rows->amount};
+    int32_t negative = (int32_t)negative_of_chains(sim, &raise);
+    if (sim->scene->cluster_count == 0) return negative;
+    return negative_of_joints(sim, rows, share, &negative) ? negative : -1;
 }
 
-int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, dmb_signs *out)
+int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, double *amount, dmb_signs *out)
 {
-    uint32_t counts[2] = {negative_of_chains(sim, DMB_SIGNS_PART), both ? negative_of_chains(sim, -DMB_SIGNS_PART) : 0};
-    int counted = 1;
-    const int32_t status = sim->scene->cluster_count ? count_joints(sim, both, counts, &counted) : DMB_OK;
-    out->negative = counted ? (int32_t)counts[0] : -1;
-    out->unresolved = counted && both && counts[1] > counts[0] ? (int32_t)(counts[1] - counts[0]) : 0;
-    out->bound = dmb_stiffness_largest(sim) * DMB_SIGNS_PART;
-    return status;
+    const size_t rows = sim->scene->row_count, bytes = 2 * rows * sizeof(double);
+    row_storage room = {.amount = dmb_allocate(&sim->allocator, bytes)};
+    if (room.amount == NULL) return DMB_ERR_NO_MEMORY;
+    room.diagonal = room.amount + rows;
+    dmb_stiffness_amounts(sim, room.amount);
+    keep_diagonal(sim, room.diagonal);
+    const int32_t above = count(sim, &room, 1.0), below = both ? count(sim, &room, -1.0) : above;
+    if (sim->scene->cluster_count) raise_joints(sim, &room, 0.0);
+    out->negative = above < 0 || below < 0 ? -1 : above;
+    out->unresolved = out->negative >= 0 && below > above ? below - above : 0;
+    out->bound = largest_amount(sim, room.amount);
+    if (amount != NULL) memcpy(amount, room.amount, rows * sizeof(double));
+    dmb_release(&sim->allocator, room.amount, bytes);
+    return DMB_OK;
 }
 
 double dmb_stiffness_largest(const dmb_sim *sim)
@@ -152,7 +200,7 @@ double dmb_stiffness_largest(const dmb_sim *sim)
     return most;
 }
 
-double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *size, const double *x)
+double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *amount, const double *x)
 {
     const dmb_scene *scene = sim->scene;
     double above = 0.0, below = 0.0;
@@ -160,18 +208,23 @@ double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *size, const d
         const uint32_t n = scene->layout.size[i], row = scene->layout.row[i];
         for (uint32_t c = 0; c < n; c++) {
             const double square = x[row + c] * x[row + c];
-            above += size[row + c] * square;
+            above += amount[row + c] * square;
             below += (2 * c < n ? 1.0 : arm_square_of(scene)) * square;
         }
     }
-    return below > 0.0 ? DMB_SIGNS_PART * above / below : 0.0;
+    return below > 0.0 ? above / below : 0.0;
 }
 
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)
 {
-    const uint32_t chains = negative_of_chains(sim, DMB_SIGNS_PART);
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_raise raise = {.part = DMB_SIGNS_PART,
+                                   .arm_square = arm_square_of(scene),
+                                   .floor = DMB_SIGNS_FLOOR,
+                                   .solved = scene->solved_row};
+    const uint32_t chains = negative_of_chains(sim, &raise);
     const int64_t bad = dmb_factor_stiffness(sim, weakest);
-    *negative = bad >= 0 ? 0 : (int32_t)(chains + (sim->scene->cluster_count ? dmb_reduced_negative(sim) : 0));
+    *negative = bad >= 0 ? 0 : (int32_t)(chains + (scene->cluster_count ? dmb_reduced_negative(sim) : 0));
     return bad;
 }
 

@@ -226,8 +226,7 @@ int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape)
                                   .draw = draw,
                                   .go_on = go_on};
     const uint32_t wanted = inverse.dimension < DMB_SOFTEST_WANTED ? (uint32_t)inverse.dimension : DMB_SOFTEST_WANTED;
-    const int32_t status =
-        dmb_krylov_largest(&inverse, wanted, 2, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
+    const int32_t status = dmb_krylov_largest(&inverse, wanted, 2, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
     if (status < 0) return status;
     *value = 1.0 / found.re[0];
     memcpy(shape, found.x, sim->scene->row_count * sizeof(double));
@@ -387,7 +386,7 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
 static int32_t judge_symmetric(dmb_sim *sim, int thorough, dmb_block_weakest *weakest, int64_t *bad, dmb_stability *out)
 {
     dmb_signs signs;
-    const int32_t status = dmb_stiffness_signs_of(sim, thorough, &signs);
+    const int32_t status = dmb_stiffness_signs_of(sim, thorough, out->amount, &signs);
     *bad = dmb_factor_stiffness(sim, weakest);
     out->negative = signs.negative;
     out->unresolved = signs.unresolved;
@@ -405,8 +404,8 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
     out->unresolved = 0;
     out->asymmetry = dmb_asymmetry_of(sim, out->rounding);
     out->stiffness = out->asymmetry > DMB_UNSYMMETRIC ? DMB_STIFFNESS_UNSYMMETRIC : DMB_STIFFNESS_SYMMETRIC;
-    if (out->size != NULL) dmb_stiffness_row_sizes(sim, out->size);
     if (out->stiffness == DMB_STIFFNESS_SYMMETRIC) return judge_symmetric(sim, thorough, weakest, bad, out);
+    if (out->amount != NULL) dmb_stiffness_amounts(sim, out->amount);
     *bad = dmb_factor_stiffness(sim, weakest);
     out->negative = 0;
     return *bad >= 0 ? DMB_OK : judge_unsymmetric(state, thorough, out);

@@ -93,7 +93,7 @@ static void sturm_count_of_the_laplacian(void **state)
         for (uint32_t i = 0; i < BLOCKS; i++) c.diagonal[i] = 2.0 - mu;
         for (uint32_t i = 0; i + 1 < BLOCKS; i++) c.lower[i] = c.upper[i] = -1.0;
         assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 0, BLOCKS), k);
-        const dmb_block_raise raise = {mu / fabs(2.0 - mu), 1.0, 0.0, NULL};
+        const dmb_block_raise raise = {.part = mu / fabs(2.0 - mu), .arm_square = 1.0};
         assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, &raise, 0, BLOCKS), 0);
     }
 }
