@@ -267,7 +267,7 @@ typedef struct dmb_stability {
     double bound;     /* [N/m] largest size of those, rotations over the square of the length scale */
     double asymmetry; /* [-] dmb_asymmetry_of */
     double rounding;  /* [N/m] of eigenvalues in D, K being unsymmetric */
-    double *amount;    /* (rows) in: NULL or room; out: rounding of the rows (eq:signs.amount) */
+    double *amount;   /* (rows) in: NULL or room; out: rounding of the rows (eq:signs.amount) */
 } dmb_stability;
 
 /* After an evaluation with the true tangent: forms the iteration matrix, judges it and leaves it factored as
