@@ -369,6 +369,10 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
         root_of(search, d, i, s);
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
+        if (!paired && s[1] == 0.0) {
+            status = dmb_modes_take_root(search, s[0], 0.0, d->x, NULL);
+            continue;
+        }
         if (dmb_modes_is_rigid_root(search, s[0], s[1], d->x, paired ? d->y : NULL)) continue;
         status = paired ? add_pair(search, d, s) : dmb_modes_add(search, s[0], s[1], d->x, NULL);
     }

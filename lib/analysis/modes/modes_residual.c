@@ -206,7 +206,8 @@ int32_t dmb_modes_check(dmb_mode_search *search)
  *     general:    Q(p) y = Q'(s) x,   Q(s) = s^2 M + s C + K,   and s from y^H Q(s) y = 0
  *     symmetric:  (K - p M) y = M x,  and s^2 from Rayleigh's quotient
  *
- * Each turn takes |s - p| over the distance to the next root off the error. */
+ * Each turn takes |s - p| over the distance to the next root off the error. Rounding of the solution, mostly
+ * of stiff motions, is reduced by one step of iterative refinement, which leaves x itself alone. */
 
 /* Relative distance of p from the root, which keeps pivots regular; and the largest number of iterations. */
 #define DMB_POLISH_ASIDE 1e-7
@@ -285,6 +286,29 @@ static int turn(polish *p, number s)
     return 1;
 }
 
+/* Takes rounding of the solution, mostly of stiff motions, off x: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. */
+static void correct_general(polish *p, number s)
+{
+    const dmb_linear *linear = p->search->linear;
+    const size_t n = linear->rows;
+    const double *Mx = p->product, *My = p->product + n;
+    memset(p->f.re, 0, n * sizeof(double));
+    memset(p->f.im, 0, n * sizeof(double));
+    add_forces(p, &linear->stiffness, 1.0);
+    add_forces(p, &linear->damping, s);
+    add_forces(p, &linear->mass, s * s);
+    dmb_dynamic_stiffness_solve(&p->stiffness, 0, p->f);
+    const number mass = form(p, &linear->mass); /* M x stays in product */
+    const number along = number_of(dmb_dot(n, Mx, p->f.re) + dmb_dot(n, My, p->f.im),
+                                   dmb_dot(n, Mx, p->f.im) - dmb_dot(n, My, p->f.re)) /
+                         mass;
+    for (size_t i = 0; i < n; i++) {
+        const number x = number_of(p->x.re[i], p->x.im[i]), change = number_of(p->f.re[i], p->f.im[i]) - along * x;
+        p->x.re[i] -= creal(change);
+        p->x.im[i] -= cimag(change);
+    }
+}
+
 static void sharpen_general(polish *p, uint32_t k)
 {
     dmb_modes *modes = p->search->modes;
@@ -297,11 +321,44 @@ static void sharpen_general(polish *p, uint32_t k)
         if (!turn(p, s)) return;
         if (real) memset(p->x.im, 0, bytes);
         s = root_next_to(p, s);
+        correct_general(p, s);
+        if (real) memset(p->x.im, 0, bytes);
+        s = root_next_to(p, s);
         if (real ? cimag(s) != 0.0 : !(cimag(s) > 0.0)) return;
         dmb_modes_put(p->search, k, creal(s), cimag(s), p->x.re, real ? NULL : p->x.im);
         const dmb_mode_defect defect = dmb_modes_defect(p->search, k);
         if (defect.value <= defect.bound) return;
     }
+}
+
+/* x over its length in M; 0 if it has none. */
+static int take_length(const dmb_linear *linear, double *x, double *Mx)
+{
+    const size_t rows = linear->rows;
+    dmb_linear_multiply(linear, &linear->mass, x, Mx);
+    const double mass = dmb_dot(rows, x, Mx);
+    if (!(mass > 0.0) || !isfinite(mass)) return 0;
+    for (size_t r = 0; r < rows; r++) x[r] /= sqrt(mass);
+    return 1;
+}
+
+/* Takes rounding of the solution, mostly of stiff motions, off x by a correction of the residual:
+ * x -= (I - x x^T M) (K - p M)^-1 (K - s M) x, s Rayleigh's quotient. */
+static void correct(const polish *p, double *x)
+{
+    const dmb_mode_search *search = p->search;
+    dmb_linear *linear = search->linear;
+    const size_t rows = linear->rows;
+    double *Kx = p->product, *Mx = p->product + rows;
+    dmb_linear_multiply(linear, &linear->stiffness, x, Kx);
+    dmb_linear_multiply(linear, &linear->mass, x, Mx);
+    const double square = dmb_dot(rows, x, Kx);
+    for (size_t r = 0; r < rows; r++) Kx[r] -= square * Mx[r];
+    dmb_modes_take_rigid(search, search->rigid, search->rigid_momentum, Kx);
+    dmb_linear_solve(linear, Kx);
+    dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, Kx);
+    const double along = dmb_dot(rows, Mx, Kx);
+    for (size_t r = 0; r < rows; r++) x[r] -= Kx[r] - along * x[r];
 }
 
 static void sharpen_symmetric(polish *p, uint32_t k)
@@ -320,10 +377,9 @@ static void sharpen_symmetric(polish *p, uint32_t k)
         memcpy(x, Ax, rows * sizeof(double));
         dmb_linear_solve(linear, x);
         dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
-        dmb_linear_multiply(linear, &linear->mass, x, Ax);
-        const double mass = dmb_dot(rows, x, Ax);
-        if (!(mass > 0.0) || !isfinite(mass)) return;
-        for (size_t r = 0; r < rows; r++) x[r] /= sqrt(mass);
+        if (!take_length(linear, x, Ax)) return;
+        correct(p, x);
+        if (!take_length(linear, x, Ax)) return;
         dmb_linear_multiply(linear, &linear->stiffness, x, Ax);
         dmb_modes_put_square(search, k, dmb_dot(rows, x, Ax), x);
         const dmb_mode_defect defect = dmb_modes_defect(search, k);

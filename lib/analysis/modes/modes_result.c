@@ -207,9 +207,12 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
 }
 
 /* A real root of two shapes, as of a column that diverges in two planes, may come as a pair that rounding has moved off
- * the real axis by this part of it. Real and imaginary part are shapes of it then, unless one of them is this part of
- * the other: that is a double root of one shape (dmb_modes_join). */
+ * the real axis by this part of it; or, however the BLAS rounds, by as much as so many times the noise of eigenvalues
+ * s^2 makes of s, up to the second part of it. Real and imaginary part are shapes of it then, unless one of them is
+ * this part of the other: that is a double root of one shape (dmb_modes_join). */
 #define DMB_REAL_PAIR 1e-9
+#define DMB_REAL_PAIR_NOISE 16.0
+#define DMB_REAL_PAIR_MOST 1e-6
 #define DMB_REAL_SHAPES 1e-4
 
 int dmb_modes_are_two_shapes(const dmb_mode_search *search, const double *y)
@@ -221,7 +224,9 @@ int dmb_modes_are_two_shapes(const dmb_mode_search *search, const double *y)
 
 int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, double *x, double *y)
 {
-    if (!(fabs(im) <= DMB_REAL_PAIR * fabs(re))) return 0;
+    const double size = fabs(re), most = DMB_REAL_PAIR_MOST * size;
+    const double noise = size > 0.0 ? fmin(DMB_REAL_PAIR_NOISE * search->noise / size, most) : 0.0;
+    if (!(fabs(im) <= fmax(DMB_REAL_PAIR * size, noise))) return 0;
     normalise(search, x, y);
     return dmb_modes_are_two_shapes(search, y);
 }
