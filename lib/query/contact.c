@@ -13,6 +13,7 @@
 #include "model/field_check.h"
 #include "model/model.h"
 #include "model/scene.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "system/assemble/assemble.h"
 
@@ -26,7 +27,7 @@ static uint64_t site_count(const dmb_scene *scene)
     return (uint64_t)scene->site_count + scene->path_site_count;
 }
 
-static void force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force)
+void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t full = scene->site_count;
@@ -55,7 +56,7 @@ int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contac
     dmb_contact answer = {0};
     if (status < 0) return status;
     if (site >= site_count(sim->scene)) return DMB_ERR_VALUE;
-    force_of(sim, site, &force);
+    dmb_contact_force_of(sim, site, &force);
     describe(sim->scene, site, &answer);
     answer.closed = force.closed;
     answer.sticks = force.sticks;
@@ -78,7 +79,7 @@ int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
     if (status < 0) return status;
     for (uint32_t i = 0; i < site_count(sim->scene); i++) {
         dmb_site_force force;
-        force_of(sim, i, &force);
+        dmb_contact_force_of(sim, i, &force);
         if (!force.closed) continue;
         answer.closed++;
         answer.normal_force += force.normal_force;

@@ -8,6 +8,7 @@
 #include "element/beam.h"
 #include "model/model.h"
 #include "sim/sim.h"
+#include "system/assemble/assemble.h"
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
@@ -49,6 +50,9 @@ double dmb_site_normal_force(const dmb_sim *sim, uint32_t site);
 
 /* [N] the same by part; 0 without a site. Errors: DMB_ERR_ID, DMB_ERR_VALUE (no such pipe). */
 int32_t dmb_normal_force_at(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *force);
+
+/* Of a site in the accepted state, with the friction of an assumed slip. */
+void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force);
 
 /* ---- Motion inside elements -------------------------------------------------------------------------------------- */
 
@@ -146,6 +150,14 @@ int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, i
 
 /* [J] of a share on its node in the accepted state. */
 double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
+
+/* ---- Section forces ---------------------------------------------------------------------------------------------- */
+
+/* Section force at a point of an element of the pipe, not in its tool joint, as dmb_section tells it. O(log sites +
+ * loads
+ * + springs + stuck places). */
+void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
+                         double load[6]);
 
 /* ---- Pressures of the mud ---------------------------------------------------------------------------------------- */
 

@@ -5,7 +5,6 @@
 
 #include "base/sized_struct.h"
 #include "force/hole.h"
-#include "math/se3.h"
 #include "math/vec3.h"
 #include "model/section.h"
 #include "sim/access.h"
@@ -14,36 +13,12 @@
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-/* From the element's helix to the section itself, which lies off it by exp(c) (query/motion.c): what it carries
- * is the same load in its own axes about its own centre. Under an axial force both tell. */
-static void to_the_section(const dmb_scene *scene, const dmb_configuration *configuration,
-                           const dmb_material_point *point, double force[6])
+/* A tool joint hands on the load at its near end, its own mass left out. */
+static void section_force(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6])
 {
-    dmb_section_shape shape;
-    double e[6], c[6], R[9], x[3], moment[3];
-    dmb_element_strain(scene, configuration, point->element, e);
-    dmb_material_point_shape(scene, point, &shape);
-    dmb_section_shape_correct(&shape, e, c);
-    dmb_se3_exp(c, NULL, R, x);
-    dmb_vec3_cross(x, force, moment);
-    dmb_vec3_sub(force + 3, moment, moment);
-    dmb_mat3_tvec(R, force, force);
-    dmb_mat3_tvec(R, moment, force + 3);
-}
-
-/* Between the ends forces go straight, and bending moments by the parabola that belongs to them, dm/dx = -e_x x n;
- * exact under uniform weight. A tool joint hands on the load at its near end, its own mass left out. */
-static void section_force(const dmb_scene *scene, const dmb_configuration *configuration,
-                          const dmb_material_point *point, double force[6])
-{
-    const double x = point->fraction,
-                 bow = 0.5 * x * (1.0 - x) * scene->types[scene->element_type[point->element]].length;
-    double ends[12];
-    dmb_element_end_loads(scene, configuration, point->element, ends);
-    for (int i = 0; i < 6; i++) force[i] = ends[i] + x * (ends[6 + i] - ends[i]);
-    force[4] -= bow * (ends[8] - ends[2]);
-    force[5] += bow * (ends[7] - ends[1]);
-    to_the_section(scene, configuration, point, force);
+    dmb_described_pipe pipe;
+    dmb_describe_pipe(sim, dmb_model_part_index(sim->model, place.part, DMB_PART_STRING), place.pipe, &pipe);
+    dmb_section_load_of(sim, &pipe, point, force);
     force[4] += point->beyond * force[2];
     force[5] -= point->beyond * force[1];
 }
@@ -67,7 +42,7 @@ int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *sect
     if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
     if (point.element == DMB_NONE) return DMB_ERR_UNSUPPORTED;
-    section_force(sim->scene, &sim->now, &point, answer.force);
+    section_force(sim, place, &point, answer.force);
     section_strain(sim->scene, &sim->now, &point, answer.strain);
     return dmb_section_write(section, &answer);
 }

@@ -1,6 +1,7 @@
 /* Section forces against Newton's law: each piece of a string between two of its sections is in balance with its
  * weight, the contacts and the loads on it. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "drillmbd/bha.h"
@@ -53,6 +54,110 @@ static void add_section(const rig *s, dmb_place place, double sign, wrench_sum *
     to_world(pose.rotation, sign, section.force + 3, moment);
     add_force(w, force, pose.position);
     add_moment(w, moment);
+}
+
+/* ---- Weight and contacts of a piece -------------------------------------------------------------------------------
+ */
+
+/* Equal pipes of equal elements without tool joints, clamped at the rig. */
+typedef struct pipe_row {
+    rig s;
+    dmb_id string;
+    uint32_t pipes, elements, points; /* points 0: contact at nodes */
+    double length, radius, weight[3]; /* [m] of a pipe; 0: no wall; [N/m] */
+    double mass, eccentricity;        /* [kg/m] that is accelerated, [m] */
+} pipe_row;
+
+/* x counts pipes. */
+static dmb_place place_at(const pipe_row *r, double x)
+{
+    const uint32_t pipe = x < r->pipes ? (uint32_t)x : r->pipes - 1;
+    return dmb_station(r->string, pipe, x - pipe);
+}
+
+/* -m a of the mass beside the axis, and its weight. */
+static void add_mass(const pipe_row *r, dmb_place place, double length, wrench_sum *w)
+{
+    const double offset[3] = {0.0, r->eccentricity, 0.0};
+    dmb_pose pose = dmb_pose_default();
+    dmb_motion motion = dmb_motion_default();
+    double force[3];
+    must(&r->s, dmb_query_pose_at(r->s.sim, place, offset, &pose));
+    must(&r->s, dmb_query_motion_at(r->s.sim, place, offset, &motion));
+    for (int i = 0; i < 3; i++) force[i] = length * (r->weight[i] - r->mass * motion.acceleration[i]);
+    add_force(w, force, pose.position);
+}
+
+/* Gauss's rule of three points over each element's part. */
+static void add_weight(const pipe_row *r, double from, double to, wrench_sum *w)
+{
+    static const double at[3] = {-0.7745966692414834, 0.0, 0.7745966692414834}, share[3] = {5.0, 8.0, 5.0};
+    for (uint32_t e = 0; e < r->pipes * r->elements; e++) {
+        const double a = fmax(from, (double)e / r->elements), b = fmin(to, (e + 1.0) / r->elements);
+        for (int k = 0; k < 3 && b > a; k++)
+            add_mass(r, place_at(r, 0.5 * (a + b) + 0.5 * at[k] * (b - a)), share[k] / 18.0 * (b - a) * r->length, w);
+    }
+}
+
+/* Number of pipes from the rig to a site: far ends of elements first, then the points inside them, in their order. */
+static double site_at(const pipe_row *r, uint32_t site)
+{
+    static const double fraction[2][3] = {{0.5, 0.0, 0.0}, {0.17267316464601142, 0.5, 0.82732683535398858}};
+    const uint32_t nodes = r->pipes * r->elements, inside = r->points > 2 ? r->points - 2 : 1;
+    if (site < nodes) return (site + 1.0) / r->elements;
+    return ((site - nodes) / inside + fraction[r->points == 5][(site - nodes) % inside]) / r->elements;
+}
+
+/* Friction acts at the surface, along the hole t and along t x n. */
+static void add_contacts(const pipe_row *r, double from, double to, wrench_sum *w)
+{
+    dmb_model_info info = dmb_model_info_default();
+    must(&r->s, dmb_model_get_info(r->s.model, &info));
+    for (uint32_t site = 0; site < info.contact_sites; site++) {
+        const double x = site_at(r, site);
+        dmb_contact c = dmb_contact_default();
+        dmb_hole_point axis = dmb_hole_point_default();
+        double normal[3], friction[3], at[3];
+        if (!(x > from && x < to)) continue;
+        must(&r->s, dmb_query_contact(r->s.sim, site, &c));
+        const dmb_pose pose = pose_at(&r->s, place_at(r, x));
+        must(&r->s, dmb_query_hole(r->s.model, pose.depth, &axis));
+        const double *n = c.normal, *t = axis.tangent;
+        const double b[3] = {t[1] * n[2] - t[2] * n[1], t[2] * n[0] - t[0] * n[2], t[0] * n[1] - t[1] * n[0]};
+        for (int i = 0; i < 3; i++) {
+            normal[i] = -c.normal_force * n[i];
+            friction[i] = c.friction[0] * t[i] + c.friction[1] * b[i];
+            at[i] = pose.position[i] + r->radius * n[i];
+        }
+        add_force(w, normal, pose.position);
+        add_force(w, friction, at);
+    }
+}
+
+static void worst_balance(const pipe_row *r, double from, double to, double worst[2])
+{
+    wrench_sum w = {{0.0}, {0.0}, {0.0}};
+    add_section(&r->s, place_at(r, from), -1.0, &w);
+    add_section(&r->s, place_at(r, to), 1.0, &w);
+    add_weight(r, from, to, &w);
+    if (r->radius > 0.0) add_contacts(r, from, to, &w);
+    worst[0] = fmax(worst[0], norm(w.force) / w.size[0]);
+    worst[1] = fmax(worst[1], norm(w.moment) / w.size[1]);
+}
+
+/* Pieces of all lengths: within elements, over nodes, from end to end. Forces balance to the residual of the static
+ * state; moments of the weight to the square of the slopes, by which sections inside a straight element are off. */
+static void check_pieces(const char *what, const pipe_row *r, double force, double moment)
+{
+    double worst[2] = {0.0, 0.0};
+    char text[80];
+    for (double from = 0.0; from < r->pipes; from += 0.3137)
+        for (double to = from + 0.1713; to <= r->pipes; to += 0.4271) worst_balance(r, from, to, worst);
+    worst_balance(r, 0.0, r->pipes, worst);
+    (void)snprintf(text, sizeof text, "%s, %u elements, %u points: forces", what, r->elements, r->points);
+    check_below(text, worst[0], force);
+    (void)snprintf(text, sizeof text, "%s, %u elements, %u points: moments", what, r->elements, r->points);
+    check_below(text, worst[1], moment);
 }
 
 /* ---- Statics with an assumed slip ---------------------------------------------------------------------------------
@@ -272,11 +377,151 @@ static void forces_inside(void **state)
         }
 }
 
+/* ---- Contact along elements -------------------------------------------------------------------------------------- */
+
+static pipe_row lie(const dmb_wall_def *hole, uint32_t elements, uint32_t points, double length, double slip)
+{
+    pipe_row r = {.pipes = 3, .elements = elements, .points = points, .length = length};
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_wall_def wall = *hole;
+    dmb_static_options options = dmb_static_options_default();
+    rig_open(&r.s, 0.0, 0.0, -9.81);
+    wall.mu_static = wall.mu_dynamic = 0.3;
+    (void)add_wall(&r.s, &wall);
+    def.start_free = DMB_FREE_NONE;
+    pipe.elements = elements;
+    pipe.contact_points = points;
+    pipe.length = length;
+    pipe.string = r.string = add_string(&r.s, &def);
+    (void)add_pipes(&r.s, &pipe, r.pipes);
+    r.radius = 0.5 * pipe.outer_diameter;
+    r.weight[2] = -s1_values().weight;
+    (void)rig_start(&r.s, NULL);
+    options.slip_axial = slip;
+    options.slip_rotation = 2.0 * slip;
+    (void)find_equilibrium(&r.s, &options);
+    return r;
+}
+
+/* Of no moment; it bears the contact at the end. */
+static void check_free_end(const pipe_row *r)
+{
+    dmb_section end = dmb_section_default();
+    dmb_contact last = dmb_contact_default();
+    must(&r->s, dmb_query_section(r->s.sim, place_at(r, r->pipes), &end));
+    must(&r->s, dmb_query_contact(r->s.sim, r->pipes * r->elements - 1, &last));
+    check_close("shear at the free end", end.force[2], last.normal_force, 1e-3 * last.normal_force);
+    check_close("moment at the free end", hypot(end.force[4], end.force[5]), 0.0, 1e-6 * last.normal_force);
+}
+
+/* Pipes clamped on the axis of a level hole come down to the wall. */
+static void contact_along(void **state)
+{
+    static const uint32_t points[3] = {0, 3, 5};
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2)
+        for (int p = 0; p < 3; p++)
+            for (int slipping = 0; slipping < 2; slipping++) {
+                const dmb_wall_def wall = s1_hole();
+                pipe_row r = lie(&wall, elements, points[p], 9.0, 0.1 * slipping);
+                check_pieces("level wall", &r, 1e-9, 3e-6);
+                if (!slipping) check_free_end(&r);
+                rig_close(&r.s);
+            }
+}
+
+/* Curved in both angles. */
+static void contact_in_a_turning_hole(void **state)
+{
+    const double survey[9] = {0.0, 1.2, 0.0, 3.0, 1.25, 0.05, 30.0, 1.5, 0.3};
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2)
+        for (uint32_t points = 0; points <= 5; points += points == 0 ? 3 : 2) {
+            dmb_wall_def wall = s1_hole();
+            wall.survey = survey;
+            wall.survey_count = 3;
+            pipe_row r = lie(&wall, elements, points, 3.0, 0.1);
+            check_pieces("turning hole", &r, 1e-9, 3e-6);
+            rig_close(&r.s);
+        }
+}
+
+/* ---- Eccentric and moving mass ----------------------------------------------------------------------------------- */
+
+/* A shaft of 5 m, 50 mm, clamped or turning at its rig end, and free at the other. */
+static pipe_row shaft(uint32_t elements, double eccentricity, double gravity, double spin)
+{
+    pipe_row r = {.pipes = 5, .elements = elements, .length = 1.0, .eccentricity = eccentricity};
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    rig_open(&r.s, 0.0, 0.0, -gravity);
+    def.follows_hole = 0;
+    def.start_free = spin > 0.0 ? DMB_FREE_RX : DMB_FREE_NONE;
+    pipe.elements = elements;
+    pipe.length = r.length;
+    pipe.outer_diameter = 0.05;
+    pipe.inner_diameter = 0.0;
+    pipe.density = 7850.0;
+    pipe.eccentricity = eccentricity;
+    r.mass = 0.25 * 3.14159265358979323846 * 0.05 * 0.05 * pipe.density;
+    r.weight[2] = -r.mass * gravity;
+    pipe.string = r.string = add_string(&r.s, &def);
+    (void)add_pipes(&r.s, &pipe, r.pipes);
+    if (spin > 0.0) (void)add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_RX, add_constant(&r.s, spin));
+    (void)rig_start(&r.s, NULL);
+    return r;
+}
+
+static void check_root(const pipe_row *r)
+{
+    dmb_section root = dmb_section_default(), end = dmb_section_default();
+    double reaction[6], size[2] = {0.0, 0.0};
+    must(&r->s, dmb_query_section(r->s.sim, place_at(r, 0.0), &root));
+    must(&r->s, dmb_query_section(r->s.sim, place_at(r, r->pipes), &end));
+    must(&r->s, dmb_query_reaction(r->s.sim, r->string, reaction));
+    for (int i = 0; i < 6; i++) size[i / 3] += fabs(reaction[i]);
+    for (int i = 0; i < 6; i++) {
+        check_close("root against the reaction", root.force[i], -reaction[i], 1e-9 * size[i / 3] + 1e-9);
+        check_close("free end", end.force[i], 0.0, 1e-9 * size[i / 3] + 1e-9);
+    }
+}
+
+static void eccentric_mass(void **state)
+{
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2) {
+        pipe_row r = shaft(elements, 0.02, 9.81, 0.0);
+        (void)find_equilibrium(&r.s, NULL);
+        check_root(&r);
+        check_pieces("weight beside the axis", &r, 2e-9, 1e-6);
+        rig_close(&r.s);
+        r = shaft(elements, 0.02, 0.0, 5.0);
+        (void)find_equilibrium(&r.s, NULL); /* in steady rotation */
+        check_root(&r);
+        check_pieces("turning shaft", &r, 1e-4, 1e-4);
+        rig_close(&r.s);
+    }
+}
+
+/* Let go from level rest: inertia that grows along the elements. */
+static void falling(void **state)
+{
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2) {
+        pipe_row r = shaft(elements, 0.0, 9.81, 0.0);
+        for (int i = 0; i < 200; i++) must(&r.s, dmb_sim_step(r.s.sim, 1e-3, NULL));
+        check_pieces("falling", &r, 0.01, 0.01);
+        rig_close(&r.s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(assumed_slip),
-        cmocka_unit_test(forces_inside),
+        cmocka_unit_test(assumed_slip),   cmocka_unit_test(forces_inside),
+        cmocka_unit_test(contact_along),  cmocka_unit_test(contact_in_a_turning_hole),
+        cmocka_unit_test(eccentric_mass), cmocka_unit_test(falling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -400,7 +400,7 @@ class Section(Sized):
         ("strain", c_double * 6),
     ]
     field_docs = {
-        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame; the pipe's own weight and inertia included between its nodes, where wall forces act (axial-torsional pipes: mean of the element); shape (6)"),
+        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame, shape (6). It balances all that acts between two sections: weight and inertia along the pipe, eccentric mass too, and wall forces, loads, springs at their points (axial-torsional pipes: mean of the element)"),
         "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of element: stretch, shear; twist, curvature; shape (6)"),
     }
 

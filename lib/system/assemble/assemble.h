@@ -28,6 +28,8 @@ void dmb_gather_flow(dmb_evaluation *evaluation);
 /* Described loads that act at a point inside an element, or off the axis of a node. */
 
 /* factor times the load; frame (body to world) of its components unless it follows the body. */
+/* Wrench of a load at a point, in the axes of the point [N, N m], at the load factor of the configuration. */
+void dmb_point_load_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t load, double w[6]);
 void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
                            const double frame[9]);
 
@@ -208,6 +210,9 @@ double dmb_stuck_energy(const dmb_sim *sim, const dmb_configuration *configurati
 /* Of a place that is stuck; without rates the dampers do not act. */
 void dmb_stuck_hold_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates,
                        dmb_stuck_hold *hold);
+/* Wrench on a place that is stuck, in its axes [N, N m]. */
+void dmb_stuck_wrench_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates,
+                         double w[6]);
 #define DMB_STUCK_REACHED (1.0 - 1e-12) /* [-] share from which on it lets go */
 /* [-] Largest force over that at which it lets go; 0 where it is not stuck. */
 double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates);

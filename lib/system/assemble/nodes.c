@@ -284,12 +284,12 @@ void dmb_gather_flow(dmb_evaluation *evaluation)
 
 /* Described loads: dead (world or hole frame) and follower (body frame), each times its programme. */
 
-static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double R[9])
+static void frame_of_load(const dmb_sim *sim, const dmb_configuration *c, const dmb_scene_load *load, double R[9])
 {
     const dmb_scene *scene = sim->scene;
     if (load->frame == DMB_FRAME_HOLE) { /* compile refuses it without a hole */
         double x[3], u[3], unused[9], point[3], tangent[3], s;
-        dmb_node_pose(scene, &sim->trial, load->node, unused, u);
+        dmb_node_pose(scene, c, load->node, unused, u);
         dmb_vec3_add(scene->reference_position + 3 * (size_t)load->node, u, x);
         uint32_t segment = dmb_node_segment(scene, &sim->now, load->node, 0.0, x);
         dmb_hole_project(&scene->hole, x, &s, &segment, point, tangent);
@@ -306,7 +306,7 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
     dmb_vec3_scale(factor, load->force, w);
     dmb_vec3_scale(factor, load->moment, w + 3);
     if (load->frame == DMB_FRAME_BODY) return;
-    frame_of_load(sim, load, R);
+    frame_of_load(sim, &sim->trial, load, R);
     dmb_node_pose(sim->scene, &sim->trial, load->node, body, unused);
     for (int k = 0; k < 6; k += 3) {
         dmb_mat3_vec(R, w + k, f);
@@ -319,7 +319,7 @@ static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, 
     dmb_sim *sim = evaluation->sim;
     double w[6], v[6], K[36];
     if (load->point != DMB_NONE) {
-        frame_of_load(sim, load, K);
+        frame_of_load(sim, &sim->trial, load, K);
         dmb_gather_point_load(evaluation, load, evaluation->load_factor * factor, K);
         return;
     }
@@ -373,18 +373,36 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, 
     dmb_force_tangent_add(evaluation, DMB_NONE, DMB_BY_DISPLACEMENT, &t);
 }
 
-void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor, const double frame[9])
+/* In the axes of the point; frame: of a load that is dead. */
+static void point_wrench(const dmb_scene_load *load, double factor, const double frame[9], const double R[9],
+                         double w[6])
 {
-    dmb_sim *sim = evaluation->sim;
-    dmb_point_motion m;
-    double w[6], f[3];
-    dmb_point_motion_of(sim->scene, &sim->trial, sim->scene->load_points + load->point, &m);
+    double f[3];
     dmb_vec3_scale(factor, load->force, w);
     dmb_vec3_scale(factor, load->moment, w + 3);
     for (int k = 0; k < 6 && load->frame != DMB_FRAME_BODY; k += 3) {
         dmb_mat3_vec(frame, w + k, f);
-        dmb_mat3_tvec(m.R, f, w + k);
+        dmb_mat3_tvec(R, f, w + k);
     }
+}
+
+void dmb_point_load_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t load, double w[6])
+{
+    const dmb_scene_load *of = sim->scene->loads + load;
+    dmb_point_motion m;
+    double frame[9];
+    dmb_point_motion_of(sim->scene, configuration, sim->scene->load_points + of->point, &m);
+    frame_of_load(sim, configuration, of, frame);
+    point_wrench(of, configuration->load_factor[load], frame, m.R, w);
+}
+
+void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor, const double frame[9])
+{
+    dmb_sim *sim = evaluation->sim;
+    dmb_point_motion m;
+    double w[6];
+    dmb_point_motion_of(sim->scene, &sim->trial, sim->scene->load_points + load->point, &m);
+    point_wrench(load, factor, frame, m.R, w);
     dmb_point_apply(sim, &m, w);
     if (evaluation->tangent) add_tangent(evaluation, load, &m, w);
     if (evaluation->dynamic) evaluation->power[DMB_POWER_LOADS] += dmb_vec6_dot(w, m.V);

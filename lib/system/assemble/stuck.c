@@ -62,6 +62,18 @@ void dmb_stuck_hold_of(const dmb_sim *sim, const dmb_configuration *configuratio
     hold_of(sim->scene->stuck + i, &m, rates, hold);
 }
 
+void dmb_stuck_wrench_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates, double w[6])
+{
+    stuck_motion m;
+    dmb_stuck_hold hold;
+    motion_of(sim, configuration, i, &m);
+    hold_of(sim->scene->stuck + i, &m, rates, &hold);
+    for (int c = 0; c < 6; c++) {
+        w[c] = 0.0;
+        for (int k = 0; k < COORDINATES; k++) w[c] -= hold.force[k] * m.J[k][c];
+    }
+}
+
 double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates)
 {
     const dmb_scene_stuck *stuck = sim->scene->stuck + i;

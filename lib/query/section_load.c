@@ -1,0 +1,334 @@
+/* Section forces inside an element by Newton's law for the piece between its end A and the section (THEORY 3): the load
+ * at A, less the concentrated loads on the piece, less its share of the distributed ones. */
+#include <string.h>
+
+#include "element/beam.h"
+#include "element/rigid_mass.h"
+#include "math/mat6.h"
+#include "math/se3.h"
+#include "math/vec3.h"
+#include "query/query.h"
+#include "sim/node.h"
+#include "system/assemble/energy.h"
+
+/* ---- The element ------------------------------------------------------------------------------------------------- */
+
+/* A section: its axes and its place [m] in the frame of node A. */
+typedef struct section_frame {
+    double Q[9], r[3];
+} section_frame;
+
+typedef struct host {
+    const dmb_sim *sim;
+    const dmb_element_type *type;
+    uint32_t element, node;
+    int32_t bending;
+    double d[6];
+    section_frame a, b; /* ends */
+    double load[12];    /* [N, N m] of the sections at both ends, each in its axes */
+} host;
+
+static void frame_at(const host *h, double fraction, section_frame *frame)
+{
+    dmb_section_shape shape;
+    dmb_section_shape_at(h->type, fraction, h->bending, &shape);
+    dmb_section_pose(h->type, &shape, h->d, frame->Q, frame->r);
+}
+
+static void host_of(const dmb_sim *sim, uint32_t element, host *h)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_end_pose a, b;
+    h->sim = sim;
+    h->element = element;
+    h->node = scene->element_node[element];
+    h->type = scene->types + scene->element_type[element];
+    h->bending = scene->layout.size[h->node] != DMB_NODE_PATH || scene->layout.size[h->node + 1] != DMB_NODE_PATH;
+    dmb_end_pose_now(scene, &sim->now, h->node, &a);
+    dmb_end_pose_now(scene, &sim->now, h->node + 1, &b);
+    dmb_relative_pose(scene, element, &a, &b, h->d);
+    frame_at(h, 0.0, &h->a);
+    frame_at(h, 1.0, &h->b);
+    dmb_element_end_loads(scene, &sim->now, element, h->load);
+}
+
+/* A wrench at a section, in its axes, to the frame of node A about the point x. */
+static void add_moved(const section_frame *at, const double w[6], double sign, const double x[3], double sum[6])
+{
+    double f[6], arm[3], moment[3];
+    dmb_mat3_vec(at->Q, w, f);
+    dmb_mat3_vec(at->Q, w + 3, f + 3);
+    dmb_vec3_sub(at->r, x, arm);
+    dmb_vec3_cross(arm, f, moment);
+    dmb_vec3_add(f + 3, moment, f + 3);
+    for (int i = 0; i < 6; i++) sum[i] += sign * f[i];
+}
+
+/* ---- Concentrated loads ------------------------------------------------------------------------------------------ */
+
+/* All that act on the element: their sum about end B, that of those up to the fraction x about the section there, and
+ * what their nodes carry. */
+typedef struct point_loads {
+    double x, at[3];        /* the section, and its place in the frame of node A */
+    double all[6], part[6]; /* in the frame of node A */
+    double nodes[12];       /* in the frame of each */
+} point_loads;
+
+/* w: wrench at the section, in its axes. */
+static void add_point(const host *h, double fraction, const double w[6], point_loads *loads)
+{
+    dmb_section_shape shape;
+    dmb_section_frame frame;
+    section_frame at;
+    double f[12];
+    dmb_section_shape_at(h->type, fraction, h->bending, &shape);
+    dmb_section_frame_at(&shape, h->d, &frame);
+    dmb_section_wrench(h->type, &shape, &frame, w, f);
+    for (int i = 0; i < 12; i++) loads->nodes[i] += f[i];
+    frame_at(h, fraction, &at);
+    add_moved(&at, w, 1.0, h->b.r, loads->all);
+    if (fraction <= loads->x) add_moved(&at, w, 1.0, loads->at, loads->part);
+}
+
+/* Wall force -N n + along t + friction, world; the friction acts on the surface, r n off the centre. */
+static void site_wrench(const dmb_sim *sim, uint32_t site, double w[6])
+{
+    const double radius = sim->scene->sites[site].radius;
+    dmb_site_force force;
+    double R[9], b[3], friction[3], moment[3];
+    dmb_contact_force_of(sim, site, &force);
+    dmb_vec3_cross(force.tangent, force.normal, b);
+    for (int i = 0; i < 3; i++) {
+        friction[i] = force.friction[0] * force.tangent[i] + force.friction[1] * b[i];
+        w[i] = friction[i] + force.along * force.tangent[i] - force.normal_force * force.normal[i];
+    }
+    dmb_vec3_cross(force.normal, friction, moment);
+    dmb_vec3_scale(radius, moment, w + 3);
+    dmb_site_axes(sim->scene, &sim->now, site, R);
+    dmb_mat3_tvec(R, w, w);
+    dmb_mat3_tvec(R, w + 3, w + 3);
+}
+
+/* The first ring inside an element that is not before this one. */
+static uint32_t first_inside(const dmb_scene *scene, uint32_t element)
+{
+    uint32_t low = 0, high = scene->inside_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (scene->inside[middle].element < element)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void add_sites(const host *h, point_loads *loads)
+{
+    const dmb_scene *scene = h->sim->scene;
+    for (uint32_t i = first_inside(scene, h->element); i < scene->inside_count; i++) {
+        double w[6];
+        if (scene->inside[i].element != h->element) return;
+        site_wrench(h->sim, dmb_node_sites(scene) + i, w);
+        add_point(h, scene->inside[i].fraction, w, loads);
+    }
+}
+
+/* A wrench at a point off its section, in the axes of both. */
+static void add_force(const host *h, const dmb_scene_point *point, const double at_point[6], point_loads *loads)
+{
+    double w[6], moment[3];
+    dmb_vec6_copy(at_point, w);
+    dmb_vec3_cross(point->x, w, moment);
+    dmb_vec3_add(w + 3, moment, w + 3);
+    add_point(h, point->fraction, w, loads);
+}
+
+static void add_loads(const host *h, point_loads *loads)
+{
+    const dmb_scene *scene = h->sim->scene;
+    for (uint32_t i = 0; i < scene->load_count; i++) {
+        const dmb_scene_load *load = scene->loads + i;
+        double w[6];
+        if (load->point == DMB_NONE || scene->load_points[load->point].element != h->element) continue;
+        dmb_point_load_of(h->sim, &h->sim->now, i, w);
+        add_force(h, scene->load_points + load->point, w, loads);
+    }
+}
+
+static void add_spring(const host *h, const dmb_point_motion *point, const double n[3], double tension,
+                       point_loads *loads)
+{
+    double w[6] = {0.0};
+    if (point->point->element != h->element) return;
+    dmb_mat3_tvec(point->R, n, w);
+    dmb_vec3_scale(tension, w, w);
+    add_force(h, point->point, w, loads);
+}
+
+static void add_springs(const host *h, point_loads *loads)
+{
+    const dmb_scene *scene = h->sim->scene;
+    for (uint32_t i = 0; i < scene->spring_count; i++) {
+        const dmb_scene_spring *spring = scene->springs + i;
+        dmb_spring_motion m;
+        if (spring->a.element != h->element && spring->b.element != h->element) continue;
+        dmb_spring_motion_of(scene, &h->sim->now, i, !dmb_is_quasi_static(&h->sim->now), &m);
+        add_spring(h, &m.a, m.n, m.force.elastic + m.force.damper, loads);
+        add_spring(h, &m.b, m.n, -(m.force.elastic + m.force.damper), loads);
+    }
+}
+
+static void add_stuck(const host *h, point_loads *loads)
+{
+    const dmb_scene *scene = h->sim->scene;
+    for (uint32_t i = 0; i < scene->stuck_count; i++) {
+        double w[6];
+        if (!h->sim->stuck_held[i] || scene->stuck[i].point.element != h->element) continue;
+        dmb_stuck_wrench_of(h->sim, &h->sim->now, i, !dmb_is_quasi_static(&h->sim->now), w);
+        add_force(h, &scene->stuck[i].point, w, loads);
+    }
+}
+
+static void point_loads_of(const host *h, double x, const section_frame *at, point_loads *loads)
+{
+    memset(loads, 0, sizeof *loads);
+    loads->x = x;
+    dmb_vec3_copy(at->r, loads->at);
+    add_sites(h, loads);
+    add_loads(h, loads);
+    add_springs(h, loads);
+    add_stuck(h, loads);
+}
+
+/* The element's nodes carry all of them: their shares belong to the piece. */
+static void take_from_nodes(host *h, const point_loads *loads)
+{
+    double f[12];
+    memcpy(f, loads->nodes, sizeof f);
+    dmb_arm_wrench(-h->type->arm[0], f);
+    dmb_arm_wrench(h->type->arm[1], f + 6);
+    for (int i = 0; i < 6; i++) {
+        h->load[i] += f[i];
+        h->load[6 + i] -= f[6 + i];
+    }
+}
+
+/* ---- Eccentric mass ---------------------------------------------------------------------------------------------- */
+
+/* M a - ad_v^T M v - weight of a first moment on its node, in the node's frame; buoyancy acts on the axis. */
+static void share_wrench(const host *h, const dmb_rigid_mass *share, double f[6])
+{
+    const dmb_scene *scene = h->sim->scene;
+    double v[6], a[6], p[6], turning[6], R[9], u[3], g[3], moment[3];
+    dmb_node_vector(scene, &h->sim->now, share->node, h->sim->now.velocity, v);
+    dmb_node_vector(scene, &h->sim->now, share->node, h->sim->now.acceleration, a);
+    dmb_rigid_mass_times(share, v, p);
+    dmb_rigid_mass_times(share, a, f);
+    dmb_ad_transpose(v, p, turning);
+    for (int i = 0; i < 6; i++) f[i] = dmb_is_quasi_static(&h->sim->now) ? 0.0 : f[i] - turning[i];
+    dmb_node_pose(scene, &h->sim->now, share->node, R, u);
+    dmb_mat3_tvec(R, scene->gravity, g);
+    dmb_vec3_cross(share->moment, g, moment);
+    dmb_vec3_sub(f + 3, moment, f + 3);
+}
+
+/* Each node has half of the element's eccentric part, which acts along the whole of it. */
+static void take_eccentric(host *h, const dmb_described_pipe *pipe)
+{
+    if (!pipe->eccentric) return;
+    for (uint32_t end = 0; end < 2; end++) {
+        dmb_rigid_mass share;
+        double f[6];
+        dmb_eccentric_share(h->sim->scene, pipe, h->element, end, &share);
+        share_wrench(h, &share, f);
+        dmb_arm_wrench(end ? h->type->arm[1] : -h->type->arm[0], f);
+        for (int i = 0; i < 6; i++) h->load[6 * end + (uint32_t)i] += end ? f[i] : -f[i];
+    }
+}
+
+/* ---- Distributed loads ------------------------------------------------------------------------------------------- */
+
+/* F1 [N]: what the inertia force of a section at B is more than at A, times the length; frame of node A. */
+static void growth_of_inertia(const host *h, double F1[3])
+{
+    const dmb_scene *scene = h->sim->scene;
+    const dmb_configuration *c = &h->sim->now;
+    double acceleration[2][3];
+    dmb_vec3_zero(F1);
+    if (dmb_is_quasi_static(c)) return;
+    for (uint32_t end = 0; end < 2; end++) {
+        double v[6], a[6], turning[3];
+        dmb_node_vector(scene, c, h->node + end, c->velocity, v);
+        dmb_node_vector(scene, c, h->node + end, c->acceleration, a);
+        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], v);
+        dmb_arm_velocity(end ? -h->type->arm[1] : h->type->arm[0], a);
+        dmb_vec3_cross(v + 3, v, turning);
+        dmb_vec3_add(a, turning, a);
+        dmb_mat3_vec(end ? h->b.Q : h->a.Q, a, acceleration[end]);
+    }
+    dmb_vec3_sub(acceleration[0], acceleration[1], F1);
+    dmb_vec3_scale(h->type->mass_per_metre * h->type->length, F1, F1);
+}
+
+/* x (r_A - r)/2 + x^2 L (t_A - t)/12: integral of the way from the section to the piece's points, over their fraction
+ * (trapezoidal rule with end correction; exact for cubic curves). */
+static void way_to(const host *h, double x, const section_frame *at, double way[3])
+{
+    for (int i = 0; i < 3; i++)
+        way[i] = 0.5 * x * (h->a.r[i] - at->r[i]) + x * x * h->type->length / 12.0 * (h->a.Q[3 * i] - at->Q[3 * i]);
+}
+
+/* Total of the distributed loads, about end B. */
+static void total_of(const host *h, const point_loads *loads, double T[6])
+{
+    for (int i = 0; i < 6; i++) T[i] = -loads->all[i];
+    add_moved(&h->a, h->load, 1.0, h->b.r, T);
+    add_moved(&h->b, h->load + 6, -1.0, h->b.r, T);
+}
+
+/* D of the piece up to x, about its section: of a density that is uniform but for the inertia, which grows by F1; what
+ * moment is left over the whole element is spread evenly. */
+static void distributed_to(const host *h, double x, const section_frame *at, const double T[6], double D[6])
+{
+    double F1[3], way[3], moment[3], left[3], span[3], grown[3];
+    growth_of_inertia(h, F1);
+    dmb_vec3_sub(h->b.r, h->a.r, span);
+    dmb_vec3_cross(span, F1, grown);
+    way_to(h, 1.0, &h->b, way);
+    dmb_vec3_cross(way, T, moment);
+    for (int i = 0; i < 3; i++) left[i] = T[3 + i] - moment[i] - grown[i] / 12.0;
+    way_to(h, x, at, way);
+    dmb_vec3_cross(way, T, moment);
+    for (int i = 0; i < 3; i++) {
+        D[i] = x * T[i] - 0.5 * x * (1.0 - x) * F1[i];
+        D[3 + i] = moment[i] + (0.25 - x / 6.0) * x * x * grown[i] + x * left[i];
+    }
+}
+
+/* ---- The section ------------------------------------------------------------------------------------------------- */
+
+void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
+                         double load[6])
+{
+    const double x = point->fraction;
+    double sum[6] = {0.0}, T[6], D[6];
+    host h;
+    section_frame at;
+    point_loads loads;
+    host_of(sim, point->element, &h);
+    if (!h.bending) {
+        dmb_vec6_copy(h.load, load); /* mean of a bar */
+        return;
+    }
+    frame_at(&h, x, &at);
+    point_loads_of(&h, x, &at, &loads);
+    take_from_nodes(&h, &loads);
+    take_eccentric(&h, pipe);
+    total_of(&h, &loads, T);
+    distributed_to(&h, x, &at, T, D);
+    add_moved(&h.a, h.load, 1.0, at.r, sum);
+    for (int i = 0; i < 6; i++) sum[i] -= loads.part[i] + D[i];
+    dmb_mat3_tvec(at.Q, sum, load);
+    dmb_mat3_tvec(at.Q, sum + 3, load + 3);
+}
