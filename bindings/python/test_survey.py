@@ -8,6 +8,7 @@ import unittest
 
 import drillmbd as mbd
 from drillmbd import scene
+from drillmbd.scene import words
 
 SCENE = """[hole]
 diameter = "216 mm"
@@ -183,6 +184,25 @@ class SurveyTest(unittest.TestCase):
         for wrong in ('dip = "5 deg"\ninclination = "85 deg"', 'dip = "5 deg"\ndirection = [1, 0, 0]'):
             with self.assertRaisesRegex(scene.SceneError, "must be left out"):
                 scene.loads(SCENE.replace('survey_file = "%s"\n%s', wrong))
+
+
+class WordsTest(unittest.TestCase):
+    def test_the_scene_in_words(self):
+        text = SCENE % ("s.csv", "") + '[[bit]]\nload = "8 kN"\n[[drive]]\ncomponent = "rx"\nprogramme = "130 rpm"\n[run]\nend = "1 s"\nstep = "2 ms"\n'
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "s.csv").write_text("depth [m],dip [deg],azimuth [deg]\n0,5,350\n100,5,0\n200,4,10\n", encoding="utf-8")
+            rig = scene.loads(text, folder=folder)
+        told = "; ".join(words.describe(rig, 1000.0))
+        for part in ("collar at dip +5.0 deg (rises), azimuth 350 deg", "surveyed length 200 m", "right of the collar line",
+                     "between 100 m and 200 m", "20 pipes of 9 m", "reach 180 m", "weight 9.81 kN", "in a 216 mm hole", "rotation 130 rpm", "8 kN on the bit",
+                     "time step 2 ms"):
+            self.assertIn(part, told)
+        self.assertEqual([one.split(":")[0] for one in words.trivial(rig)], ["no eccentricity of the pipes", "no material damping of the pipes"])
+        bare = scene.loads(SCENE.replace('survey_file = "%s"\n%s', 'direction = [0, 0, -1]'))
+        self.assertIn("inclination 0 deg from the downward vertical", words.describe(bare, 0.0)[0])
+        self.assertIn("no rotation", words.trivial(bare)[0])
+        small = SCENE.replace('survey_file = "%s"\n%s', "") + 'outer_diameter = "89 mm"\njoint_length = "0.1 m"\njoint_outer_diameter = "80 mm"\n'
+        self.assertIn("is smaller than the pipe's outer_diameter", scene.loads(small).remarks[0].text)
 
 
 class AzimuthTest(unittest.TestCase):

@@ -11,7 +11,7 @@ from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
 from .answers import RPM, Output, count_fatigue, file_name, friction_option, quantity, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
-from .scene import Scene
+from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .running import Bar
 from .sim import Sim
@@ -27,10 +27,12 @@ def check(scene: Scene, output: Output, options: Any) -> int:
     with scene.new_sim() as sim:
         output.note(sim.status, "start")
         report, text = sim.check(), sim.check_text()
-    output.summary.update(model=record(scene.model.info()), check=record(report))
-    output.say(text.rstrip("\n"))
+        understood, left_out = words.describe(scene, sim.momentum().mass), words.trivial(scene)
+    output.summary.update(model=record(scene.model.info()), check=record(report), understood=understood, left_out=left_out)
+    text = "\n".join(["the scene:", *(f"  {one}" for one in understood), *(f"not assessed: {one}" for one in left_out), text.rstrip("\n")])
+    output.say(text)
     if output.folder is not None:
-        output.path("check.txt").write_text(text, encoding="utf-8")
+        output.path("check.txt").write_text(text + "\n", encoding="utf-8")
     return output.finish()
 
 

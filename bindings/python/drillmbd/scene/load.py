@@ -415,6 +415,8 @@ class Loader:
                 count = 1
             known = {key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"}
             plain = self.read(where, section, known, ("count",))
+            if 0.0 < plain.get("joint_outer_diameter", 0.0) < plain.get("outer_diameter", 0.073) - 1e-6:
+                self.problems.remark(where + ("joint_outer_diameter",), section["joint_outer_diameter"], "is smaller than the pipe's outer_diameter")
             if string is not None:
                 plain["string"] = string
                 self.add(where, lambda one, n=count: self.model.add_pipes(n, one),
