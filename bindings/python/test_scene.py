@@ -472,6 +472,17 @@ class DividedTest(unittest.TestCase):
         self.assertTrue(saved.same_as(loaded))
         self.assertEqual(saved.divided, [])  # the saved file has the number
 
+    def test_usual_damping(self):
+        """Pipes of a file are damped unless it says otherwise; saved files keep either."""
+        def damping(loaded):
+            return [arguments[1].get("damping_time", 0.0) for name, arguments in loaded.model.calls if name == "add_pipes"]
+        self.assertEqual(damping(scene.loads(COLLARS)), [1e-4, 1e-4])
+        none = scene.loads(COLLARS.replace("count = 3", "count = 3\ndamping_time = 0"))
+        self.assertEqual(damping(none), [0.0, 1e-4])
+        self.assertEqual(damping(scene.loads(scene.saves(none))), [0.0, 1e-4])
+        one = scene.loads(COLLARS.replace("count = 3", "count = 3\nelements = 1"))
+        self.assertEqual(scene.loads(scene.saves(one)).model.info().elements, one.model.info().elements)
+
     def test_given_numbers_and_rods_are_kept(self):
         given = scene.loads(COLLARS.replace('length = "37', 'elements = 1\nlength = "37').replace("count = 3", "count = 3\nelements = 2"))
         self.assertEqual((given.divided, given.model.info().elements), ([], 7))

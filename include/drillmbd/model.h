@@ -214,8 +214,10 @@ typedef struct dmb_pipe_def {
     double poisson_ratio;  /* [-] -1 < nu < 0.5; default 0.3 */
     double density;        /* [kg/m3] > 0; default 7850 */
     double shear_factor;   /* [-] kappa in GA = kappa G A, > 0; default 0.5 (thin tube) */
-    double damping_time;   /* [s] tau of stress-proportional damping s = K (d + tau d')/L; default 0 */
-    double joint_length;   /* [m] of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0 */
+    double damping_time; /* [s] tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is
+                            pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque
+                            grow with its length; 1e-4 s is usual for steel pipes in a hole */
+    double joint_length; /* [m] of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0 */
     double joint_outer_diameter; /* [m] default 0: as the pipe */
     double joint_inner_diameter; /* [m] default 0: as the pipe */
     double joint_mass;           /* [kg] 0: from the diameters, length and density */

@@ -2228,7 +2228,7 @@ class PipeDef(Sized):
         "poisson_ratio": ("-", "-1 < nu < 0.5; default 0.3"),
         "density": ("kg/m3", "> 0; default 7850"),
         "shear_factor": ("-", "kappa in GA = kappa G A, > 0; default 0.5 (thin tube)"),
-        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; default 0"),
+        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; the damping ratio at f [Hz] is pi f tau; default 0: without damping vibrations of a run do not decay, and peaks of torque grow with its length; 1e-4 s is usual for steel pipes in a hole"),
         "joint_length": ("m", "of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0"),
         "joint_outer_diameter": ("m", "default 0: as the pipe"),
         "joint_inner_diameter": ("m", "default 0: as the pipe"),

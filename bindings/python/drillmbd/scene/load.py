@@ -25,6 +25,9 @@ from .sub import Subs
 from .terms import PerRevolution
 
 MOST_BYTES = 50_000_000
+#: [s] damping_time of pipes that a scene file does not give: 0.03 % of critical damping at 1 Hz, 3 % at 100 Hz. Without any,
+#: vibrations of a run do not decay.
+USUAL_DAMPING = 1e-4
 
 
 def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
@@ -419,6 +422,7 @@ class Loader:
                 self.problems.remark(where + ("joint_outer_diameter",), section["joint_outer_diameter"], "is smaller than the pipe's outer_diameter")
             if string is not None:
                 plain["string"] = string
+                plain.setdefault("damping_time", USUAL_DAMPING)
                 self.add(where, lambda one, n=count: self.model.add_pipes(n, one),
                           DEFINITIONS["pipes"], plain)
             if "elements" not in section:

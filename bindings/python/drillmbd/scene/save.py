@@ -124,7 +124,7 @@ class Writer:
             for count, pipes in self.pipes.get(made.index, []):
                 self._head("[[string.pipes]]")
                 self._key("count", count)
-                self._table("pipes", pipes)
+                self._table("pipes", {"elements": 1, "damping_time": 0.0, **pipes})  # a file without them means other values
         for kind in PARTS[1:]:
             for made, description in self.parts.get(kind, []):
                 self._part(kind, self._own_name(kind, made, description), description)
