@@ -94,7 +94,9 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * modes; of damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a
  * quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are
  * refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot
- * be told from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). Joints whose
+ * be distinguished from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). Of the
+ * LOWEST modes those before the first such one are returned, and those before a crowd of roots that do not converge
+ * (damped motions of more than 400 coordinates, near 1/(2 pi damping_time)): DMB_NOTE_INCOMPLETE. Joints whose
  * equations change in `axes` while the state moves on (a rotor on a carrier in axes that turn; rolling), and strings
  * that turn on the wall in axes that turn with them, are refused (_UNSUPPORTED): coefficients are not constant. So are
  * modes whose coefficients change by more than 1e-4 while parts turn, which the state turned on by a radian tells: in

@@ -118,19 +118,20 @@ static int32_t finish(dmb_mode_search *search)
     const dmb_modes_options *options = search->options;
     dmb_modes *modes = search->modes;
     dmb_modes_weigh_coordinates(search);
-    const int32_t status = sharpen(search);
+    int32_t status = sharpen(search);
     if (status < 0) return status;
     if (modes->count == 0) {
         dmb_message_set(search->message, "modes options: no mode in band = %g .. %g Hz", options->band[0],
                         options->band[1]);
         return DMB_ERR_VALUE;
     }
+    status = dmb_modes_check(search);
     modes->info.count = modes->count;
     for (uint32_t k = 0; k < modes->count; k++) {
         modes->info.rigid += modes->rigid[k];
         modes->info.residual = fmax(modes->info.residual, dmb_modes_residual(search, k));
     }
-    return dmb_modes_check(search);
+    return status;
 }
 
 static int32_t search_modes(dmb_mode_search *search)
@@ -185,7 +186,8 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
     search.work = dmb_allocate(&modes->allocator, bytes);
     search.coordinate_mass = search.work + 9 * (size_t)modes->rows;
     status = search.work != NULL ? search_modes(&search) : DMB_ERR_NO_MEMORY;
-    if (status >= 0) status = check_turned(&search, sim, &how);
+    const int32_t turned = status < 0 ? status : check_turned(&search, sim, &how);
+    if (turned < 0) status = turned; /* a note stays */
     if (search.rigid != NULL) dmb_modes_forget_rigid(&search);
     dmb_release(&modes->allocator, search.work, bytes);
     dmb_linear_release(&search.linear);
@@ -230,6 +232,7 @@ int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *
     options.count = DMB_GROWTH_LOWEST;
     int32_t status = dmb_modes_open(state, &modes);
     if (status >= 0) status = analyse(state, &options, load_growth, message, modes);
+    if (status == DMB_NOTE_INCOMPLETE) status = DMB_ERR_NO_CONVERGENCE; /* one that grows may be missing */
     root[0] = -(double)INFINITY;
     root[1] = 0.0;
     for (uint32_t i = 0; status >= 0 && i < modes->count; i++)

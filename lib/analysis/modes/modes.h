@@ -43,6 +43,7 @@ typedef struct dmb_mode_search {
     size_t rigid_bytes;
     uint32_t rigid_count;
     int32_t partly;   /* 1: a search may give back fewer modes than wanted, those that have converged */
+    double crowded;   /* [1/s] near it stand so many roots that those beyond did not converge; 0: all converged */
     int32_t counted;  /* 1: counts of eigenvalues confirm what a search finds */
     size_t most;      /* vectors in the subspace of a search, 0: as dmb_krylov_largest says */
     double window[2]; /* [1/s2] likewise it ends when `enough` modes of eigenvalues inside have converged */
@@ -106,7 +107,8 @@ int32_t dmb_modes_find(dmb_mode_search *search);
 double dmb_modes_residual(const dmb_mode_search *search, uint32_t k);
 /* The same against the forces themselves, as a vector over the roots of the masses of its coordinates. */
 dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k);
-/* Whether every mode is one. DMB_ERR_NO_CONVERGENCE. */
+/* Whether every mode is one. Of the lowest ones, those before the first that is not stay: DMB_NOTE_INCOMPLETE.
+ * DMB_ERR_NO_CONVERGENCE. */
 int32_t dmb_modes_check(dmb_mode_search *search);
 /* Makes those sharper that leave more than they may. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_polish(dmb_mode_search *search);

@@ -22,6 +22,9 @@ enum { DMB_FIRST_VECTORS = 28, DMB_FIRST_SHARE = 1 };
 enum { DMB_BEYOND = 6, DMB_BRACKET = 100 };
 /* Searches without counts. */
 enum { DMB_COUNT_TRIES = 3 };
+/* All modes of up to so many coordinates are found where some of the lowest do not converge; of more, the last of those
+ * that converge are left out, beyond which others may be missing. */
+enum { DMB_ALL_INSTEAD = 400, DMB_LEFT_OUT = 1 };
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
@@ -175,6 +178,25 @@ static int32_t find_counted(dmb_mode_search *search, int *done)
     return DMB_OK;
 }
 
+/* Where the roots beyond some do not converge: of few coordinates all modes, of many those that have converged, which a
+ * search for them alone confirms. */
+static int32_t find_converged(dmb_mode_search *search, uint32_t wanted)
+{
+    const uint32_t apart = search->apart ? search->rigid_count : 0;
+    if (search->linear->coordinates <= DMB_ALL_INSTEAD) return dmb_modes_dense(search);
+    search->modes->count = 0;
+    search->partly = 1;
+    int32_t status = dmb_modes_sparse(search, wanted);
+    search->partly = 0;
+    const uint32_t converged = search->modes->count;
+    const double crowded = search->reach;
+    search->modes->count = 0;
+    if (status < 0 || converged <= DMB_LEFT_OUT) return status < 0 ? status : DMB_ERR_NO_CONVERGENCE;
+    status = dmb_modes_sparse(search, converged - DMB_LEFT_OUT + apart);
+    search->crowded = crowded + fabs(search->shift);
+    return status;
+}
+
 /* Without counts the search confirms itself by random vectors. Pairs that were returned once make it too small. */
 static int32_t find_confirmed(dmb_mode_search *search)
 {
@@ -183,6 +205,7 @@ static int32_t find_confirmed(dmb_mode_search *search)
     for (int tries = 1;; tries++) {
         if (dmb_modes_is_dense(search, wanted)) return dmb_modes_dense(search);
         const int32_t status = dmb_modes_sparse(search, wanted);
+        if (status == DMB_ERR_NO_CONVERGENCE) return find_converged(search, wanted);
         if (status < 0) return status;
         dmb_modes_sort(search->modes, search->modes->count);
         const uint32_t here = search->modes->count + search->rigid_count;

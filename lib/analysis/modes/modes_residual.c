@@ -174,31 +174,48 @@ static int energy_tells(const dmb_mode_search *search, uint32_t k)
     return hypot(re, im) <= DMB_ENERGY_TELLS * (size * size + size * hypot(c[0], c[1]) + e);
 }
 
-/* A mode is one only if its equations balance to rounding, and only where its forces are more than that. */
-int32_t dmb_modes_check(dmb_mode_search *search)
+/* A mode is one only if its equations balance to rounding, and only where its forces are more than that. 0, with a
+ * message, if mode k is not. */
+static int is_mode(const dmb_mode_search *search, uint32_t k)
 {
-    const dmb_modes *modes = search->modes;
-    for (uint32_t k = 0; k < modes->count; k++) {
-        const double frequency = dmb_modes_size(modes, k) / DMB_TWO_PI;
-        if (modes->rigid[k]) continue;
-        const dmb_mode_defect defect = dmb_modes_defect(search, k);
-        if (!(defect.value <= defect.bound)) {
-            dmb_message_set(
-                search->message,
-                "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
-                "must be <= %g: ask for fewer modes, another band, or all of them",
-                k, frequency, defect.value, defect.bound);
-            return DMB_ERR_NO_CONVERGENCE;
-        }
-        if (defect.bound < 1.0 || energy_tells(search, k)) continue;
+    const double frequency = dmb_modes_size(search->modes, k) / DMB_TWO_PI;
+    const dmb_mode_defect defect = dmb_modes_defect(search, k);
+    if (!(defect.value <= defect.bound)) {
         dmb_message_set(
             search->message,
-            "modes: mode %u of %g Hz cannot be told from a rigid-body motion: rounding is %g of its forces, must be "
-            "< 1: hold what may move freely, soften what is stiffest, or ask for a band above it",
-            k, frequency, defect.bound);
-        return DMB_ERR_NO_CONVERGENCE;
+            "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
+            "must be <= %g: ask for fewer modes, another band, or all of them",
+            k, frequency, defect.value, defect.bound);
+        return 0;
     }
-    return DMB_OK;
+    if (defect.bound < 1.0 || energy_tells(search, k)) return 1;
+    dmb_message_set(
+        search->message,
+        "modes: mode %u of %g Hz cannot be told from a rigid-body motion: rounding is %g of its forces, must "
+        "be < 1: hold what may move freely, soften what is stiffest, or ask for a band above it",
+        k, frequency, defect.bound);
+    return 0;
+}
+
+int32_t dmb_modes_check(dmb_mode_search *search)
+{
+    dmb_modes *modes = search->modes;
+    const int lowest = search->options->select == DMB_MODES_LOWEST;
+    const uint32_t count = modes->count;
+    for (uint32_t k = 0; k < count; k++) {
+        if (modes->rigid[k] || is_mode(search, k)) continue;
+        if (!lowest || k <= search->rigid_count) return DMB_ERR_NO_CONVERGENCE;
+        modes->count = k;
+        break;
+    }
+    if (modes->count == count && search->crowded == 0.0) return DMB_OK;
+    if (modes->count == count)
+        dmb_message_set(search->message,
+                        "modes: the %u lowest of %u modes are returned: the roots beyond them crowd near %g Hz and did "
+                        "not converge (overdamped motions have such roots near 1/(2 pi damping_time)): ask for at "
+                        "most %u modes, or for a band",
+                        modes->count, search->options->count, search->crowded / DMB_TWO_PI, modes->count);
+    return DMB_NOTE_INCOMPLETE;
 }
 
 /* A mode sharper than the subspace gave it, by inverse iteration at p next to its root (Ruhe 1973):
