@@ -82,7 +82,8 @@ typedef struct dmb_static_report {
 DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
- * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps
+ * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails and pipes slip on the
+ * wall, from the equilibrium without friction in steps of the friction; where that fails in load steps
  * (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not,
  * with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law
  * does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.

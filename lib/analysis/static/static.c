@@ -143,13 +143,11 @@ static int32_t search_by_newton(dmb_static_search *search)
     return pulled >= 0 || dmb_is_final(pulled) ? pulled : status;
 }
 
-/* Newton, then in steps that grow, then the relaxation. A part that nothing holds in its starting pose may yet fall
- * onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
-static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
+/* In steps that grow, then the relaxation, after Newton ended with `status`. A part that nothing holds in its starting
+ * pose may yet fall onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
+static int32_t search_further(dmb_static_search *search, int32_t status, int32_t *method)
 {
     const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
-    int32_t status = search_by_newton(search);
-    *method = DMB_STATIC_NEWTON;
     if (may_try_again(status) && status != DMB_ERR_SINGULAR)
         status = end_growing_steps(search, dmb_static_growing_steps(search));
     if (!may_try_again(status)) return status;
@@ -163,6 +161,49 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     return DMB_ERR_SINGULAR;
 }
 
+static int has_friction(const dmb_static_search *search)
+{
+    const dmb_scene *scene = search->sim->scene;
+    return scene->site_count > 0 && scene->friction_law.kind != DMB_FRICTION_NONE &&
+           (search->steady != NULL || search->evaluation.slipping);
+}
+
+/* The equilibrium without friction, which then grows: friction moves rings round the hole by up to atan(mu), which at
+ * once opens and closes contacts on a stiff wall in turn. */
+static int32_t search_through_friction(dmb_static_search *search, int32_t *method)
+{
+    const int32_t rolling = search->rolling;
+    search->evaluation.frictionless = 1.0;
+    search->rolling = 0;
+    int32_t status = search_further(search, search_by_newton(search), method);
+    search->rolling = rolling;
+    if (status >= 0) status = end_growing_steps(search, dmb_static_growing_friction(search));
+    search->evaluation.frictionless = 0.0;
+    return status;
+}
+
+static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
+{
+    int32_t status = search_by_newton(search);
+    *method = DMB_STATIC_NEWTON;
+    if (may_try_again(status) && has_friction(search)) {
+        const int32_t through = search_through_friction(search, method);
+        if (!may_try_again(through)) return through;
+        *method = DMB_STATIC_NEWTON;
+    }
+    return search_further(search, status, method);
+}
+
+/* Torques about axes that are held sum to 0, if need be after one more correction: the row left out adds its rounding.
+ */
+static int32_t check_spins(dmb_static_search *search)
+{
+    int32_t status = dmb_static_check_spins(search);
+    if (status != DMB_ERR_SINGULAR) return status;
+    status = dmb_static_correct(search);
+    return status < 0 ? status : dmb_static_check_spins(search);
+}
+
 /* Rotations that nothing resists are held. If torques about them do not sum to 0, the string turns until a spring, stop
  * or force of the caller resists it; there is no equilibrium without one. */
 static int32_t search_holding_spins(dmb_static_search *search, int32_t *method)
@@ -173,7 +214,7 @@ static int32_t search_holding_spins(dmb_static_search *search, int32_t *method)
     if (status < 0) search->spin_count = 0;
     status = search_equilibrium(search, method);
     if (search->spin_count == 0 || dmb_is_final(status)) return status;
-    if (status >= 0) status = dmb_static_check_spins(search);
+    if (status >= 0) status = check_spins(search);
     if (!may_try_again(status) || !dmb_static_may_be_caught(search->sim->scene)) return status;
     search->spin_count = 0;
     search->unbalanced = DMB_NONE;

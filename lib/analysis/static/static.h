@@ -89,7 +89,7 @@ int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation);
 /* Iterations towards equilibrium, on the trial configuration. */
 
 /* A rotation of a string about its own axis that nothing resists (static_spin.c). */
-#define DMB_STATIC_SPINS 32
+#define DMB_STATIC_SPINS 8 /* strings beyond these are not looked at */
 typedef struct dmb_static_spin {
     uint32_t node; /* whose rotation about its axis is held */
     uint32_t reserved;
@@ -152,6 +152,8 @@ int32_t dmb_static_begin(dmb_static_search *search);
  * latter keeps the step reached as `now`, whose accepted state has to be in the backup. */
 int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps);
 int32_t dmb_static_growing_steps(dmb_static_search *search);
+/* From the trial, which is in equilibrium without the friction of rings, to all of it in such steps. */
+int32_t dmb_static_growing_friction(dmb_static_search *search);
 /* Poses of the trial onto the joints, with a partition that suits the place. */
 int32_t dmb_static_settle(dmb_static_search *search);
 /* Displaces the trial to the low side of the hole, where there is gravity and a wall. */
@@ -221,6 +223,8 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
 void dmb_static_fix_axes(dmb_sim *sim);
 /* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */
 int32_t dmb_static_newton(dmb_static_search *search);
+/* One such correction. */
+int32_t dmb_static_correct(dmb_static_search *search);
 /* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes
  * 1998); slower and surer. */
 int32_t dmb_static_relaxation(dmb_static_search *search);

@@ -121,6 +121,13 @@ int32_t dmb_static_newton(dmb_static_search *search)
     return status;
 }
 
+int32_t dmb_static_correct(dmb_static_search *search)
+{
+    search->evaluation.extrapolated = 0;
+    const int32_t status = dmb_static_evaluate(search);
+    return status < 0 ? status : correct(search, 0);
+}
+
 /* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
 static void add_pseudo_mass(dmb_sim *sim, double rate)
 {
@@ -350,14 +357,27 @@ int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method meth
     return status;
 }
 
+/* What grows from 0 to 1: the loads, or the friction of rings that are assumed to slip. */
+typedef void (*set_part)(dmb_static_search *search, double part);
+
+static void set_load(dmb_static_search *search, double part)
+{
+    search->evaluation.load_factor = part;
+}
+
+static void set_friction(dmb_static_search *search, double part)
+{
+    search->evaluation.frictionless = 1.0 - part;
+}
+
 /* One load step from `reached`; a failing one goes back and halves it. 0, or why no shorter step is left. */
-static int32_t step(dmb_static_search *search, double *reached, double *length)
+static int32_t step(dmb_static_search *search, set_part set, double *reached, double *length)
 {
     const uint32_t before = search->iterations;
     const double target = fmin(1.0, *reached + *length);
     const double shortest = *reached > 0.0 ? DMB_SHORTEST_LOAD_STEP : DMB_SHORTEST_FIRST_STEP;
     search->searching = *length <= shortest;
-    search->evaluation.load_factor = target;
+    set(search, target);
     dmb_progress_at(search->sim, *reached);
     const int32_t status = dmb_static_newton(search);
     if (status >= 0) {
@@ -373,14 +393,27 @@ static int32_t step(dmb_static_search *search, double *reached, double *length)
     return dmb_is_final(status) || *length < shortest ? status : DMB_OK;
 }
 
-int32_t dmb_static_growing_steps(dmb_static_search *search)
+static int32_t grow(dmb_static_search *search, set_part set)
 {
     double reached = 0.0, length = 0.25;
-    int32_t status = dmb_static_begin(search);
+    int32_t status = DMB_OK;
     search->load_steps = 0;
-    if (status >= 0) keep(search->sim);
-    while (status >= 0 && reached < 1.0) status = step(search, &reached, &length);
+    keep(search->sim);
+    while (status >= 0 && reached < 1.0) status = step(search, set, &reached, &length);
     search->searching = 0;
+    return status;
+}
+
+int32_t dmb_static_growing_steps(dmb_static_search *search)
+{
+    const int32_t status = dmb_static_begin(search);
+    return status < 0 ? status : grow(search, set_load);
+}
+
+int32_t dmb_static_growing_friction(dmb_static_search *search)
+{
+    const int32_t status = grow(search, set_friction);
+    search->evaluation.frictionless = 0.0;
     return status;
 }
 

@@ -32,6 +32,7 @@ typedef struct dmb_evaluation {
     int32_t assembling;     /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
     int32_t slipping;       /* statics: friction acts as at the speed slip[] */
     double wall_softness;   /* statics: rings press as on a wall this much softer; 0: as it is */
+    double frictionless;    /* [-] statics: this share of the friction of rings is left out; 0: none of it */
     double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
     double rounding;   /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
     double gravity[3]; /* [m/s2] times load_factor, on bent elements */

@@ -163,8 +163,22 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
 /* Laws that differ from those of the scene. */
 typedef struct own_laws {
     dmb_normal_law soft;
-    dmb_friction_law sliding;
+    dmb_friction_law sliding, partial;
+    dmb_hole hole;
 } own_laws;
+
+/* Friction of rings with a share of it left out: the law's own coefficients, and those of sections of the hole. */
+static void leave_friction_out(const dmb_evaluation *evaluation, own_laws *laws, dmb_wall_job *job)
+{
+    const double share = 1.0 - evaluation->frictionless;
+    laws->partial = *job->friction_law;
+    laws->partial.mu_static *= share;
+    laws->partial.mu_dynamic *= share;
+    laws->hole = *job->hole;
+    laws->hole.friction *= share;
+    job->friction_law = &laws->partial;
+    job->hole = &laws->hole;
+}
 
 static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
 {
@@ -183,6 +197,7 @@ static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
         job.friction_law = &laws->sliding;
         job.bristles = 0;
     }
+    if (evaluation->frictionless > 0.0 && job.friction_law != NULL) leave_friction_out(evaluation, laws, &job);
     job.slip[0] = evaluation->slip[0];
     job.slip[1] = evaluation->slip[1];
     job.step = evaluation->step;
