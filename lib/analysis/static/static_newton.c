@@ -357,7 +357,7 @@ int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method meth
     return status;
 }
 
-/* What grows from 0 to 1: the loads, or the friction of rings that are assumed to slip. */
+/* Sets the part, 0 to 1, of the loads, or of the friction of rings that are assumed to slip. */
 typedef void (*set_part)(dmb_static_search *search, double part);
 
 static void set_load(dmb_static_search *search, double part)
