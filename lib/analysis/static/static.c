@@ -172,11 +172,14 @@ static int has_friction(const dmb_static_search *search)
  * once opens and closes contacts on a stiff wall in turn. */
 static int32_t search_through_friction(dmb_static_search *search, int32_t *method)
 {
+    dmb_steady *steady = search->steady;
     const int32_t rolling = search->rolling;
     search->evaluation.frictionless = 1.0;
     search->rolling = 0;
+    search->steady = NULL;
     int32_t status = search_further(search, search_by_newton(search), method);
     search->rolling = rolling;
+    search->steady = steady;
     if (status >= 0) status = end_growing_steps(search, dmb_static_growing_friction(search));
     search->evaluation.frictionless = 0.0;
     return status;
