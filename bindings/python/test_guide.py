@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shlex
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -30,6 +31,11 @@ def output_of(function, *arguments):
 
 
 class GuideTest(unittest.TestCase):
+    def test_drawing_of_the_conventions(self):
+        """The drawing is the one that its script makes."""
+        script = ROOT / "examples" / "conventions" / "draw.py"
+        self.assertEqual(subprocess.run([sys.executable, str(script), "--check"], check=False).returncode, 0)
+
     def test_scene_and_commands(self):
         try:
             import matplotlib  # noqa: F401

@@ -4,7 +4,7 @@
  * World frame, right-handed: x north and along the default hole, away from the rig; y west; z up. Azimuth is clockwise
  * seen from above: 0 along +x, 90 deg (east) along -y. Body and section frames: origin on the axis of the pipe, x along
  * it towards the bit, rotating with the material; positive rotation is clockwise seen from the rig. Pipes count from
- * the rig end. */
+ * the rig end. Drawing: examples/conventions. */
 #ifndef DRILLMBD_MODEL_H
 #define DRILLMBD_MODEL_H
 

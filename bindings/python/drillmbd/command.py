@@ -33,6 +33,9 @@ EXAMPLES = """examples:
 exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
 written; 130 stopped by Ctrl-C, what was done is written.
 
+frames, angles and signs: azimuth is clockwise from north, inclination from the downward vertical, dip from the horizontal, up positive;
+thrust and compression are negative hook loads and axial forces. All with a drawing: examples/conventions/README.md
+
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
 """
 

@@ -1,4 +1,5 @@
-"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units.
+"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units. Frames, angles and signs:
+examples/conventions/README.md.
 
     from drillmbd import scene
     rig = scene.load("rig.toml")          # SceneError tells everything that is wrong, with lines
