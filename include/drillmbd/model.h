@@ -236,7 +236,9 @@ typedef struct dmb_pipe_def {
     char name[24];             /* of the pipes that one call adds, for messages and dmb_model_find_pipes; default "" */
     uint32_t contact_points;   /* [-] 3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each
                                   element, its ends among them, each for its weight of the length, tool joints for
-                                  their own length at the far end; 0 (default): at nodes only */
+                                  their own length at the far end; 0 (default): at nodes only, so that sections bear
+                                  the weight w between them as those of a beam on these points: w L^2/12 at the nodes
+                                  of pipes that lie on the wall, where contact along the elements gives 0 */
     uint32_t contact_reserved;
 } dmb_pipe_def;
 DMB_SIZED_STRUCT(dmb_pipe_def)

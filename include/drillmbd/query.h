@@ -39,8 +39,8 @@ typedef struct dmb_section {
     uint32_t reserved;
     double force[6];  /* [N, N m] on the near side from the far side: axial (tension > 0), shear y, z; torque, bending
                          moment y, z; section frame, shape (6). It balances all that acts between two sections:
-                         weight and inertia along the pipe, eccentric mass too, and wall forces, loads, springs
-                         at their points (axial-torsional pipes: mean of the element) */
+                         weight and inertia along the pipe and its tool joint, eccentric mass too, and wall
+                         forces, loads, springs at their points (axial-torsional pipes: mean of the element) */
     double strain[6]; /* [-, -, -, rad/m, rad/m, rad/m] mean of element: stretch, shear; twist, curvature; shape (6) */
 } dmb_section;
 DMB_SIZED_STRUCT(dmb_section)

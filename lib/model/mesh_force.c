@@ -43,6 +43,20 @@ dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const cha
     return point;
 }
 
+/* The answer of a callback is known when it is called alone, so a point that an element's interpolation would carry is
+ * rigid with the nearer node instead, a quarter of the pipe's diameter away at most (mesh_division.c). */
+static void take_nearer_node(const dmb_mesh *mesh, dmb_scene_point *point)
+{
+    if (point->element == DMB_NONE) return;
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, point->element);
+    const int far = point->fraction > 0.5;
+    point->x[0] += far ? (point->fraction - 1.0) * element->length - element->arm[1]
+                       : element->arm[0] + point->fraction * element->length;
+    point->node += far ? 1 : 0;
+    point->element = DMB_NONE;
+    point->fraction = 0.0;
+}
+
 /* ---- Springs ----------------------------------------------------------------------------------------------------- */
 
 static bool move_as_one(const dmb_scene_spring *spring)
@@ -169,6 +183,7 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
         dmb_message_set(&field, "place[%u]", k);
         if (force.joint[k] == DMB_NONE)
             force.point[k] = dmb_mesh_point(&check, mesh, field.text, &def->place[k], def->offset + 3 * k);
+        take_nearer_node(mesh, &force.point[k]);
     }
     return check.status < 0 ? check.status : dmb_vector_append(&mesh->forces, &mesh->model->allocator, &force, 1);
 }

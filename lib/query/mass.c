@@ -72,6 +72,22 @@ void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb
     add_part(share, &part, x, pipe);
 }
 
+double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
+                            dmb_rigid_mass *share)
+{
+    const uint32_t last = pipe->map->element + pipe->map->elements - 1;
+    const double joint = pipe->map->joint, fraction = length / joint;
+    dmb_rigid_part part;
+    begin(share, scene->element_node[last] + 1);
+    dmb_joint_of(pipe->def, &part);
+    part.inertia[1] -= part.mass * joint * joint / 12.0; /* of slices about their own middles */
+    part.mass *= fraction;
+    part.inertia[0] *= fraction;
+    part.inertia[1] = part.inertia[1] * fraction + part.mass * length * length / 12.0;
+    add_part(share, &part, 0.5 * length - scene->types[scene->element_type[last]].arm[1], pipe);
+    return part.mass;
+}
+
 void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
                          dmb_rigid_mass *share)
 {

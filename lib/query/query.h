@@ -138,6 +138,9 @@ void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_d
 void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
 /* A pipe's tool joint; mass 0 where there is none. */
 void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
+/* The first `length` [m] of it, as of a uniform body; returns its mass. */
+double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
+                            dmb_rigid_mass *share);
 /* Part that eccentricity adds on the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
 void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
                          dmb_rigid_mass *share);
@@ -158,6 +161,9 @@ double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
  * + springs + stuck places). */
 void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                          double load[6]);
+/* From the load at the near end of the tool joint to that at the point in it, in place. */
+void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
+                               double load[6]);
 
 /* ---- Pressures of the mud ---------------------------------------------------------------------------------------- */
 

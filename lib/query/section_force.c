@@ -13,14 +13,12 @@
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-/* A tool joint hands on the load at its near end, its own mass left out. */
 static void section_force(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6])
 {
     dmb_described_pipe pipe;
     dmb_describe_pipe(sim, dmb_model_part_index(sim->model, place.part, DMB_PART_STRING), place.pipe, &pipe);
     dmb_section_load_of(sim, &pipe, point, force);
-    force[4] += point->beyond * force[2];
-    force[5] -= point->beyond * force[1];
+    if (point->beyond > 0.0) dmb_section_load_in_joint(sim, &pipe, point, force);
 }
 
 /* Mean strain e/L. Its sideways part is mostly bending of the element, which the corrected stiffness GA* accounts for;

@@ -7,6 +7,7 @@
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "math/vec3.h"
+#include "model/section.h"
 #include "query/query.h"
 #include "sim/node.h"
 #include "system/assemble/energy.h"
@@ -216,20 +217,23 @@ static void take_from_nodes(host *h, const point_loads *loads)
 
 /* ---- Eccentric mass ---------------------------------------------------------------------------------------------- */
 
-/* M a - ad_v^T M v - weight of a first moment on its node, in the node's frame; buoyancy acts on the axis. */
-static void share_wrench(const host *h, const dmb_rigid_mass *share, double f[6])
+/* M a - ad_v^T M v - weight of a rigid share on its node, in the node's frame; `lifted` [kg, kg m] of its mass and
+ * first moment along the axis are carried by the mud. */
+static void share_wrench(const dmb_sim *sim, const dmb_rigid_mass *share, const double lifted[2], double f[6])
 {
-    const dmb_scene *scene = h->sim->scene;
+    const dmb_scene *scene = sim->scene;
+    const double centre[3] = {share->moment[0] - lifted[1], share->moment[1], share->moment[2]};
     double v[6], a[6], p[6], turning[6], R[9], u[3], g[3], moment[3];
-    dmb_node_vector(scene, &h->sim->now, share->node, h->sim->now.velocity, v);
-    dmb_node_vector(scene, &h->sim->now, share->node, h->sim->now.acceleration, a);
+    dmb_node_vector(scene, &sim->now, share->node, sim->now.velocity, v);
+    dmb_node_vector(scene, &sim->now, share->node, sim->now.acceleration, a);
     dmb_rigid_mass_times(share, v, p);
     dmb_rigid_mass_times(share, a, f);
     dmb_ad_transpose(v, p, turning);
-    for (int i = 0; i < 6; i++) f[i] = dmb_is_quasi_static(&h->sim->now) ? 0.0 : f[i] - turning[i];
-    dmb_node_pose(scene, &h->sim->now, share->node, R, u);
+    for (int i = 0; i < 6; i++) f[i] = dmb_is_quasi_static(&sim->now) ? 0.0 : f[i] - turning[i];
+    dmb_node_pose(scene, &sim->now, share->node, R, u);
     dmb_mat3_tvec(R, scene->gravity, g);
-    dmb_vec3_cross(share->moment, g, moment);
+    dmb_vec3_cross(centre, g, moment);
+    dmb_vec3_axpy(lifted[0] - share->mass, g, f);
     dmb_vec3_sub(f + 3, moment, f + 3);
 }
 
@@ -238,10 +242,11 @@ static void take_eccentric(host *h, const dmb_described_pipe *pipe)
 {
     if (!pipe->eccentric) return;
     for (uint32_t end = 0; end < 2; end++) {
+        const double lifted[2] = {0.0, 0.0}; /* buoyancy acts on the axis */
         dmb_rigid_mass share;
         double f[6];
         dmb_eccentric_share(h->sim->scene, pipe, h->element, end, &share);
-        share_wrench(h, &share, f);
+        share_wrench(h->sim, &share, lifted, f);
         dmb_arm_wrench(end ? h->type->arm[1] : -h->type->arm[0], f);
         for (int i = 0; i < 6; i++) h->load[6 * end + (uint32_t)i] += end ? f[i] : -f[i];
     }
@@ -331,4 +336,23 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
     for (int i = 0; i < 6; i++) sum[i] -= loads.part[i] + D[i];
     dmb_mat3_tvec(at.Q, sum, load);
     dmb_mat3_tvec(at.Q, sum + 3, load + 3);
+}
+
+/* ---- In a tool joint --------------------------------------------------------------------------------------------- */
+
+/* From its near end to the section, `beyond` [m] further on: mass and weight of that part of it. */
+void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
+                               double load[6])
+{
+    const dmb_element_type *type = sim->scene->types + sim->scene->element_type[point->element];
+    const dmb_mud mud = dmb_mud_of(sim->scene);
+    dmb_rigid_mass share;
+    double f[6];
+    const double mass = dmb_joint_part_share(sim->scene, pipe, point->beyond, &share);
+    const double lifted = mass > 0.0 ? (1.0 - dmb_buoyancy_factor(pipe->def, 1, &mud)) * mass : 0.0;
+    const double carried[2] = {lifted, lifted * (0.5 * point->beyond - type->arm[1])};
+    share_wrench(sim, &share, carried, f);
+    dmb_arm_wrench(type->arm[1] - point->beyond, f);
+    dmb_arm_wrench(-point->beyond, load);
+    for (int i = 0; i < 6; i++) load[i] += f[i];
 }

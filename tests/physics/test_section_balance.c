@@ -362,6 +362,41 @@ static void held_where_stuck(int32_t kind, uint32_t elements, double at)
     rig_close(&r.s);
 }
 
+/* Closer to a node than a quarter of the diameter a load and a stuck place act by the element's interpolation: sections
+ * are in balance with them all the same. */
+static void near_a_node(uint32_t elements, double at)
+{
+    double along[6] = {1000.0, 0.0, 0.0, 50.0, 0.0, 0.0};
+    rod r = open_rod(DMB_PIPE_FLEXIBLE, elements, DMB_FREE_NONE, at);
+    add_wrench(&r, BY_LOAD, along);
+    (void)rig_start(&r.s, NULL);
+    (void)find_equilibrium(&r.s, NULL);
+    for (double f = 0.0005; f < 1.0; f += 0.0331) {
+        check_close("axial force", section_of(&r, f, 0), f < at ? 1000.0 : 0.0, 1e-7);
+        check_close("torque", section_of(&r, f, 3), f < at ? 50.0 : 0.0, 1e-8);
+    }
+    rig_close(&r.s);
+}
+
+static void stuck_near_a_node(uint32_t elements, double at)
+{
+    rod r = open_rod(DMB_PIPE_FLEXIBLE, elements, DMB_FREE_X | DMB_FREE_RX, 0.0);
+    double pull[6] = {-1000.0, 0.0, 0.0, 50.0, 0.0, 0.0};
+    dmb_stuck_def stuck = dmb_stuck_def_default();
+    stuck.place = place_of(&r, at);
+    stuck.holds = DMB_STUCK_AXIAL | DMB_STUCK_ROTATION;
+    stuck.stuck = 1;
+    must_model(&r.s, dmb_model_add_stuck(r.s.model, &stuck, NULL));
+    add_wrench(&r, BY_LOAD, pull);
+    (void)rig_start(&r.s, NULL);
+    (void)find_equilibrium(&r.s, NULL);
+    for (double f = 0.0005; f < 1.0; f += 0.0331) {
+        check_close("pull", section_of(&r, f, 0), f < at ? 1000.0 : 0.0, 1e-6);
+        check_close("torque", section_of(&r, f, 3), f < at ? -50.0 : 0.0, 1e-7);
+    }
+    rig_close(&r.s);
+}
+
 static void forces_inside(void **state)
 {
     static const double places[] = {0.5, 0.37, 0.711};
@@ -374,6 +409,8 @@ static void forces_inside(void **state)
                 held_where_stuck(kind, elements, places[p]);
             }
             for (int way = 0; way < WAYS; way++) across(elements, way, places[p]);
+            near_a_node(elements, p == 0 ? 0.002 : 0.998);
+            stuck_near_a_node(elements, p == 0 ? 0.002 : 0.998);
         }
 }
 
@@ -516,12 +553,53 @@ static void falling(void **state)
     }
 }
 
+/* ---- Tool joints ------------------------------------------------------------------------------------------------- */
+
+/* A string that hangs in mud: each section bears the buoyant weight of body and tool joints below it. */
+static void tool_joints(void **state)
+{
+    (void)state;
+    for (uint32_t elements = 1; elements <= 4; elements *= 2) {
+        rig s;
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = s1_pipe();
+        dmb_environment_def mud = dmb_environment_def_default();
+        rig_open(&s, 0.0, 0.0, -9.81);
+        mud.gravity[2] = -9.81;
+        mud.fluid_density = 1100.0;
+        must_model(&s, dmb_model_set_environment(s.model, &mud));
+        def.follows_hole = 0;
+        def.start_free = DMB_FREE_NONE;
+        def.rotation[1] = 0.5 * 3.14159265358979323846; /* body x downwards */
+        pipe.elements = elements;
+        pipe.joint_length = 0.3;
+        pipe.joint_outer_diameter = 0.1;
+        pipe.joint_mass = 12.0;
+        pipe.string = add_string(&s, &def);
+        (void)add_pipes(&s, &pipe, 3);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        const double lift = 9.81 * (1.0 - mud.fluid_density / pipe.density);
+        const double body = s1_values().mass * lift, joint = pipe.joint_mass / pipe.joint_length * lift;
+        for (uint32_t p = 0; p < 3; p++)
+            for (double f = 0.0; f <= 1.0; f += 0.0625) {
+                dmb_section section = dmb_section_default();
+                const double at = f * pipe.length, in_body = fmax(0.0, 1.2 - at), in_joint = fmin(0.3, 1.5 - at);
+                must(&s, dmb_query_section(s.sim, dmb_station(pipe.string, p, f), &section));
+                check_close("weight below", section.force[0],
+                            (2 - p) * (1.2 * body + 0.3 * joint) + in_body * body + in_joint * joint, 1e-7);
+            }
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(assumed_slip),   cmocka_unit_test(forces_inside),
         cmocka_unit_test(contact_along),  cmocka_unit_test(contact_in_a_turning_hole),
         cmocka_unit_test(eccentric_mass), cmocka_unit_test(falling),
+        cmocka_unit_test(tool_joints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

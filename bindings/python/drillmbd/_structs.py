@@ -400,7 +400,7 @@ class Section(Sized):
         ("strain", c_double * 6),
     ]
     field_docs = {
-        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame, shape (6). It balances all that acts between two sections: weight and inertia along the pipe, eccentric mass too, and wall forces, loads, springs at their points (axial-torsional pipes: mean of the element)"),
+        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame, shape (6). It balances all that acts between two sections: weight and inertia along the pipe and its tool joint, eccentric mass too, and wall forces, loads, springs at their points (axial-torsional pipes: mean of the element)"),
         "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of element: stretch, shear; twist, curvature; shape (6)"),
     }
 
@@ -2244,7 +2244,7 @@ class PipeDef(Sized):
         "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
         "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
         "name": ("", "of the pipes that one call adds, for messages and dmb_model_find_pipes; default \"\""),
-        "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end; 0 (default): at nodes only"),
+        "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end; 0 (default): at nodes only, so that sections bear the weight w between them as those of a beam on these points: w L^2/12 at the nodes of pipes that lie on the wall, where contact along the elements gives 0"),
     }
 
 
