@@ -99,11 +99,13 @@ typedef struct dmb_energy {
     double rock;        /* [J] spent at the bit */
     double scheme;      /* [J] taken out by the time integration: what its discrete inertia and potential forces did
                            less what the energies changed */
-    double input;       /* [J] integral of the sum of each drive's |power| and of |power| of all loads, the scale of
-                           `error` */
+    double input;       /* [J] integral of the sum of each drive's |power| and of |power| of all loads */
     double balance;     /* [J] input and changes of energy that physics leaves open: scheme + unexplained */
     double unexplained; /* [J] balance - scheme: from unconverged iterations only */
-    double error;       /* [-] |balance| / input, 0 while input is 0 */
+    double error;       /* [-] |balance| / scale; 0 only if nothing is missing */
+    double scale;       /* [J] largest of the energies supplied (input), dissipated, exchanged with gravity, and present
+                           (at the start; now, without gravity) */
+    double growth;      /* [-] change of the balance over the last tenth of the time since the start, over scale */
 } dmb_energy;
 DMB_SIZED_STRUCT(dmb_energy)
 /* Energy ledger since the start; DMB_ERR_UNSUPPORTED where the options left it out. O(number of nodes). */
@@ -193,6 +195,9 @@ typedef struct dmb_statistics {
     uint32_t redundant;       /* [-] equations that are dropped now */
     double violation;         /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
                                  and the caller's constraints do not count */
+    uint64_t bounces;         /* [-] contacts with the wall, stops of joints and springs that opened within fewer than
+                                 ten steps after they closed: steps do not resolve them, and their speeds after it are
+                                 uncertain. Lasting contacts are not counted. */
 } dmb_statistics;
 DMB_SIZED_STRUCT(dmb_statistics)
 /* O(number of joints, couplings and constraints). */

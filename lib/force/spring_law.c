@@ -171,8 +171,7 @@ int dmb_joint_law_acts(const dmb_joint_law *law)
     return law->stiffness > 0.0 || law->damping > 0.0 || law->friction > 0.0 || stop_acts(law);
 }
 
-/* d with the sign of the side: > 0 above stop_high, < 0 below stop_low, 0 between. */
-static double beyond_stops(const dmb_joint_law *law, double position)
+double dmb_joint_stop_depth(const dmb_joint_law *law, double position)
 {
     if (!stop_acts(law)) return 0.0;
     if (position > law->stop_high) return position - law->stop_high;
@@ -194,7 +193,7 @@ static void add_friction(const dmb_joint_law *law, double speed, dmb_joint_force
  */
 static void add_stop(const dmb_joint_law *law, double position, double speed, dmb_joint_force *force)
 {
-    const double d = beyond_stops(law, position);
+    const double d = dmb_joint_stop_depth(law, position);
     const double spring = -law->stop_stiffness * d;
     const double damper = -law->stop_damping * speed;
 
@@ -222,6 +221,6 @@ void dmb_joint_force_at(const dmb_joint_law *law, double position, double speed,
 double dmb_joint_law_energy(const dmb_joint_law *law, double position)
 {
     const double stretch = position - law->rest;
-    const double d = beyond_stops(law, position);
+    const double d = dmb_joint_stop_depth(law, position);
     return 0.5 * law->stiffness * stretch * stretch + 0.5 * law->stop_stiffness * d * d;
 }

@@ -67,6 +67,8 @@ typedef struct dmb_joint_force {
 /* 1 if the law can ever give a force. */
 int dmb_joint_law_acts(const dmb_joint_law *law);
 void dmb_joint_force_at(const dmb_joint_law *law, double position, double speed, dmb_joint_force *force);
+/* [m, rad] beyond the stops, with the sign of the side: > 0 above stop_high, < 0 below stop_low, 0 between. */
+double dmb_joint_stop_depth(const dmb_joint_law *law, double position);
 /* [J] k (x - rest)^2/2 + K d^2/2 */
 double dmb_joint_law_energy(const dmb_joint_law *law, double position);
 

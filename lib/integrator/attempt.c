@@ -9,6 +9,7 @@
 #include "sim/node.h"
 #include "sim/parts.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
@@ -101,6 +102,7 @@ void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *e
     evaluation->mass_factor = (1.0 - c.am) / (h * h * c.beta * (1.0 - c.af));
     evaluation->velocity_factor = c.gamma / (h * c.beta);
     evaluation->pseudo_factor = (1.0 - c.af) / (1.0 - c.am);
+    evaluation->own_factor = (1.0 - c.am) / (c.gamma * (1.0 - c.af));
     evaluation->load_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
@@ -205,11 +207,27 @@ static int32_t check_dropped(dmb_sim *sim)
  * and the one is taken that accelerations that stay lead to. */
 enum { DMB_CHANGES = 1000 };
 
+/* Most times that a step is taken again since taking it without the forces that open lets others open. */
+enum { DMB_RELEASES_MAX = 4 };
+
+/* Contacts that open, and those that open when it is taken again without their forces. */
+static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+{
+    int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
+    opens |= dmb_bounces_open(sim);
+    for (int k = 0; k < DMB_RELEASES_MAX && opens && status == DMB_OK; k++) {
+        status = step_released(sim, c, attempt);
+        opens = dmb_bounces_open(sim);
+    }
+    return status;
+}
+
 /* From the prediction to the end of the iteration, and over again where contacts open. */
 static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
     attempt->released = 0;
+    dmb_bounces_begin(sim);
     dmb_prediction_make(sim, c, attempt);
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;
@@ -217,7 +235,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_atte
     dmb_step_motion_place(sim);
     status = dmb_newton(sim, c, attempt);
     if (status >= 0 && attempt->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
-    return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
+    return status == DMB_OK ? release(sim, c, attempt) : status;
 }
 
 static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
@@ -244,6 +262,11 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
     if (status >= 0 && sim->scene->joint_count) {
         const int32_t refused = dmb_joints_refuse_edges(sim, 1, attempt->evaluation.time);
+        if (refused < 0) status = refused;
+    }
+    if (status >= 0 && sim->scene->unilateral_count > 0) {
+        const int32_t refused = dmb_bounces_end(&attempt->evaluation, &attempt->bounced);
+        if (attempt->bounced) attempt->whole = 0;
         if (refused < 0) status = refused;
     }
     *sim->factors = DMB_FACTORS_NONE;
@@ -314,6 +337,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     if (!attempt->deferred) dmb_factor_reuse_end(sim, attempt, &sim->trial);
     dmb_prediction_note(sim, attempt);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
+    dmb_bounces_accept(&attempt->evaluation, attempt->bounced);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;
     sim->trial = old;

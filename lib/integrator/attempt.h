@@ -22,8 +22,8 @@ typedef struct dmb_attempt {
     int32_t released; /* 1: contacts opened, and the step was taken again without their force */
     int32_t deferred; /* 1: commit leaves the reused factors alone, for the step may still be taken back */
     int32_t constant; /* 1: accelerations that stay are to begin with, since contacts change in the step */
-    int32_t reserved;
-    int32_t linear; /* 1: it began from accelerations that go on as they did */
+    int32_t bounced;  /* 1: stops or springs touch or open, or were treated as if they did */
+    int32_t linear;   /* 1: it began from accelerations that go on as they did */
 } dmb_attempt;
 
 /* [-] Local error of the pose of a step over its tolerance, largest row, and what it may become within a quarter of a

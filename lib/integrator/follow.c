@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "system/assemble/bounces.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
@@ -78,7 +79,8 @@ static int shares(const dmb_scene *scene)
 static void take_factors(dmb_arena *arena, const dmb_scene *scene, dmb_factor_set *factors)
 {
     const dmb_block_layout *layout = &scene->layout;
-    const uint32_t own = shares(scene) && scene->site_count > 0 ? 1 : 0, n = scene->node_count;
+    const uint32_t own = shares(scene) && (scene->site_count > 0 || scene->unilateral_count > 0) ? 1 : 0,
+                   n = scene->node_count;
     factors->diagonal = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->diag[n]);
     factors->lower = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->link[n - 1]);
     factors->upper = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->link[n - 1]);
@@ -228,6 +230,27 @@ static int32_t follow_release(course *of)
     return status;
 }
 
+/* Stops and springs are treated as the leader treats them. */
+static void take_modes(course *of)
+{
+    memcpy(of->sim->bounce_mode, of->lead->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
+}
+
+/* Accelerations that mean forces leave behind; the factors that followers share stay. */
+static int32_t end_bounces(course *of)
+{
+    const int shared = shares(of->sim->scene);
+    int32_t found = 0;
+    if (of->lead->attempt->bounced) {
+        if (shared) dmb_factors_swap(of->sim, &of->lead->room->mass);
+        const int32_t status = dmb_bounces_end(&of->attempt.evaluation, &found);
+        if (shared) dmb_factors_swap(of->sim, &of->lead->room->mass);
+        if (status < 0) return status;
+    }
+    of->attempt.bounced = found;
+    return DMB_OK;
+}
+
 static int32_t follow(course *of)
 {
     int32_t status = predict(of);
@@ -262,6 +285,7 @@ static int32_t prepare_release(course *of)
 int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
 {
     course of = course_of(follower, lead);
+    take_modes(&of);
     int32_t status = predict(&of);
     if (status < 0) return status;
     lead->room->exact = is_exact(lead->sim);
@@ -273,9 +297,12 @@ int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
 int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead)
 {
     course of = course_of(follower, lead);
-    const int32_t status = follow(&of);
+    take_modes(&of);
+    int32_t status = follow(&of);
+    if (status >= 0) status = end_bounces(&of);
     if (status < 0) return status;
     dmb_system_unwrap(of.sim);
     dmb_system_accept(&of.attempt.evaluation);
+    dmb_bounces_accept(&of.attempt.evaluation, of.attempt.bounced);
     return DMB_OK;
 }

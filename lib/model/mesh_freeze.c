@@ -2,6 +2,7 @@
  */
 #include "base/memory.h"
 #include "force/hole.h"
+#include "force/unilateral.h"
 #include "math/vec3.h"
 #include "model/mesh.h"
 #include "model/scene.h"
@@ -91,6 +92,16 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
     scene->cluster_column_count = cluster->column + cluster->columns;
 }
 
+/* Laws of joints and springs are numbered together where any of them may open. */
+static uint32_t count_unilaterals(const dmb_mesh *mesh)
+{
+    int any = 0;
+    for (uint32_t i = 0; i < mesh->laws.count; i++) any |= dmb_stop_acts(DMB_VECTOR_AT(dmb_joint_law, &mesh->laws, i));
+    for (uint32_t i = 0; i < mesh->springs.count; i++)
+        any |= dmb_spring_can_open(&DMB_VECTOR_AT(dmb_scene_spring, &mesh->springs, i)->law);
+    return any ? (uint32_t)(mesh->laws.count + mesh->springs.count) : 0;
+}
+
 static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->input_count = (uint32_t)mesh->inputs.count;
@@ -138,6 +149,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->stuck_count = (uint32_t)mesh->stuck.count;
     scene->flow_count = (uint32_t)mesh->flow_pieces.count;
     scene->spring_count = (uint32_t)mesh->springs.count;
+    scene->unilateral_count = count_unilaterals(mesh);
     scene->spring_point_count = (uint32_t)mesh->spring_points.count;
     scene->programme_count = mesh->model->programmes.count;
     scene->has_callback = has_callback(mesh);

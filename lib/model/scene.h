@@ -238,6 +238,7 @@ typedef struct dmb_scene {
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
+    uint32_t unilateral_count; /* laws of joints, then springs, where any of them may open; else 0 */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;                /* room of all constraints */
     uint32_t constraint_node_count;               /* length of cluster_nodes */

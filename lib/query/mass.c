@@ -217,6 +217,21 @@ static void energies_now(const dmb_sim *sim, dmb_energy *e)
     e->contact = dmb_contact_energy(sim->scene, &sim->now);
 }
 
+/* [J] what the error is measured by: the largest of the energies supplied, spent, exchanged with gravity, and present
+ * at the start and now. */
+static double scale_of(const dmb_ledger *ledger, const dmb_energy *e)
+{
+    const double spent = fabs(e->friction) + fabs(e->impact) + fabs(e->damping) + fabs(e->rock);
+    const double present = fmax(fabs(ledger->start), e->kinetic + e->strain + e->contact);
+    return fmax(fmax(e->input, spent), fmax(fabs(e->gravity), present));
+}
+
+/* [-] a breath of energy is no infinity */
+static double share_of(double part, double scale)
+{
+    return scale > 0.0 ? fmin(fabs(part) / scale, DBL_MAX) : 0.0;
+}
+
 /* balance = what went in less what was spent and what is stored; 0 in continuous time.
  *   scheme = -(work of inertia + work of potential) - (E - E_start)
  *   unexplained = balance - scheme = sum of all works: the residual's own, from iterations that stopped early */
@@ -234,7 +249,8 @@ static void balance(const dmb_ledger *ledger, dmb_energy *e)
     e->scheme = -(work[DMB_POWER_INERTIA] + work[DMB_POWER_POTENTIAL]) - gained;
     e->balance = e->drives + e->loads - e->friction - e->impact - e->damping - e->rock - gained;
     e->unexplained = e->balance - e->scheme;
-    e->error = e->input > 0.0 ? fmin(fabs(e->balance) / e->input, DBL_MAX) : 0.0; /* a breath of input is no infinity */
+    e->scale = scale_of(ledger, e);
+    e->error = share_of(e->balance, e->scale);
 }
 
 int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy)
@@ -245,6 +261,8 @@ int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy)
     if (!sim->options.energy_ledger) return DMB_ERR_UNSUPPORTED;
     energies_now(sim, &answer);
     balance(sim->ledger, &answer);
+    const double since = sim->ledger->since, tenth = since + 0.9 * (sim->clock->time - since);
+    answer.growth = share_of(answer.balance - dmb_ledger_balance_before(sim->ledger, tenth), answer.scale);
     return dmb_energy_write(energy, &answer);
 }
 
@@ -366,6 +384,7 @@ int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)
     answer.assembly[0] = counters->assembly[0];
     answer.assembly[1] = counters->assembly[1];
     answer.switches = counters->switches;
+    answer.bounces = counters->bounces;
     count_constraints(sim, &answer);
     return dmb_statistics_write(statistics, &answer);
 }

@@ -9,8 +9,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, st, e, d, k, load, history, diagonal, link, backup;
-    uint64_t act, delay, cut, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent,
-        dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian,
+        tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
 } field_counts;
 
@@ -24,7 +24,8 @@ typedef struct field_counts {
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                      \
     const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
     const uint64_t stuck = (of)->stuck;                                                                             \
-    (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                                       \
+    const uint64_t u = (of)->u, ur = (of)->ur;                                                                      \
+    (void)u, (void)ur, (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                    \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb, st = (of)->st;        \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
@@ -90,7 +91,9 @@ static field_counts counts_of(const dmb_scene *scene)
     c.n = n;
     c.r = scene->row_count;
     c.s = scene->site_count;
-    c.ns = c.s > 0 ? n : 0;
+    c.u = scene->unilateral_count;
+    c.ur = c.u > 0 ? scene->row_count : 0;
+    c.ns = c.s > 0 || c.u > 0 ? n : 0;
     c.held = scene->held_count;
     c.input = scene->input_count;
     c.event = scene->event_count;

@@ -3,12 +3,13 @@
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; st = s
- * with damping that jumps at touch, else 0; ns = n where there are contact sites, else 0; piece = most pieces of one
- * run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count,
- * stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
- * event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
- * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
- * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * with damping that jumps at touch, else 0; u = unilateral_count, ur = r where there are any, else 0; ns = n where
+ * there are contact sites or any of those, else 0; piece = most pieces of one run (sim/parts); k = bit_count, act =
+ * actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count, cut = stations at
+ * which cutters widen the hole, held = held_count, input = input_count, event = event_count, history = history_count,
+ * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
+ * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
+ * the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -61,6 +62,10 @@
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
+    /* system/assemble/bounces, of stops and springs that may open: */                                              \
+    X(double, bounce_place, u, NUMBERS)           /* [m, rad] coordinate of the joint, elongation of the spring */    \
+    X(double, bounce_force, u, NUMBERS)           /* [N, N m] force of the law there, against growing coordinates */  \
+    X(double, bounce_speed, u, NUMBERS)           /* [m/s, rad/s] of the coordinate */                                \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
     X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_motion */   \
@@ -79,6 +84,9 @@
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
                                               system/constrain/cluster_projection, system/constrain/cluster */                \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
+    X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself:                   \
+                                         system/assemble/bounces */                                                  \
+    X(double, site_age, s, NUMBERS)   /* [-] steps since the ring touched, 0: open: system/assemble/bounces */        \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                         \
@@ -152,6 +160,13 @@
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/jump */   \
+    X(uint8_t, bounce_mode, u)          /* DMB_BOUNCE_..., of the step: system/assemble/bounces */                    \
+    X(double, bounce_own, u)            /* [N, N m] force of the step's own integration, likewise */                  \
+    X(double, bounce_warmth, u)         /* [W] into its damper, likewise */                                           \
+    X(uint8_t, bounce_stays, u)         /* 1: the next step integrates it by itself too, likewise */                  \
+    X(double, bounce_taken, ur)         /* [m/s2, rad/s2] M^-1 of those forces, likewise */                            \
+    X(double, bounce_given, ur)         /* [m/s2, rad/s2] M^-1 of the forces of laws in their place, likewise */      \
+    X(double, bounce_rows, ur)          /* [N, N m] residual that waits, likewise */                                  \
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/jump */             \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
@@ -262,10 +277,16 @@ enum {
     DMB_POWER_COUNT = 8
 };
 
+/* Balances are kept at times that grow by this part of the time since the start, as many as reach back by a tenth. */
+#define DMB_LEDGER_SPACING 0.02
+enum { DMB_LEDGER_MARKS = 8 };
+
 typedef struct dmb_ledger {
-    double work[8]; /* [J] integral of each power, trapezoidal */
-    double input;   /* [J] integral of |drives| + |loads| */
-    double start;   /* [J] kinetic + potential energy at the start */
+    double work[8];                    /* [J] integral of each power, trapezoidal */
+    double input;                      /* [J] integral of |drives| + |loads| */
+    double start;                      /* [J] kinetic + potential energy at the start */
+    double since;                      /* [s] time of the start */
+    double mark[2 * DMB_LEDGER_MARKS]; /* [s], [J] balance at earlier times, the last one first */
 } dmb_ledger;
 
 typedef struct dmb_counters {
@@ -275,6 +296,7 @@ typedef struct dmb_counters {
     double projection[2];
     double assembly[2];
     uint64_t switches;
+    uint64_t bounces; /* touch and release within fewer than ten steps */
     uint64_t carried; /* 1: by a state transfer what is held stands elsewhere than described */
 } dmb_counters;
 

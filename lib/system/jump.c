@@ -8,6 +8,7 @@
 #include "math/vec3.h"
 #include "sim/layout.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
@@ -37,7 +38,7 @@ int32_t dmb_contact_changes(const dmb_sim *sim)
         if ((sim->now.site_penetration[s] > 0.0) != closed) return 1;
         if (closed && dmb_vec3_dot(sim->now.site_normal + 3 * s, sim->trial.site_normal + 3 * s) < 0.9) return 1;
     }
-    return 0;
+    return dmb_bounces_change(sim);
 }
 
 int32_t dmb_contact_opens(const dmb_sim *sim)
@@ -123,6 +124,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     const int32_t status = dmb_factor_mass_in_step(&mass);
     if (status < 0) return status;
     gather_released(sim, acceleration, part);
+    dmb_bounces_release(&mass, acceleration, part);
     dmb_solve_for(sim, acceleration, acceleration);
     return DMB_OK;
 }
@@ -153,6 +155,7 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
     memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
     if (status < 0) return status;
     gather_released(sim, acceleration, part);
+    dmb_bounces_release(evaluation, acceleration, part);
     for (uint32_t i = 0; i < n; i++) acceleration[i] -= product[i];
     dmb_solve_for(sim, acceleration, acceleration);
     for (uint32_t i = 0; i < n; i++) acceleration[i] += near[i];

@@ -7,6 +7,7 @@
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
@@ -158,6 +159,7 @@ int32_t dmb_system_restart(dmb_sim *sim)
     }
     if (sim->scene->cluster_count) dmb_note_projection(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    dmb_bounces_start(sim);
     sim->clock->step = 0.0;
     sim->clock->next_step = 0.0;
     if (sim->options.energy_ledger) dmb_ledger_start(sim, &evaluation);
@@ -180,6 +182,7 @@ int32_t dmb_system_jump(dmb_sim *sim)
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     dmb_contacts_take_slip(sim);
     dmb_contacts_take_touch(sim);
+    dmb_bounces_jump(sim);
     dmb_drives_take_forces(sim);
     dmb_clusters_take_multipliers(sim);
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);

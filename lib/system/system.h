@@ -39,6 +39,16 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
 int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, double *acceleration, double *part,
                             double *product);
 
+/* Stops and springs that touch or open (system/assemble/bounces). */
+
+/* After a successful trial: the accelerations that mean forces leave behind, for dmb_bounces_accept; *found: there are
+ * any. Residual as it was; iteration matrix and factors are overwritten where *found. Errors as
+ * dmb_factor_mass_in_step.
+ */
+int32_t dmb_bounces_end(const dmb_evaluation *evaluation, int32_t *found);
+/* The trial is accepted: its accelerations become those of the laws that are followed from here on; ages, counters. */
+void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found);
+
 /* Stuck places that let go, and the energy that is lost then. */
 
 /* The ledger takes the energy `before` [J] less that which is stored now for lost. */

@@ -639,7 +639,7 @@ static const entry entries[] = {
     ENTRY(parameter, 0),
     GROWN(contact, 120, 1),
     ENTRY(contact_total, 1),
-    ENTRY(energy, 1),
+    GROWN(energy, 128, 1),
     ENTRY(momentum, 1),
     GROWN(drive_state, 56, 1),
     GROWN(bit_state, 56, 1),

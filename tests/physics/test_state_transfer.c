@@ -214,7 +214,8 @@ static void check_ledger(const dmb_energy *a, const dmb_energy *b)
     const double open_b[3] = {b->balance, b->scheme, b->unexplained};
     check_below("works of the ledger [J]", largest_difference(7, x, y), 0.0);
     check_below("its balance [J]", largest_difference(3, open_a, open_b), 1e-12 * (stored + a->input) + 1e-15);
-    check_below("its error, times input [J]", fabs(a->error - b->error) * a->input, 1e-12 * (stored + a->input));
+    check_below("its error, times scale [J]", fabs(a->error * a->scale - b->error * b->scale),
+                1e-12 * (stored + a->input));
 }
 
 /* ---- Free flight ------------------------------------------------------------------------------------------------- */

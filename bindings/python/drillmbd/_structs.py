@@ -448,8 +448,10 @@ class Energy(Sized):
     balance: float
     unexplained: float
     error: float
+    scale: float
+    growth: float
     if TYPE_CHECKING:
-        def __init__(self, *, kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., gravity: SupportsFloat = ..., contact: SupportsFloat = ..., drives: SupportsFloat = ..., loads: SupportsFloat = ..., friction: SupportsFloat = ..., impact: SupportsFloat = ..., damping: SupportsFloat = ..., rock: SupportsFloat = ..., scheme: SupportsFloat = ..., input: SupportsFloat = ..., balance: SupportsFloat = ..., unexplained: SupportsFloat = ..., error: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., gravity: SupportsFloat = ..., contact: SupportsFloat = ..., drives: SupportsFloat = ..., loads: SupportsFloat = ..., friction: SupportsFloat = ..., impact: SupportsFloat = ..., damping: SupportsFloat = ..., rock: SupportsFloat = ..., scheme: SupportsFloat = ..., input: SupportsFloat = ..., balance: SupportsFloat = ..., unexplained: SupportsFloat = ..., error: SupportsFloat = ..., scale: SupportsFloat = ..., growth: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_int32),
@@ -468,6 +470,8 @@ class Energy(Sized):
         ("balance", c_double),
         ("unexplained", c_double),
         ("error", c_double),
+        ("scale", c_double),
+        ("growth", c_double),
     ]
     field_docs = {
         "kinetic": ("J", "now"),
@@ -481,10 +485,12 @@ class Energy(Sized):
         "damping": ("J", "dissipated by material and external damping and dampers of joints"),
         "rock": ("J", "spent at the bit"),
         "scheme": ("J", "taken out by the time integration: what its discrete inertia and potential forces did less what the energies changed"),
-        "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads, the scale of `error`"),
+        "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads"),
         "balance": ("J", "input and changes of energy that physics leaves open: scheme + unexplained"),
         "unexplained": ("J", "balance - scheme: from unconverged iterations only"),
-        "error": ("-", "|balance| / input, 0 while input is 0"),
+        "error": ("-", "|balance| / scale; 0 only if nothing is missing"),
+        "scale": ("J", "largest of the energies supplied (input), dissipated, exchanged with gravity, and present (at the start; now, without gravity)"),
+        "growth": ("-", "change of the balance over the last tenth of the time since the start, over scale"),
     }
 
 
@@ -651,8 +657,9 @@ class Statistics(Sized):
     dependent: int
     redundant: int
     violation: float
+    bounces: int
     if TYPE_CHECKING:
-        def __init__(self, *, most_iterations: int = ..., steps: int = ..., rejected: int = ..., iterations: int = ..., limited_steps: int = ..., bytes: int = ..., largest_residual: SupportsFloat = ..., projection: Iterable[float] = ..., assembly: Iterable[float] = ..., switches: int = ..., dependent: int = ..., redundant: int = ..., violation: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, most_iterations: int = ..., steps: int = ..., rejected: int = ..., iterations: int = ..., limited_steps: int = ..., bytes: int = ..., largest_residual: SupportsFloat = ..., projection: Iterable[float] = ..., assembly: Iterable[float] = ..., switches: int = ..., dependent: int = ..., redundant: int = ..., violation: SupportsFloat = ..., bounces: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("most_iterations", c_uint32),
@@ -668,6 +675,7 @@ class Statistics(Sized):
         ("dependent", c_uint32),
         ("redundant", c_uint32),
         ("violation", c_double),
+        ("bounces", c_uint64),
     ]
     field_docs = {
         "most_iterations": ("-", "of an accepted step"),
@@ -683,6 +691,7 @@ class Statistics(Sized):
         "dependent": ("-", "coordinates that constraints determine now"),
         "redundant": ("-", "equations that are dropped now"),
         "violation": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
+        "bounces": ("-", "contacts with the wall, stops of joints and springs that opened within fewer than ten steps after they closed: steps do not resolve them, and their speeds after it are uncertain. Lasting contacts are not counted."),
     }
 
 

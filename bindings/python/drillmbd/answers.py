@@ -86,6 +86,17 @@ class Output:
         return status
 
 
+def note_bounces(sim: Any, output: Output) -> None:
+    """One note for a run in which contacts opened before ten steps had passed."""
+    bounces = sim.statistics().bounces
+    output.summary["run"]["bounces"] = bounces
+    if bounces:
+        output.note_text(
+            f"run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
+            " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
+            " the step and compare")
+
+
 def finite(value: Any) -> Any:
     """The value as JSON has it: no NaN, no infinity."""
     if isinstance(value, float):

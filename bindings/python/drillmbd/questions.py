@@ -8,7 +8,8 @@ from typing import Any
 from . import _structs, enums, station
 from ._optional import need
 from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
-from .answers import RPM, Output, count_fatigue, file_name, friction_option, quantity, record, tell_fatigue
+from .answers import RPM, Output, count_fatigue, file_name, friction_option, note_bounces, \
+    quantity, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
 from .scene import Scene, words
@@ -164,8 +165,12 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
 
 def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any, stopped: bool) -> None:
     if sim.statistics().steps and scene.sim.get("energy_ledger", 1):
-        output.summary["energy_error"] = sim.energy().error
-        output.say(f"energy error {sim.energy().error:.1e} of the work put in")
+        energy = sim.energy()
+        output.summary["energy_error"] = energy.error
+        output.summary["energy_error_growth"] = energy.growth
+        output.say(f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present,"
+                   f" of which {energy.growth:.1e} in the last tenth of the run")
+    note_bounces(sim, output)
     if recorder is not None and len(recorder):
         table = recorder.table
         ranges = {name: [float(column.min()), float(column.max())]

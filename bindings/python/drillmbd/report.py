@@ -10,7 +10,7 @@ from typing import Any
 from . import __version__, _structs, enums
 from ._optional import need
 from .analysis import OPERATIONS, operation_name, usual_operation
-from .answers import RPM, Output, count_fatigue, finite, tell_fatigue
+from .answers import RPM, Output, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .operating import BIT_FRICTION, Operating, operating
@@ -325,6 +325,7 @@ class Study:
         except KeyboardInterrupt:
             self.output.note_text(f"the run was stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
         self.output.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
+        note_bounces(sim, self.output)
         if recorder is not None and len(recorder):
             table = recorder.table
             for number, name in enumerate(recorder.columns[1:]):

@@ -18,6 +18,13 @@ void dmb_gather_elements(dmb_evaluation *evaluation);
  * together, rotation across the axis by itself. */
 void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double factor, double *force);
 
+/* ---- Springs and joints ------------------------------------------------------------------------------------------ */
+
+/* Residual of a force alone, in the trial: tension [N] of a spring; force [N, N m] against coordinate `component` of
+ * joint j. */
+void dmb_spring_press(dmb_sim *sim, uint32_t spring, double tension);
+void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component, double force);
+
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 
 void dmb_gather_nodes(dmb_evaluation *evaluation);

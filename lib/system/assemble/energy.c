@@ -419,16 +419,51 @@ static void powers(const dmb_sim *sim, const dmb_evaluation *evaluation, double 
             power[DMB_POWER_DRIVES] += drive_power(sim, evaluation->step > 0.0 ? &sim->trial : &sim->now, i);
 }
 
+double dmb_energy_stored(const dmb_sim *sim, const dmb_configuration *c)
+{
+    return dmb_kinetic_energy(sim->scene, c) + dmb_strain_energy(sim->scene, c) + dmb_gravity_energy(sim->scene, c) +
+           dmb_contact_energy(sim->scene, c) + dmb_joint_energy(sim, c) + dmb_springs_energy(sim->scene, c) +
+           dmb_caller_forces_energy(sim->scene, c) + dmb_stuck_energy(sim, c);
+}
+
+double dmb_ledger_balance(const dmb_ledger *ledger, double stored)
+{
+    double sum = 0.0;
+    for (int k = DMB_POWER_LOADS; k < DMB_POWER_COUNT; k++) sum += ledger->work[k];
+    return sum - (stored - ledger->start);
+}
+
+/* Keeps the balance where the time since the start has grown by DMB_LEDGER_SPACING of it. */
+static void mark_balance(dmb_sim *sim, double time)
+{
+    dmb_ledger *ledger = sim->ledger;
+    double *mark = ledger->mark;
+    if (time - ledger->since < (1.0 + DMB_LEDGER_SPACING) * (mark[0] - ledger->since)) return;
+    memmove(mark + 2, mark, 2 * (DMB_LEDGER_MARKS - 1) * sizeof *mark);
+    mark[0] = time;
+    mark[1] = dmb_ledger_balance(ledger, dmb_energy_stored(sim, &sim->trial));
+}
+
+double dmb_ledger_balance_before(const dmb_ledger *ledger, double time)
+{
+    const double *mark = ledger->mark;
+    int k = 0;
+    while (k < DMB_LEDGER_MARKS - 1 && mark[2 * k] > time) k++;
+    if (mark[2 * k] > time) return mark[2 * k + 1];
+    if (k == 0) return mark[1];
+    const double part = (time - mark[2 * k]) / (mark[2 * k - 2] - mark[2 * k]);
+    return mark[2 * k + 1] + part * (mark[2 * k - 1] - mark[2 * k + 1]);
+}
+
 /* Energies at the start; from there on kinetic + stored = start + sum of works, but for the error of the scheme. */
 void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     memset(sim->ledger, 0, sizeof *sim->ledger);
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) sim->drive_work[i] = 0.0;
     powers(sim, evaluation, sim->clock->power);
-    sim->ledger->start = dmb_kinetic_energy(sim->scene, &sim->now) + dmb_strain_energy(sim->scene, &sim->now) +
-                         dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now) +
-                         dmb_joint_energy(sim, &sim->now) + dmb_springs_energy(sim->scene, &sim->now) +
-                         dmb_caller_forces_energy(sim->scene, &sim->now) + dmb_stuck_energy(sim, &sim->now);
+    sim->ledger->start = dmb_energy_stored(sim, &sim->now);
+    sim->ledger->since = sim->clock->time;
+    for (int k = 0; k < DMB_LEDGER_MARKS; k++) sim->ledger->mark[2 * k] = sim->clock->time;
 }
 
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
@@ -461,6 +496,13 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
         sim->ledger->input += first * fabs(before) + second * fabs(after);
     }
     memcpy(last, power, sizeof power);
+    mark_balance(sim, evaluation->time);
+}
+
+void dmb_ledger_move(dmb_sim *sim, int kind, double excess)
+{
+    sim->ledger->work[kind] -= excess;
+    sim->ledger->work[DMB_POWER_POTENTIAL] += excess;
 }
 
 /* Energy that changes at once (a joint closes): kinetic and stored energy that are lost are work of the impact. */

@@ -21,6 +21,7 @@ typedef struct dmb_evaluation {
     double mass_factor;     /* [1/s2] d v'/d pose parameters */
     double velocity_factor; /* [1/s] d v/d pose parameters */
     double pseudo_factor;   /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
+    double own_factor;      /* [-] of the mean force of a step at its end: 1/(gamma pseudo_factor); 0: by the laws */
     double load_factor;     /* [-] on gravity, loads and bit load (static load steps) */
     int32_t dynamic;        /* 0: no inertia, damping, nor rates: statics */
     int32_t tangent;        /* 1: fill stiffness_ and inertia_ blocks too */

@@ -10,6 +10,7 @@
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "math/vec3.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
@@ -185,19 +186,45 @@ static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *s
     if (!evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0) evaluation->rounding += k * k;
 }
 
+/* In a step of its own integration the law gives way to the mean force; the damper of a spring that acts both ways
+ * stays. Returns the power that goes into heat. */
+static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion *m)
+{
+    const dmb_scene_spring *spring = evaluation->sim->scene->springs + i;
+    const int both = spring->law.acts == DMB_SPRING_BOTH;
+    const double damper = both ? m->force.damper : 0.0, by_speed = both ? spring->law.damping : 0.0;
+    const dmb_bounce law = {m->length - spring->free_length, m->rate, m->force.elastic + m->force.damper - damper};
+    dmb_bounce_force own;
+    if (!dmb_bounce_at(evaluation, dmb_bounce_of_spring(evaluation->sim->scene, i), &law, &own))
+        return -m->force.damper * m->rate;
+    const dmb_spring_force force = {own.force, damper, own.by_place, by_speed};
+    m->force = force;
+    return own.heat - damper * m->rate;
+}
+
 static void gather_spring(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_spring *spring = sim->scene->springs + i;
     dmb_spring_motion m;
     dmb_spring_motion_of(sim->scene, &sim->trial, i, evaluation->dynamic, &m);
+    double heat = -m.force.damper * m.rate;
+    if (sim->scene->unilateral_count > 0) heat = take_own(evaluation, i, &m);
     const double tension = m.force.elastic + m.force.damper;
     pull(sim, &m.b, m.n, -tension);
     pull(sim, &m.a, m.n, tension);
     count_rounding(evaluation, spring, &m);
-    evaluation->power[DMB_POWER_POTENTIAL] -= m.force.elastic * m.rate;
-    evaluation->power[DMB_POWER_DAMPING] -= m.force.damper * m.rate;
+    evaluation->power[DMB_POWER_POTENTIAL] -= tension * m.rate + heat;
+    evaluation->power[DMB_POWER_DAMPING] += heat;
     if (evaluation->tangent) add_tangent(evaluation, spring, &m);
+}
+
+void dmb_spring_press(dmb_sim *sim, uint32_t spring, double tension)
+{
+    dmb_spring_motion m;
+    dmb_spring_motion_of(sim->scene, &sim->trial, spring, 0, &m);
+    pull(sim, &m.b, m.n, -tension);
+    pull(sim, &m.a, m.n, tension);
 }
 
 void dmb_gather_springs(dmb_evaluation *evaluation)
@@ -263,6 +290,23 @@ static int rounding_counts(const dmb_evaluation *evaluation)
     return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
 }
 
+/* The stop of coordinate i by the step's own integration. */
+static void take_own_stop(dmb_evaluation *evaluation, uint32_t u, const coordinate_forces *f, int i,
+                          dmb_joint_force *law)
+{
+    dmb_joint_law bare = evaluation->sim->scene->laws[u];
+    const dmb_bounce stop = {f->c.value[i], f->speed[i], -(law->stop + law->stop_damper)};
+    dmb_bounce_force own;
+    if (!dmb_bounce_at(evaluation, u, &stop, &own)) return;
+    bare.stop_stiffness = 0.0;
+    dmb_joint_force_at(&bare, f->c.value[i], f->speed[i], law);
+    law->stop = -own.force;
+    law->force -= own.force;
+    law->by_position -= own.by_place;
+    evaluation->power[DMB_POWER_POTENTIAL] -= own.heat;
+    evaluation->power[DMB_POWER_IMPACT] += own.heat;
+}
+
 /* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. */
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
@@ -270,6 +314,8 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         dmb_joint_force law;
         if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
         dmb_joint_force_at(evaluation->sim->scene->laws + joint->law + i, f->c.value[i], f->speed[i], &law);
+        if (evaluation->sim->scene->unilateral_count > 0)
+            take_own_stop(evaluation, joint->law + (uint32_t)i, f, i, &law);
         f->force[i] += law.force;
         f->by_position[i] += law.by_position;
         f->by_speed[i] += law.by_speed;
@@ -382,13 +428,30 @@ static void add_joint_tangent(dmb_evaluation *evaluation, uint32_t j, const coor
     if (evaluation->dynamic) add_speed_tangent(evaluation, constraint, j, f, K);
 }
 
+void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component, double force)
+{
+    coordinate_forces f;
+    begin(evaluation, j, &f);
+    f.force[component] = -force;
+    apply(evaluation, evaluation->sim->scene->joints + j, &f);
+}
+
+static void rest_stops(dmb_sim *sim, const dmb_scene_joint *joint)
+{
+    if (joint->law == DMB_NONE || sim->scene->unilateral_count == 0) return;
+    for (uint32_t i = 0; i < 6; i++) dmb_bounce_rest(sim, joint->law + i);
+}
+
 static void gather_forces(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const dmb_scene_joint *joint = scene->joints + j;
         coordinate_forces f;
-        if (evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) rest_drives(evaluation, j);
+        if (evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) {
+            rest_drives(evaluation, j);
+            rest_stops(evaluation->sim, joint);
+        }
         if (!has_forces(evaluation->sim, joint, j)) continue;
         begin(evaluation, j, &f);
         add_laws(evaluation, joint, &f);

@@ -1,0 +1,74 @@
+#include "force/unilateral.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "drillmbd/forces.h"
+
+/* [-] of the places, below which the mean over the way is the force in its middle. */
+#define DMB_UNILATERAL_NEAR 1e-9
+
+int dmb_stop_acts(const dmb_joint_law *law)
+{
+    return dmb_joint_stop_depth(law, 1e300) != 0.0 || dmb_joint_stop_depth(law, -1e300) != 0.0;
+}
+
+void dmb_stop_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end)
+{
+    const double d = dmb_joint_stop_depth(law, place), k = law->stop_stiffness;
+    memset(end, 0, sizeof *end);
+    end->place = place;
+    end->depth = d;
+    end->closed = d != 0.0;
+    if (!end->closed) return;
+    end->energy = 0.5 * k * d * d;
+    end->force = k * d;
+    end->slope = k;
+}
+
+int dmb_spring_can_open(const dmb_spring_law *law)
+{
+    return law->acts != DMB_SPRING_BOTH || law->count > 0;
+}
+
+/* One-sided springs end at slack; one that acts both ways is open where its table and stiffness are flat at 0. */
+void dmb_spring_end_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation,
+                       dmb_unilateral_end *end)
+{
+    dmb_spring_force f;
+    memset(end, 0, sizeof *end);
+    dmb_spring_force_at(law, points, elongation, 0.0, &f);
+    end->place = elongation;
+    end->energy = dmb_spring_energy_at(law, points, elongation);
+    end->closed = f.elastic != 0.0 || f.by_elongation != 0.0;
+    if (!end->closed) return;
+    if (law->acts != DMB_SPRING_BOTH) end->depth = elongation - law->slack;
+    end->force = f.elastic;
+    end->slope = f.by_elongation;
+}
+
+int dmb_unilateral_touches(const dmb_unilateral_end *a, const dmb_unilateral_end *b)
+{
+    return b->closed && (!a->closed || a->depth * b->depth < 0.0);
+}
+
+/* A law that stays on one side never pulls; that it would, its damper takes from what is stored. */
+static int pulls(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double force)
+{
+    if (a->depth >= 0.0 && b->depth >= 0.0) return a->depth + b->depth > 0.0 && force < 0.0;
+    return a->depth <= 0.0 && b->depth <= 0.0 && force > 0.0;
+}
+
+void dmb_unilateral_mean_of(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double damping, double step,
+                            dmb_unilateral_mean *mean)
+{
+    const double way = b->place - a->place, rise = b->energy - a->energy;
+    const double middle = 0.5 * (a->force + b->force);
+    const int near = !(fabs(way) > DMB_UNILATERAL_NEAR * (fabs(a->place) + fabs(b->place)));
+    const double elastic = near ? middle : rise / way;
+    mean->force = elastic + damping * (b->depth - a->depth) / step;
+    mean->by_place = near ? 0.5 * b->slope : (b->force - elastic) / way;
+    if (b->closed) mean->by_place += damping / step;
+    if (pulls(a, b, mean->force)) mean->force = mean->by_place = 0.0;
+    mean->dissipated = mean->force * way - rise;
+}
