@@ -195,13 +195,40 @@ static void values_in_other_units(void **state)
     rig_close(&s);
 }
 
+/* ---- Mass of bent elements --------------------------------------------------------------------------------------- */
+
+/* A pipe described straight that a load bends, and the same described bent. */
+static void bent_elements_are_told(void **state)
+{
+    (void)state;
+    for (int curved = 0; curved < 2; curved++) {
+        rig s;
+        dmb_pipe_def pipe = s1_pipe();
+        dmb_load_def load = dmb_load_def_default();
+        rig_open(&s, 0.0, 0.0, 0.0);
+        if (curved) pipe.curvature[1] = 0.01;
+        const dmb_id string = add_beam(&s, &pipe, 0);
+        load.place = dmb_station(string, 0, 1.0);
+        load.force[2] = 2e4;
+        (void)add_load(&s, &load);
+        (void)rig_start(&s, NULL);
+        assert_int_equal(warnings_of(&s), 0);
+        expect_line(&s, curved ? "mass: of 1 elements as they bend, of 0 as straight ones"
+                               : "mass: of 0 elements as they bend, of 1 as straight ones, bent by 0 rad at most");
+        (void)find_equilibrium(&s, NULL);
+        assert_int_equal(warnings_of(&s), curved ? 0 : 1);
+        if (!curved) expect_line(&s, "an element with the mass of a straight one is bent by");
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(joints_at_a_right_angle), cmocka_unit_test(rim_that_lies_flat),
         cmocka_unit_test(drive_of_a_locked_joint), cmocka_unit_test(locked_free_joint_holds),
         cmocka_unit_test(strings_past_the_start),  cmocka_unit_test(strings_on_the_axis_miss_no_wall),
-        cmocka_unit_test(values_in_other_units),
+        cmocka_unit_test(values_in_other_units),   cmocka_unit_test(bent_elements_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,15 @@ void dmb_model_check_close(dmb_model_check *findings);
 /* Parts on which gravity acts and no guide, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
 int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
 
+/* Elements of the state by their mass, bars on the hole's axis left out. */
+typedef struct dmb_bent_elements {
+    uint32_t following, constant; /* elements with the mass of bent ones, with that of straight ones */
+    uint32_t beyond;              /* of the latter, bent by more than DMB_CURVED_BEND */
+    uint32_t node;                /* the first one of the element with the constant mass that is bent most */
+    double bend, error;           /* [rad] of it, [-] bound of the error of its momentum */
+} dmb_bent_elements;
+dmb_bent_elements dmb_find_bent(const dmb_sim *sim);
+
 /* Calls `line` with each warning, without end of line. */
 typedef void (*dmb_model_check_line_fn)(void *context, const char *text);
 void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_line_fn line, void *context);

@@ -156,6 +156,20 @@ static void put_solver(sheet *s, const dmb_check_report *r)
     put(s, line.text);
 }
 
+/* Bound of the error where elements keep the mass of straight ones. */
+static void put_inertia(sheet *s, const dmb_model_check *findings)
+{
+    const dmb_bent_elements bent = dmb_find_bent(findings->sim);
+    dmb_message line;
+    if (bent.following + bent.constant == 0) return;
+    dmb_message_set(
+        &line,
+        "  mass: of %u elements as they bend, of %u as straight ones, bent by %g rad at most: momentum within "
+        "%g %%\n",
+        bent.following, bent.constant, bent.bend, 100.0 * bent.error);
+    put(s, line.text);
+}
+
 /* ---- Names and warnings ------------------------------------------------------------------------------------------ */
 
 static void put_redundant(sheet *s, const dmb_model_check *findings)
@@ -198,6 +212,7 @@ static void put_all(sheet *s, const dmb_model_check *findings)
     put_degrees_of_freedom(s, report);
     put_quality(s, report);
     put_solver(s, report);
+    put_inertia(s, findings);
     put_redundant(s, findings);
     put_warnings(s, findings);
 }

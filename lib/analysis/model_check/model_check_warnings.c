@@ -209,6 +209,19 @@ static void small_masses(const sink *to)
     }
 }
 
+/* The constant mass is that of straight elements. */
+static void bent_elements(const sink *to)
+{
+    const dmb_bent_elements bent = dmb_find_bent(to->sim);
+    dmb_message text, name, rest;
+    if (bent.beyond == 0) return;
+    dmb_message_set(&text,
+                    "%s%s: an element with the mass of a straight one is bent by %g rad, above 0.01 rad: its momentum "
+                    "and inertia are wrong by up to %g %%; divide the pipe into more elements",
+                    node_name(to->scene, bent.node, &name), more(bent.beyond, &rest), bent.bend, 100.0 * bent.error);
+    say(to, &text);
+}
+
 /* ---- Units --------------------------------------------------------------------------------------------------------*/
 
 static void odd_value(const sink *to, const char *part, const char *field, double value, const char *unit,
@@ -348,6 +361,7 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     idle_drives(&to);
     loose_parts(&to);
     small_masses(&to);
+    bent_elements(&to);
     odd_pipes(&to);
     if (!to.scene->has_hole) return;
     odd_hole(&to);
