@@ -28,6 +28,8 @@ EXAMPLES = """examples:
   drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
   drillmbd fmu rig.toml -o rig.fmu            a unit for co-simulation (FMI 3.0) with other programs
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
+  drillmbd new drainage --length "200 m" --dip "5 deg" --rod "73 mm" -o hole.toml   a commented scene to start from
+  drillmbd keys string.pipes                  keys with unit, default and meaning
   drillmbd schema > scene.schema.json         for editors that check TOML
 
 exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
@@ -114,7 +116,44 @@ def parser() -> argparse.ArgumentParser:
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
     commands.add_parser("schema", help="prints the JSON schema of scene files")
+    keys = commands.add_parser("keys", help="lists the keys of scene files with unit, default and meaning")
+    keys.add_argument("table", nargs="?", help="a table, as string.pipes; left out: the usual keys of all")
+    _add_new(commands)
     return found
+
+
+def _add_new(commands: Any) -> None:
+    from .scene.new import OPTIONS
+    text = "writes a commented scene from a few values"
+    made = commands.add_parser("new", help=text, description=text)
+    made.add_argument("kind", choices=list(OPTIONS))
+    made.add_argument("--output", "-o", metavar="FILE", help="the scene file, which must not exist yet; left out: the terminal")
+    for name, (_, _, about) in OPTIONS["drainage"].items():
+        defaults = ", ".join(f"{values[name][1]} ({kind})" for kind, values in OPTIONS.items())
+        made.add_argument(f"--{name.replace('_', '-')}", metavar="VALUE", help=f"{about}; default {defaults}")
+
+
+def _new(options: Any) -> int:
+    from .scene import new
+    try:
+        text = new.text(options.kind, {name: getattr(options, name) for name in new.OPTIONS[options.kind] if getattr(options, name)})
+    except ValueError as error:
+        raise Usage(str(error)) from None
+    if options.output is None:
+        print(text, end="")
+    else:
+        with open(options.output, "x", encoding="utf-8") as file:
+            file.write(text)
+    return 0
+
+
+def _keys(table: str | None) -> int:
+    from .scene import keys
+    try:
+        print(keys.text(table), end="")
+    except ValueError as error:
+        raise Usage(str(error)) from None
+    return 0
 
 
 def _add_fmu(commands: Any) -> None:
@@ -262,6 +301,10 @@ def _ask(options: Any) -> int:
         from .scene.schema import text
         print(text(), end="")
         return 0
+    if options.command == "keys":
+        return _keys(options.table)
+    if options.command == "new":
+        return _new(options)
     if options.command == "save":
         saved = scene.saves(scene.load(options.scene))
         if options.target == "-":

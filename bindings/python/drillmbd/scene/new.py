@@ -1,0 +1,123 @@
+"""A commented scene from a few values, as `drillmbd new` writes it: a drainage hole or a well."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from . import units
+
+#: Options of the kinds: unit, default, meaning. The defaults are a plausible start, to be replaced by one's own values.
+OPTIONS: dict[str, dict[str, tuple[str, str, str]]] = {
+    "drainage": {"length": ("m", "200 m", "length of the hole"), "dip": ("rad", "5 deg", "of the hole, from the horizontal, up positive"),
+                 "hole": ("m", "94 mm", "diameter of the hole"), "rod": ("m", "73 mm", "outer diameter of the rods"),
+                 "bore": ("m", "59 mm", "inner diameter of the rods"), "rod_length": ("m", "1.5 m", "length of a rod"),
+                 "bit_load": ("N", "8 kN", "load of the bit"), "speed": ("rad/s", "120 rpm", "rotary speed"), "feed": ("m/s", "10 mm/s", "rate of feed"),
+                 "mud": ("kg/m3", "1000 kg/m3", "density of the flush")},
+    "well": {"length": ("m", "1000 m", "length of the hole"), "dip": ("rad", "-90 deg", "of the hole, from the horizontal, up positive"),
+             "hole": ("m", "8.5 in", "diameter of the hole"), "rod": ("m", "5 in", "outer diameter of the pipes"),
+             "bore": ("m", "4.276 in", "inner diameter of the pipes"), "rod_length": ("m", "9.5 m", "length of a pipe"),
+             "bit_load": ("N", "50 kN", "weight on bit"), "speed": ("rad/s", "90 rpm", "rotary speed"), "feed": ("m/s", "5 mm/s", "rate of penetration"),
+             "mud": ("kg/m3", "1200 kg/m3", "density of the mud")}}
+
+_SCENE = """# {title}. Written by: drillmbd new {kind}
+# Check it with: drillmbd check FILE. Keys with unit, default and meaning: drillmbd keys
+title = "{title}"
+
+[environment]
+fluid_density = "{mud}"
+
+[hole]
+diameter = "{hole}"
+# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"
+# (dip from the horizontal, up positive; or inclination from the downward vertical; azimuth clockwise from north).
+dip = "{dip}"
+azimuth = "0 deg"
+mu_static = 0.35               # friction against the wall, an assumption: fit it to measured loads
+mu_dynamic = 0.30
+
+[[programme]]
+name = "feed"
+term = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{feed}"}}
+
+[[programme]]
+name = "rotation"
+term = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{speed}"}}
+
+[[programme]]
+name = "bit load"
+term = {{table = [["0 s", "0 N"], ["2 s", "0 N"], ["4 s", "{bit_load}"]]}}
+
+[[string]]
+name = "rods"
+
+[[string.pipes]]
+count = {count}
+length = "{rod_length}"
+outer_diameter = "{rod}"
+inner_diameter = "{bore}"
+eccentricity = "0.5 mm"        # an assumption: without it rotation excites no lateral vibration
+angle_spread = "180 deg"
+damping_time = "0.1 ms"        # material damping, an assumption
+# Tool joints: joint_length, joint_outer_diameter, joint_inner_diameter
+
+[[bit]]
+name = "bit"
+load = "bit load"
+mass = "10 kg"
+diameter = "{hole}"
+
+[[drive]]
+name = "feed drive"
+component = "x"
+programme = "feed"
+
+[[drive]]
+name = "rotation drive"
+component = "rx"
+programme = "rotation"
+
+# [limits]                     # of your rig and pipes, so that commands compare with them
+# torque = "4 kN m"
+# push = "100 kN"
+# pull = "100 kN"
+# yield_stress = "550 MPa"
+
+[run]
+end = "8 s"
+step = "2 ms"
+static = true
+
+[output]
+interval = "20 ms"
+"""
+
+
+def text(kind: str, given: dict[str, str]) -> str:
+    """The scene. given: values with units, in place of the defaults. Raises ValueError that names the option."""
+    values: dict[str, Any] = {}
+    numbers: dict[str, float] = {}
+    for name, (unit, default, about) in OPTIONS[kind].items():
+        values[name] = given.get(name) or default
+        try:
+            numbers[name] = units.parse(_with_unit(values[name], name), unit)
+        except units.UnitError as error:
+            raise ValueError(f"--{name.replace('_', '-')} {values[name]}: {error}") from error
+        values[name] = _with_unit(values[name], name).replace('"', " in").strip()
+    if numbers["rod"] >= numbers["hole"] or numbers["bore"] >= numbers["rod"]:
+        raise ValueError(f"--rod {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
+    count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
+    if not 1 <= count <= 2 ** 20:
+        raise ValueError(f"--length {values['length']} must be at least one --rod-length, {values['rod_length']}")
+    title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
+    return _SCENE.format(title=title, kind=kind, count=count, **values)
+
+
+def _with_unit(value: str, name: str) -> str:
+    """"--length 200 --dip 5 --rod 73" is in metres, degrees and millimetres, as mines speak."""
+    usual = {"length": "m", "rod_length": "m", "dip": "deg", "hole": "mm", "rod": "mm", "bore": "mm", "bit_load": "kN", "speed": "rpm", "feed": "mm/s",
+             "mud": "kg/m3"}
+    try:
+        float(value)
+    except ValueError:
+        return value
+    return f"{value} {usual[name]}"
