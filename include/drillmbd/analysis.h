@@ -131,7 +131,10 @@ enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
     DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable */
     DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
-    DMB_BUCKLING_STABLE = 3        /* none: det K keeps its sign up to `reached` */
+    DMB_BUCKLING_STABLE = 3,       /* none: det K keeps its sign up to `reached` */
+    DMB_BUCKLING_DIP = 4           /* no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less
+                                      than half its largest value before (`dip`): the equilibria bend off into the
+                                      buckled shape, as those of an imperfect string do */
 };
 /* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are
  * found at the points of the way, a twentieth of the lowest factor apart at most. */
@@ -144,8 +147,10 @@ enum {
 typedef struct dmb_buckling_info {
     uint32_t struct_size;
     uint32_t count;     /* [-] factors */
-    uint32_t confirmed; /* [-] of them, the lowest: the first stood up on the path of equilibria, others are the same or
-                           have not changed from one linearisation to the other; the rest are extrapolations */
+    uint32_t confirmed; /* [-] of them, the lowest: half the step length along the equilibria ends at the same first
+                           factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one
+                           linearisation to the other; the rest are extrapolations. The mesh is not halved: compare
+                           with one of twice the elements */
     uint32_t linearisations; /* [-] of states on the way, the present one included */
     uint32_t points;         /* [-] equilibria found on the way */
     int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
@@ -158,6 +163,10 @@ typedef struct dmb_buckling_info {
     double flutter_factor; /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
     double
         flutter_root[2]; /* [1/s] its root there, real and imaginary part, the latter 0 without swinging, shape (2) */
+    double dip;          /* [-] depth of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before;
+                            1 of a perfect string; 0: the end is another one */
+    double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of
+                                all strings, for comparison with the closed form; NaN without a hole or a factor */
 } dmb_buckling_info;
 DMB_SIZED_STRUCT(dmb_buckling_info)
 /* Critical factors and shapes; destroyed by the caller, one thread at a time. */
@@ -173,7 +182,9 @@ typedef struct dmb_buckling dmb_buckling;
  * A linearisation is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria
  * are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness
  * passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and
- * further factors are linearised just before. dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED
+ * further factors are linearised just before; or where the lowest eigenvalue of a symmetric stiffness has a deep
+ * minimum (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half the
+ * length, up to two times, until two runs end alike. dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED
  * where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says how far the
  * equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
  * Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there is no such

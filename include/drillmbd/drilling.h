@@ -59,7 +59,8 @@ typedef struct dmb_torque_drag_row {
     double transfer;     /* [-] share of a little more push at the rig that arrives at the bit; 1 without friction */
     double lowest_force; /* [N] least effective axial force; most compressed where < 0 */
     double lowest_at;    /* [m] measured depth where */
-    double sinusoidal_share; /* [-] largest share of the load of sinusoidal buckling, as of a profile */
+    double sinusoidal_share; /* [-] largest share of the load of sinusoidal buckling, as of a profile; NaN where a
+                                compressed part is not pressed to the wall */
     double helical_share;    /* [-] likewise of helical buckling */
     double buckled_at;       /* [m] measured depth where that is */
     double helix_length;     /* [m] of string above the load of helical buckling */

@@ -291,7 +291,8 @@ enum {
                                             inner_density or flow_rate the largest of both surfaces, hoop stress too */
     DMB_PROFILE_YIELD_SHARE = 18,        /* [-] of `yield_strength`; NaN where the pipe has none */
     DMB_PROFILE_SINUSOIDAL_SHARE = 19,   /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without
-                                            a hole */
+                                            a hole, and in compression where neither weight nor curvature presses the
+                                            pipe to the wall */
     DMB_PROFILE_HELICAL_SHARE = 20,      /* [-] likewise of helical buckling */
     DMB_PROFILE_VELOCITY_AXIAL = 21,     /* [m/s] along the pipe's axis */
     DMB_PROFILE_VELOCITY_LATERAL = 22,   /* [m/s] across, magnitude */

@@ -262,13 +262,15 @@ double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force
     return force;
 }
 
-/* `on_wall` of EI w_c/r under the root, `upright` times the length scale of a heavy vertical column. */
+/* Compression over the buckling load, NaN where nothing presses the pipe to the wall: `on_wall` of EI w_c/r under the
+ * root, `upright` times the length scale of a heavy vertical column. */
 static double share(const dmb_confined_pipe *pipe, double axial_force, double on_wall, double upright)
 {
     const double along = dmb_vec3_dot(pipe->weight, pipe->tangent);
     const double held = sqrt(on_wall * pipe->EI * dmb_confined_wall_force(pipe, axial_force, NULL) / pipe->clearance);
     const double limit = fmax(held, upright * cbrt(pipe->EI * along * along));
-    return axial_force < 0.0 ? -axial_force / limit : 0.0;
+    if (!(axial_force < 0.0)) return 0.0;
+    return limit > 0.0 ? -axial_force / limit : (double)NAN;
 }
 
 double dmb_sinusoidal_share(const dmb_confined_pipe *pipe, double axial_force)

@@ -916,8 +916,10 @@ class BucklingInfo(Sized):
     reached: float
     flutter_factor: float
     flutter_root: 'Array[c_double]'
+    dip: float
+    sinusoidal_share: float
     if TYPE_CHECKING:
-        def __init__(self, *, count: int = ..., confirmed: int = ..., linearisations: int = ..., points: int = ..., stiffness: int = ..., end: int = ..., flutter: int = ..., estimate: SupportsFloat = ..., linearised_at: SupportsFloat = ..., reached: SupportsFloat = ..., flutter_factor: SupportsFloat = ..., flutter_root: Iterable[float] = ...) -> None: ...
+        def __init__(self, *, count: int = ..., confirmed: int = ..., linearisations: int = ..., points: int = ..., stiffness: int = ..., end: int = ..., flutter: int = ..., estimate: SupportsFloat = ..., linearised_at: SupportsFloat = ..., reached: SupportsFloat = ..., flutter_factor: SupportsFloat = ..., flutter_root: Iterable[float] = ..., dip: SupportsFloat = ..., sinusoidal_share: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -932,10 +934,12 @@ class BucklingInfo(Sized):
         ("reached", c_double),
         ("flutter_factor", c_double),
         ("flutter_root", c_double * 2),
+        ("dip", c_double),
+        ("sinusoidal_share", c_double),
     ]
     field_docs = {
         "count": ("-", "factors"),
-        "confirmed": ("-", "of them, the lowest: the first stood up on the path of equilibria, others are the same or have not changed from one linearisation to the other; the rest are extrapolations"),
+        "confirmed": ("-", "of them, the lowest: half the step length along the equilibria ends at the same first factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one linearisation to the other; the rest are extrapolations. The mesh is not halved: compare with one of twice the elements"),
         "linearisations": ("-", "of states on the way, the present one included"),
         "points": ("-", "equilibria found on the way"),
         "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; what flutters does so before (`flutter`)"),
@@ -946,6 +950,8 @@ class BucklingInfo(Sized):
         "reached": ("unit of the factor", "last equilibrium on the way before the end"),
         "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
         "flutter_root": ("1/s", "its root there, real and imaginary part, the latter 0 without swinging, shape (2)"),
+        "dip": ("-", "depth of BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before; 1 of a perfect string; 0: the end is another one"),
+        "sinusoidal_share": ("-", "at the lowest factor that was followed to: largest PROFILE_SINUSOIDAL_SHARE of all strings, for comparison with the closed form; NaN without a hole or a factor"),
     }
 
 
@@ -1404,7 +1410,7 @@ class TorqueDragRow(Sized):
         "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
         "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
         "lowest_at": ("m", "measured depth where"),
-        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile"),
+        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile; NaN where a compressed part is not pressed to the wall"),
         "helical_share": ("-", "likewise of helical buckling"),
         "buckled_at": ("m", "measured depth where that is"),
         "helix_length": ("m", "of string above the load of helical buckling"),

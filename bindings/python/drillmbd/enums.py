@@ -449,7 +449,7 @@ class ProfileQuantity(IntEnum):
     FRICTION_AROUND: [N/m] likewise along axis x outward normal
     VON_MISES: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
     YIELD_SHARE: [-] of `yield_strength`; NaN where the pipe has none
-    SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole
+    SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in compression where neither weight nor curvature presses the pipe to the wall
     HELICAL_SHARE: [-] likewise of helical buckling
     VELOCITY_AXIAL: [m/s] along the pipe's axis
     VELOCITY_LATERAL: [m/s] across, magnitude
@@ -675,17 +675,20 @@ class BucklingEnd(IntEnum):
     BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable
     LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
     STABLE: none: det K keeps its sign up to `reached`
+    DIP: no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do
     """
     EXTRAPOLATED = 0
     BIFURCATION = 1
     LIMIT = 2
     STABLE = 3
+    DIP = 4
 
 
 BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
 BUCKLING_BIFURCATION = BucklingEnd.BIFURCATION
 BUCKLING_LIMIT = BucklingEnd.LIMIT
 BUCKLING_STABLE = BucklingEnd.STABLE
+BUCKLING_DIP = BucklingEnd.DIP
 
 
 class Flutter(IntEnum):

@@ -91,7 +91,7 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
 /* ---- Factors and shapes ------------------------------------------------------------------------------------------ */
 
 /* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
-static void normalise(const dmb_scene *scene, double *x)
+void dmb_buckling_normalise(const dmb_scene *scene, double *x)
 {
     double most[2] = {0.0, 0.0};
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -113,7 +113,7 @@ static void store_shape(dmb_buckling *buckling, uint32_t k)
 {
     const size_t rows = buckling->work->scene->row_count, unknowns = buckling->pencil.unknowns;
     dmb_buckling_expand(buckling, buckling->vector + k * unknowns, buckling->shape + k * rows);
-    normalise(buckling->work->scene, buckling->shape + k * rows);
+    dmb_buckling_normalise(buckling->work->scene, buckling->shape + k * rows);
 }
 
 /* distance: of the factor from the state that is linearised. */
@@ -254,6 +254,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     pattern.base = made->pattern.base;
     made->pattern = pattern;
     (void)dmb_buckling_info_init(&made->info, (uint32_t)sizeof made->info);
+    made->info.sinusoidal_share = (double)NAN;
     status = dmb_progress_end(sim, find_factors(made, sim, &taken));
     made->work->progress = &made->work->own_progress; /* it may outlive the sim */
     if (status < 0)

@@ -253,6 +253,34 @@ int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *op
 /* Status of the whole, with a message in sim, where a mode grows on the way (DMB_NOTE_FLUTTER) or that was not judged
  * (DMB_NOTE_INCOMPLETE); else `status`. `why`: of modes that could not be found. */
 int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status);
+/* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
+void dmb_buckling_normalise(const dmb_scene *scene, double *x);
+
+/* Lowest eigenvalue of the stiffness along a path (buckling_dip.c). */
+typedef struct dmb_dip_point {
+    double arc;    /* [m] of the path */
+    double value;  /* [N/m] lowest eigenvalue of K x = mu E x (dmb_stability_softest) */
+    double factor; /* [unit of the factor] */
+} dmb_dip_point;
+
+typedef struct dmb_dip {
+    dmb_dip_point before, last; /* the last two points of the path */
+    double most;                /* [N/m] largest value so far */
+    double depth;               /* [-] of a minimum that was found */
+    double *shape;              /* (rows) of the value found last */
+    uint32_t points;            /* that were looked at */
+    int32_t off;                /* 1: not looked for any more */
+} dmb_dip;
+
+/* Looks at the next point of the path, at `arc` from the last one, with its stiffness factored: 1 if a deep minimum
+ * lies near the last point; next is then that minimum, with its shape in dip->shape. 0: none, next is as it was. Errors
+ * of dmb_path_correct. */
+int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc);
+/* The present point of a path that begins. */
+int32_t dmb_dip_begin(dmb_dip *dip, dmb_path *path);
+/* Largest share of the load of sinusoidal buckling of all strings of the state, as of a profile; NaN: none. */
+double dmb_dip_sinusoidal_share(dmb_sim *at);
+
 /* Along the equilibria from the present state to the first factor at which they lose their stability, and the factors
  * once more from there. Status as of dmb_analysis_buckling. */
 int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options);

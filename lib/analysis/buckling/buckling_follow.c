@@ -37,7 +37,24 @@ typedef struct follower {
     double estimate; /* [unit of the factor] where stability is expected to end, by the last linearisation */
     double target;   /* [unit of the factor] where it is linearised again */
     double arc;
+    dmb_dip dip;
+    dmb_vector steps;         /* arc_step of this run */
+    const dmb_vector *longer; /* of a run whose steps are halved; NULL: none */
 } follower;
+
+/* A step along the path. */
+typedef struct arc_step {
+    double end, length; /* [m] of arc */
+} arc_step;
+
+/* [m] Longest step from the last point: half of that of the run before. */
+static double longest_step(const follower *f)
+{
+    if (f->longer == NULL || f->longer->count == 0) return (double)INFINITY;
+    size_t k = 0;
+    while (k + 1 < f->longer->count && DMB_VECTOR_AT(arc_step, f->longer, k)->end <= f->path.last.arc) k++;
+    return 0.5 * DMB_VECTOR_AT(arc_step, f->longer, k)->length;
+}
 
 static int32_t open_path(follower *f)
 {
@@ -151,6 +168,23 @@ static int32_t end_at_event(follower *f, int32_t event)
     return b->count < f->options->count ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
+/* At a deep minimum of the lowest eigenvalue, which is the next point. */
+static int32_t end_at_dip(follower *f)
+{
+    dmb_buckling *b = f->buckling;
+    const double factor = f->path.next.factor;
+    const int32_t status = dmb_path_accept(&f->path);
+    if (status < 0) return say_lost(f, status);
+    dmb_state_take(f->path.work, b->work);
+    b->at = b->factor[0] = factor;
+    b->count = b->info.confirmed = 1;
+    b->info.end = DMB_BUCKLING_DIP;
+    b->info.dip = f->dip.depth;
+    memcpy(b->shape, f->dip.shape, b->work->scene->row_count * sizeof(double));
+    dmb_buckling_normalise(b->work->scene, b->shape);
+    return f->options->count > 1 ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
 /* ---- The way ----------------------------------------------------------------------------------------------------- */
 
 static void choose_target(follower *f, int careful)
@@ -163,6 +197,7 @@ static void choose_target(follower *f, int careful)
 static void limit_arc(follower *f)
 {
     const dmb_path_place *last = &f->path.last;
+    f->arc = fmin(f->arc, longest_step(f));
     if (last->stiffness == DMB_STIFFNESS_UNSYMMETRIC && dmb_flutter_goes_on(&f->flutter))
         f->arc = fmin(f->arc, DMB_FOLLOW_FLUTTER * f->estimate / fabs(last->rate));
 }
@@ -247,6 +282,12 @@ static int32_t step(follower *f)
     if (status < 0) return say_lost(f, status);
     if (ends(path, event)) return end_at_event(f, event);
     if (path->next.negative < 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
+    const arc_step taken = {path->next.arc, path->next.arc - path->last.arc};
+    status = dmb_vector_append(&f->steps, &f->sim->allocator, &taken, 1);
+    if (status >= 0 && path->next.stiffness == DMB_STIFFNESS_SYMMETRIC)
+        status = dmb_dip_look(&f->dip, path, taken.length);
+    if (status < 0) return say_lost(f, status);
+    if (status > 0) return end_at_dip(f);
     status = dmb_path_accept(path);
     if (status < 0) return say_lost(f, status);
     if (event == DMB_EVENT_FACTOR) return say_stable(f);
@@ -259,6 +300,9 @@ static int32_t walk(follower *f)
     if (status < 0) return status;
     status = dmb_flutter_begin(&f->flutter, &f->path);
     if (status < 0) return status;
+    f->dip.shape = f->path.iterate;
+    if (f->path.last.stiffness == DMB_STIFFNESS_SYMMETRIC) status = dmb_dip_begin(&f->dip, &f->path);
+    if (status < 0) return say_lost(f, status);
     choose_target(f, 0);
     f->arc = DMB_FOLLOW_FIRST * f->target / fabs(f->path.last.rate);
     limit_arc(f);
@@ -290,6 +334,102 @@ int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, co
     return DMB_NOTE_INCOMPLETE;
 }
 
+/* ---- Runs with steps of half the length -------------------------------------------------------------------------- */
+
+#define DMB_FOLLOW_RUNS 3
+#define DMB_FOLLOW_DIP_AGREES 1e-3
+
+/* End of a run. */
+typedef struct outcome {
+    int32_t status, end;
+    double factor;
+} outcome;
+
+static void begin_run(follower *f, const dmb_vector *longer, int first)
+{
+    dmb_buckling *b = f->buckling;
+    const dmb_flutter flutter = f->flutter;
+    dmb_sim *sim = f->sim;
+    const dmb_buckling_options *options = f->options;
+    memset(f, 0, sizeof *f);
+    f->buckling = b;
+    f->sim = sim;
+    f->options = options;
+    f->longer = longer;
+    f->steps = dmb_vector_of(sizeof(arc_step));
+    f->estimate = isfinite(b->first[0]) ? b->first[0] : options->factor_max;
+    f->flutter.pattern = &f->path.pattern;
+    f->flutter.info = &b->info;
+    if (first) return;
+    f->flutter = flutter;
+    f->flutter.off = 1; /* judged by the first run */
+    b->at = 0.0;
+    b->info.linearisations = 1;
+    b->info.points = 0;
+    b->info.confirmed = 0;
+}
+
+/* The path from the present state to its end; the steps are kept. */
+static outcome run(follower *f, const dmb_vector *longer, int first)
+{
+    outcome out;
+    begin_run(f, longer, first);
+    out.status = walk(f);
+    f->buckling->info.reached = f->path.last.factor;
+    if (first) dmb_flutter_conclude(&f->flutter);
+    out.end = f->buckling->info.end;
+    out.factor = f->buckling->count > 0 ? f->buckling->factor[0] : f->path.last.factor;
+    dmb_path_close(&f->path);
+    return out;
+}
+
+static int agree(const outcome *a, const outcome *b)
+{
+    if (a->end != b->end || (a->status < 0) != (b->status < 0)) return 0;
+    if (a->end == DMB_BUCKLING_STABLE) return 1;
+    return same(a->factor, b->factor, a->end == DMB_BUCKLING_DIP ? DMB_FOLLOW_DIP_AGREES : DMB_FOLLOW_AGREES);
+}
+
+static void say_not_confirmed(follower *f, const outcome *coarse, const outcome *fine)
+{
+    dmb_message_set(&f->sim->message,
+                    "buckling: the first factor is not confirmed: steps of half the length along the equilibria end at "
+                    "factor = %g, the others at %g; contacts open and close on the way, use more elements or a softer "
+                    "wall",
+                    fine->factor, coarse->factor);
+}
+
+/* Runs until two in a row end alike; the last one that came to an end is the answer, its first factor that of the run
+ * before where they agree: longer steps add less of Newton's tolerance up. */
+static int32_t run_and_confirm(follower *f)
+{
+    dmb_vector longer = dmb_vector_of(sizeof(arc_step));
+    outcome coarse = run(f, NULL, 1), fine = coarse;
+    const int found = coarse.status >= 0 && f->buckling->info.flutter != DMB_FLUTTER_FOUND;
+    int agreed = !found;
+    for (int k = 1; k < DMB_FOLLOW_RUNS && !agreed && !dmb_is_final(fine.status); k++) {
+        dmb_vector_release(&longer, &f->sim->allocator);
+        longer = f->steps;
+        coarse = fine;
+        fine = run(f, &longer, 0);
+        agreed = agree(&coarse, &fine);
+    }
+    if (!agreed && fine.status < 0 && !dmb_is_final(fine.status)) {
+        const outcome lost = fine;
+        dmb_vector_release(&f->steps, &f->sim->allocator);
+        fine = run(f, NULL, 0);
+        coarse = lost;
+    }
+    dmb_vector_release(&longer, &f->sim->allocator);
+    dmb_vector_release(&f->steps, &f->sim->allocator);
+    if (fine.status < 0) return fine.status;
+    if (agreed && f->buckling->count > 0) f->buckling->factor[0] = coarse.factor;
+    if (agreed) return fine.status;
+    f->buckling->info.confirmed = 0;
+    say_not_confirmed(f, &coarse, &fine);
+    return fine.status;
+}
+
 int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     follower f;
@@ -297,18 +437,13 @@ int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buck
     f.buckling = buckling;
     f.sim = sim;
     f.options = options;
-    f.estimate = buckling->count > 0 ? buckling->factor[0] : options->factor_max;
-    f.flutter.pattern = &f.path.pattern;
-    f.flutter.info = &buckling->info;
-    int32_t status = walk(&f);
-    buckling->info.reached = f.path.last.factor;
-    dmb_flutter_conclude(&f.flutter);
+    int32_t status = run_and_confirm(&f);
     if (status == DMB_ERR_NO_CONVERGENCE && buckling->info.flutter == DMB_FLUTTER_FOUND) {
         buckling->count = 0;
         buckling->info.end = DMB_BUCKLING_STABLE;
         status = DMB_NOTE_STOPPED;
     }
-    dmb_path_close(&f.path);
+    if (status >= 0 && buckling->count > 0) buckling->info.sinusoidal_share = dmb_dip_sinusoidal_share(buckling->work);
     dmb_flutter_close(&f.flutter);
     return status < 0 ? status : dmb_buckling_tell_flutter(buckling, sim, &f.flutter.message, status);
 }

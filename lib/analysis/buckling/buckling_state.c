@@ -7,6 +7,7 @@
 #include "analysis/static/static.h"
 #include "math/dense.h"
 #include "math/so3.h"
+#include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
@@ -315,6 +316,17 @@ static void make_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
     if (work->scene->cluster_count) dmb_make_reduced_symmetric(work, A->jointed);
 }
 
+/* A state moved by the difference that cannot be evaluated. */
+static int32_t explain_difference(dmb_sim *sim, double step, int32_t status)
+{
+    if (dmb_is_final(status) || sim->message.text[0] != '\0') return status;
+    dmb_message_set(&sim->message,
+                    "buckling: the stiffness cannot be evaluated at a distance of step = %g from the state: %s; choose "
+                    "a smaller step, or 0 for the default",
+                    step, dmb_status_text(status));
+    return status;
+}
+
 static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, double step)
 {
     dmb_pencil *pencil = &buckling->pencil;
@@ -414,7 +426,10 @@ int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_b
     clear(buckling->pencil.scene, &buckling->pencil.G);
     status = stiffness_now(buckling, sim, &search);
     if (status >= 0) status = respond(buckling, sim, &search);
-    if (status >= 0) status = differences(buckling, &search, difference_of(buckling, options->step));
+    if (status >= 0) {
+        const double step = difference_of(buckling, options->step);
+        status = explain_difference(sim, step, differences(buckling, &search, step));
+    }
     if (status >= 0) status = stable(buckling, sim, &search);
     return status < 0 ? status : keep_reduction(buckling, &search);
 }

@@ -209,6 +209,30 @@ static uint32_t coordinates_of(const dmb_sim *sim)
     return count - rank;
 }
 
+/* y = E x, E the displacements across the axis alone: twist and stretch of a long string are softer than it is across,
+ * and do not change with its load. */
+static void across(void *context, const double *x, double *y)
+{
+    const dmb_sim *sim = context;
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) y[row + c] = size == DMB_NODE_FULL && (c == 1 || c == 2) ? x[row + c] : 0.0;
+    }
+}
+
+static uint32_t coordinates_across(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint8_t *solved = scene->solved_row + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) count += (uint32_t)((solved[1] != 0) + (solved[2] != 0));
+    }
+    const uint32_t all = coordinates_of(sim);
+    return count < all ? count : all;
+}
+
 /* Values sought for the softest one: those beside it are close where a string lies in its hole. */
 #define DMB_SOFTEST_WANTED 8
 #define DMB_SOFTEST_TOLERANCE 1e-7
@@ -218,18 +242,19 @@ int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape)
     dmb_krylov found;
     const dmb_operator inverse = {.context = sim,
                                   .length = sim->scene->row_count,
-                                  .dimension = coordinates_of(sim),
+                                  .dimension = coordinates_across(sim),
                                   .symmetric = 1,
                                   .partly = 1,
-                                  .metric = metric,
+                                  .metric = across,
                                   .apply = apply,
                                   .draw = draw,
                                   .go_on = go_on};
     const uint32_t wanted = inverse.dimension < DMB_SOFTEST_WANTED ? (uint32_t)inverse.dimension : DMB_SOFTEST_WANTED;
-    const int32_t status = dmb_krylov_largest(&inverse, wanted, 2, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
+    if (wanted == 0) return DMB_ERR_NO_CONVERGENCE;
+    const int32_t status = dmb_krylov_largest(&inverse, wanted, 1, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
     if (status < 0) return status;
-    *value = 1.0 / found.re[0];
-    memcpy(shape, found.x, sim->scene->row_count * sizeof(double));
+    *value = found.count > 0 ? 1.0 / found.re[0] : (double)NAN;
+    if (found.count > 0) memcpy(shape, found.x, sim->scene->row_count * sizeof(double));
     dmb_krylov_release(&found);
     return DMB_OK;
 }

@@ -139,7 +139,7 @@ static double friction_at(const march *m, double depth)
 static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N, double *by_force)
 {
     double wall = dmb_confined_wall_force(pipe, N, by_force);
-    if (m->soft->post_buckling && N < 0.0 && dmb_helical_share(pipe, N) > 1.0) {
+    if (m->soft->post_buckling && N < 0.0 && !(dmb_helical_share(pipe, N) <= 1.0)) {
         wall += pipe->clearance * N * N / (4.0 * pipe->EI);
         *by_force += pipe->clearance * N / (2.0 * pipe->EI);
     }

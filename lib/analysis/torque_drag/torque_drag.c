@@ -183,8 +183,9 @@ static void visit_row(void *context, const dmb_soft_place *place)
     }
     take_largest(place->helical, place->depth, &row->helical_share, &row->buckled_at);
     take_largest(place->sinusoidal, place->depth, &row->sinusoidal_share, NULL);
+    if (isnan(place->helical)) row->helical_share = row->sinusoidal_share = (double)NAN;
     if (!isnan(row->yield_share)) take_largest(yield_share(place), place->depth, &row->yield_share, &row->yield_at);
-    if (place->helical > 1.0) row->helix_length += place->step;
+    if (!(place->helical <= 1.0)) row->helix_length += place->step;
     row->hook_load = N;
     row->torque = place->state[DMB_SOFT_TORQUE];
     row->transfer = 1.0 / place->state[DMB_SOFT_GROWTH];
