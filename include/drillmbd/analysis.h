@@ -163,8 +163,8 @@ typedef struct dmb_buckling_info {
     double flutter_factor; /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
     double
         flutter_root[2]; /* [1/s] its root there, real and imaginary part, the latter 0 without swinging, shape (2) */
-    double dip;          /* [-] depth of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before;
-                            1 of a perfect string; 0: the end is another one */
+    double dip; /* [-] depth of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before;
+                   1 of a perfect string; 0: the end is another one */
     double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of
                                 all strings, for comparison with the closed form; NaN without a hole or a factor */
 } dmb_buckling_info;
@@ -183,18 +183,18 @@ typedef struct dmb_buckling dmb_buckling;
  * are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness
  * passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and
  * further factors are linearised just before; or where the lowest eigenvalue of a symmetric stiffness has a deep
- * minimum (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half the
- * length, up to two times, until two runs end alike. dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED
- * where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says how far the
- * equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
- * Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there is no such
- * factor, up to a factor_max below 1e12 or to where the equilibria could be followed. DMB_NOTE_INCOMPLETE where that
- * could not be judged though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not
- * stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the equilibria could
- * not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that slides or turns by its
- * drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL
- * then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of elements); memory: the sim's
- * twice more and 3 matrices, from its allocator.
+ * minimum (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half
+ * the length, up to two times, until two runs end alike. dmb_buckling_get_info tells. The sim is not changed.
+ * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message
+ * says how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not
+ * confirmed. Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there
+ * is no such factor, up to a factor_max below 1e12 or to where the equilibria could be followed. DMB_NOTE_INCOMPLETE
+ * where that could not be judged though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
+ * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE
+ * (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that
+ * slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK,
+ * _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of
+ * elements); memory: the sim's twice more and 3 matrices, from its allocator.
  */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
