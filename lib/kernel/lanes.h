@@ -180,6 +180,15 @@ DMB_LANES_CALL int32_t beams_as_asked(dmb_beam_job *job)
     return beams_of(job, &task);
 }
 
+#if DMB_REAL_LANES == 8
+extern const dmb_kernels dmb_kernels_4;
+
+/* In halves: at the full width blocks of curved elements would take more stack than the library states. Same bits. */
+static int32_t beams_curved(dmb_beam_job *job)
+{
+    return dmb_kernels_4.beams(job);
+}
+#else
 DMB_LANES_CALL int32_t beams_curved(dmb_beam_job *job)
 {
     const dmb_beam_task task = {job->mass_factor,  job->velocity_factor,
@@ -190,6 +199,7 @@ DMB_LANES_CALL int32_t beams_curved(dmb_beam_job *job)
                                 job->gravity};
     return beams_of(job, &task);
 }
+#endif
 
 static int32_t beams(dmb_beam_job *job)
 {
