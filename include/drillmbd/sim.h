@@ -69,14 +69,19 @@ typedef struct dmb_sim_options {
     void *parallel_context;
     uint32_t parallel_parts; /* [-] most parts at once, 1 .. 64; the equations of a chain have two; default 2 */
     uint32_t parallel_least; /* [-] elements of a scene from which on `parallel` is called; default 1000 */
+    double assembly_energy;  /* [J] most that dmb_sim_create may store in flexible pipes to close joints, >= 0; default
+                                1e-3, the rounding of described places. More is DMB_ERR_GEOMETRY */
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
 
 /* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
- * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why):
- * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The
+ * velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints,
+ * rigid bodies are moved by any distance, then strings as rigid bodies within what their guides leave free, and only
+ * then pipes are strained (assembly_energy). Errors (dmb_model_message says why):
+ * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be
+ * closed, or only by more than assembly_energy); *sim is NULL then. The
  * sim holds the model until it is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */

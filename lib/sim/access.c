@@ -145,6 +145,7 @@ static void check_step_control(dmb_check *check, const dmb_sim_options *o)
     dmb_check_above(check, "step_min", o->step_min, 0.0);
     dmb_check_above_field(check, "step_max", o->step_max, "step_min", o->step_min);
     dmb_check_count(check, "max_cuts", o->max_cuts, 0, 30);
+    dmb_check_at_least(check, "assembly_energy", o->assembly_energy, 0.0);
 }
 
 int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message)
@@ -183,6 +184,7 @@ DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .constraint_method = DMB_METHOD_INDEPENDENT,
     .parallel_parts = 2,
     .parallel_least = 1000,
+    .assembly_energy = 1e-3,
 })
 
 DMB_DEFINE_INIT(dmb_step_report, 48, {.steps = 0})

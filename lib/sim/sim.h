@@ -24,7 +24,8 @@
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
-       by system/constrain/cluster_projection; at the start and at jumps by system/start, system/jump: */             \
+       by system/constrain/cluster_projection, system/constrain/cluster_assembly; at the start and at jumps by         \
+       system/start, system/jump: */                                                                                   \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
@@ -82,7 +83,8 @@
                                      powers: system/assemble/energy */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
-                                              system/constrain/cluster_projection, system/constrain/cluster */                \
+                                              system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
+                                              system/constrain/cluster */                                              \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
     X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself:                   \
                                          system/assemble/bounces */                                                  \
@@ -114,9 +116,9 @@
                                                      system/assemble/stuck */                                         \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
                                               system/constrain/joint_motion */                                        \
-    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_projection */        \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */        \
     X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
-                                           system/constrain/cluster_projection */                                             \
+                                           system/constrain/cluster_assembly */                                             \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
@@ -142,7 +144,8 @@
 /* clang-format off */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
-                               system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
+                               system/constrain/cluster_projection, at the start system/constrain/cluster_assembly,    \
+                               prescribed system/assemble/drives; of statics                                           \
                                analysis/static/static_move */                                                         \
     X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of    \
                                                     each piece: system/assemble/evaluation */                         \

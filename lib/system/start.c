@@ -1,6 +1,7 @@
 /* The state at time 0, and accelerations that fit a given pose and speed. */
 #include "system/system.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "math/so3.h"
@@ -189,12 +190,30 @@ int32_t dmb_system_jump(dmb_sim *sim)
     return DMB_OK;
 }
 
+/* Joints close without a strain of elements that rounding does not explain, unless the caller allows it. */
+static int32_t close_joints(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const double before = dmb_strain_energy(scene, &sim->now), allowed = sim->options.assembly_energy;
+    const int32_t status = dmb_assemble(sim);
+    if (status < 0) return status;
+    const double *moved = sim->counters->assembly, stored = dmb_strain_energy(scene, &sim->now) - before;
+    const uint32_t element = dmb_most_strained(scene, &sim->now);
+    if (!(stored > allowed) || element == DMB_NONE) return status;
+    dmb_message_set(
+        &sim->message,
+        "%s: closing joints strains it and others by %g J, must be <= %g J (assembly_energy), and moves parts "
+        "by %g m and %g rad; describe what joints hold at one place, or free to move",
+        dmb_owner_of_element(scene, element).text.text, stored, allowed, moved[0], moved[1]);
+    return DMB_ERR_GEOMETRY;
+}
+
 int32_t dmb_system_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     described_pose(sim);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
-    int32_t status = scene->cluster_count ? dmb_assemble(sim) : DMB_OK;
+    int32_t status = scene->cluster_count ? close_joints(sim) : DMB_OK;
     if (status >= 0 && scene->cluster_count) dmb_contacts_follow_assembly(sim);
     for (uint32_t i = 0; i < scene->stuck_count; i++) dmb_stuck_start(sim, i);
     if (status >= 0) status = dmb_system_restart(sim);

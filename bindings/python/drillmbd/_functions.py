@@ -453,7 +453,7 @@ FUNCTION_DOCS = {
     "dmb_sim_advance_to_event":
         "As dmb_sim_advance, but ends at the first event on the way: NOTE_EVENT, dmb_sim_message names those told. One that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to call. Costs a copy of the state a step and some six steps a crossing. Reports may be NULL. ERR_VALUE without events.",
     "dmb_sim_create":
-        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
+        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints, rigid bodies are moved by any distance, then strings as rigid bodies within what their guides leave free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
     "dmb_sim_destroy":

@@ -2962,8 +2962,9 @@ class SimOptions(Sized):
     parallel_context: Any
     parallel_parts: int
     parallel_least: int
+    assembly_energy: float
     if TYPE_CHECKING:
-        def __init__(self, *, max_iterations: int = ..., allocator: Any = ..., log: Any = ..., log_context: Any = ..., spectral_radius: SupportsFloat = ..., newton_tolerance: SupportsFloat = ..., tolerance_translation: SupportsFloat = ..., tolerance_rotation: SupportsFloat = ..., step_min: SupportsFloat = ..., step_max: SupportsFloat = ..., max_cuts: int = ..., bounded_work: int = ..., energy_ledger: int = ..., max_steps: int = ..., constraint_method: int = ..., parallel: Any = ..., parallel_context: Any = ..., parallel_parts: int = ..., parallel_least: int = ...) -> None: ...
+        def __init__(self, *, max_iterations: int = ..., allocator: Any = ..., log: Any = ..., log_context: Any = ..., spectral_radius: SupportsFloat = ..., newton_tolerance: SupportsFloat = ..., tolerance_translation: SupportsFloat = ..., tolerance_rotation: SupportsFloat = ..., step_min: SupportsFloat = ..., step_max: SupportsFloat = ..., max_cuts: int = ..., bounded_work: int = ..., energy_ledger: int = ..., max_steps: int = ..., constraint_method: int = ..., parallel: Any = ..., parallel_context: Any = ..., parallel_parts: int = ..., parallel_least: int = ..., assembly_energy: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("max_iterations", c_uint32),
@@ -2986,6 +2987,7 @@ class SimOptions(Sized):
         ("parallel_context", c_void_p),
         ("parallel_parts", c_uint32),
         ("parallel_least", c_uint32),
+        ("assembly_energy", c_double),
     ]
     field_docs = {
         "max_iterations": ("-", "Newton iterations of one step, 1 .. 1000; default 12"),
@@ -3007,6 +3009,7 @@ class SimOptions(Sized):
         "parallel_context": ("", ""),
         "parallel_parts": ("-", "most parts at once, 1 .. 64; the equations of a chain have two; default 2"),
         "parallel_least": ("-", "elements of a scene from which on `parallel` is called; default 1000"),
+        "assembly_energy": ("J", "most that dmb_sim_create may store in flexible pipes to close joints, >= 0; default 1e-3, the rounding of described places. More is ERR_GEOMETRY"),
     }
 
 

@@ -197,17 +197,34 @@ void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *co
     dmb_beam_strain_rate(&shape, va, vb, rate);
 }
 
-/* e^T K e / (2 L) */
+/* Adds e^T K e / (2 L) to sum. */
+static double add_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t e, double sum)
+{
+    const dmb_element_type *type = type_of(scene, e);
+    double x[6];
+    dmb_element_strain(scene, configuration, e, x);
+    for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * x[i] * x[i];
+    return sum + 0.5 * dmb_beam_cross_energy(type, x);
+}
+
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
-    double sum = 0.0, x[6];
-    for (uint32_t e = 0; e < scene->element_count; e++) {
-        const dmb_element_type *type = type_of(scene, e);
-        dmb_element_strain(scene, configuration, e, x);
-        for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * x[i] * x[i];
-        sum += 0.5 * dmb_beam_cross_energy(type, x);
-    }
+    double sum = 0.0;
+    for (uint32_t e = 0; e < scene->element_count; e++) sum = add_strain_energy(scene, configuration, e, sum);
     return sum;
+}
+
+uint32_t dmb_most_strained(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double most = 0.0;
+    uint32_t element = DMB_NONE;
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const double here = add_strain_energy(scene, configuration, e, 0.0);
+        if (!(here > most)) continue;
+        most = here;
+        element = e;
+    }
+    return element;
 }
 
 /* Where the centre of a bent element's weight is off the point that its nodes' weight acts at, world, and at time 0. */

@@ -12,6 +12,8 @@ double dmb_added_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
                                      const dmb_added_mass *added);
 double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Element with the largest strain energy; DMB_NONE: there is none. */
+uint32_t dmb_most_strained(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Potential of the weights less that of the pose at time 0 as described. */
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Stored in the wall's normal stiffness. Energy stored in bristles counts as spent by friction until it comes back. */

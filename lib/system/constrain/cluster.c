@@ -96,7 +96,7 @@ int32_t dmb_clusters_factor(dmb_sim *sim)
 #define DMB_BODY_METRIC 10.0
 
 /* Metres for translations, metres at the length of its chain for rotations; 0 for rows that are not solved. */
-static void set_weights(dmb_sim *sim)
+void dmb_clusters_weigh(dmb_sim *sim, int bodies_only)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -109,6 +109,7 @@ static void set_weights(dmb_sim *sim)
         for (uint32_t c = 0; c < size; c++) {
             weight[c] = 2 * c < size ? 1.0 : 1.0 / length;
             if (!scene->solved_row[scene->layout.row[i] + c]) weight[c] = 0.0;
+            if (bodies_only && chain->count > 1) weight[c] = 0.0;
             metric[c] = 2 * c < size || chain->count > 1 ? weight[c] : weight[c] * (DMB_BODY_EXTENT / DMB_BODY_METRIC);
         }
     }
@@ -212,7 +213,7 @@ static void set_lengths(dmb_sim *sim)
 void dmb_clusters_prepare(dmb_sim *sim)
 {
     if (sim->scene->cluster_count == 0) return;
-    set_weights(sim);
+    dmb_clusters_weigh(sim, 0);
     set_lengths(sim);
     sim->reduced_mode->row = DMB_NONE;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) { /* no dependent column until one is chosen */

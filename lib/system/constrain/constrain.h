@@ -142,6 +142,10 @@ int32_t dmb_clusters_gather(dmb_evaluation *evaluation);
 /* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_CORRECTION_MOST long.
  * DMB_NOTE_STOPPED: it no longer moves. Errors as dmb_clusters_settle. */
 int32_t dmb_clusters_correct(dmb_evaluation *evaluation);
+/* Weights of the columns of all clusters; bodies_only: 0 for nodes that elements connect. */
+void dmb_clusters_weigh(dmb_sim *sim, int bodies_only);
+/* Pose of a node of trial moved by x in its axes [m, rad]. */
+void dmb_trial_move_node(dmb_sim *sim, uint32_t node, const double *x);
 /* Chooses the partition of every cluster from the matrices at hand. */
 void dmb_clusters_choose(dmb_sim *sim);
 /* Chooses anew where the conditioning has fallen or rows are dropped; counts the changes. */
@@ -223,13 +227,14 @@ void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank);
 /* "joint 3 (crank): rotation about y": a constraint row by name. */
 void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text);
 
-/* ---- Assembly: cluster_projection.c ------------------------------------------------------------------------------ */
+/* ---- Assembly: cluster_assembly.c -------------------------------------------------------------------------------- */
 
-/* Putting a scene together: Gauss-Newton on all equations of position, shortest moves first (Wehage, Haug 1982). */
+/* Putting a scene together: shortest moves that satisfy all equations of position (Wehage, Haug 1982), of rigid bodies
+ * first, then of strings as rigid bodies, then of all nodes. */
 
 /* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
  * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the
- * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_projection */
+ * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_assembly */
 int32_t dmb_assemble(dmb_sim *sim);
 /* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
  * there too. DMB_ERR_GEOMETRY with a message. */
