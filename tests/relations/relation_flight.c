@@ -54,7 +54,7 @@ static void take_sections(const scene *s, const built *b, flight *out)
 static int32_t fly(const scene *s, uint32_t level, built *b, flight *out)
 {
     int32_t status = scene_open(s, 0, NULL, b);
-    if (status >= 0) status = run_steps(b, s->step / (double)(1U << level), STEPS << level, NULL);
+    if (status >= 0) status = run_steps(b, s->step / (double)(1U << level), (uint32_t)STEPS << level, NULL);
     if (status < 0) return status;
     out->time = dmb_sim_time(b->sim);
     out->momentum = dmb_momentum_default();

@@ -223,7 +223,7 @@ static void forces_are_those_of_lagrange(void **state)
  */
 static double smallest_pivot(const dmb_element_type *type, const double d[6])
 {
-    double M[12][12], least = INFINITY;
+    double M[12][12], least = (double)INFINITY;
     for (int k = 0; k < 12; k++) {
         double v[12] = {0.0};
         v[k] = k % 6 < 3 ? 1.0 : 1.0 / type->length;
@@ -241,7 +241,7 @@ static double smallest_pivot(const dmb_element_type *type, const double d[6])
 static void mass_is_positive_definite(void **state)
 {
     uint64_t seed = 4;
-    double least = INFINITY;
+    double least = (double)INFINITY;
     (void)state;
     for (int k = 0; k < 2000; k++) {
         dmb_element_type type;
