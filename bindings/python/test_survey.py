@@ -3,6 +3,7 @@ course of the hole against published positions: x north, y west, z up, azimuth c
 import importlib.util
 import math
 import pathlib
+import random
 import tempfile
 import unittest
 
@@ -70,6 +71,8 @@ REFUSED = (("depth [m],inclination [deg],azimuth [deg]\n0,0,0\n100,,\n200,10,45\
            (CSV.replace("200,10,45", "200,-999.25,45"), ("line 4, column 2 (inclination [deg]) = \"-999.25\"", "missing value")),
            (CSV.replace("200,10,45", "200,NaN,45"), ("line 4, column 2", "missing value")),
            (CSV.replace("200,10,45", "200,ten,45"), ("line 4, column 2", "\"ten\"", "no number")),
+           (CSV.replace("200,10,45", "200,10,1e999"), ("line 4, column 3", "finite")),
+           (CSV.replace("200,10,45", "200,10,1e9999999"), ("line 4, column 3", "finite")),
            (CSV.replace("200,10,45", "200,10,"), ("line 4", "azimuth is empty", "inclination 10 deg")),
            (CSV.replace("200,10,45", "50,10,45"), ("line 4", "50 m comes after 100 m (line 3)", "sort")),
            (CSV.replace("200,10,45", "100,10,45"), ("line 4", "100 m appears twice")),
@@ -138,6 +141,20 @@ class SurveyTest(unittest.TestCase):
             self.assertEqual(len({one.line for one in caught.exception.problems}), 1)
             for part in parts:
                 self.assertIn(part, str(caught.exception), text)
+
+    def test_damaged_files(self):
+        """Bytes that are changed, added or lost: a scene or a SceneError, nothing else."""
+        draw = random.Random(5)
+        texts = [text.encode("utf-8") for text in SAME.values()]
+        for number in range(200):
+            data = bytearray(draw.choice(texts))
+            for _ in range(draw.randint(1, 6)):
+                at = draw.randrange(len(data))
+                data[at:at + draw.randint(0, 12)] = draw.choice([b"", b'"', b"\0", b"1e999", b"nan", b"~A\n", b"\n\n", b",,,,", b"\xff", b"{", b";"])
+            try:
+                load(draw.choice(["s.csv", "s.las", "s.txt"]) if number % 40 else "s.xlsx", bytes(data))
+            except scene.SceneError:
+                pass
 
     def test_one_fault_each_line(self):
         with self.assertRaises(scene.SceneError) as caught:

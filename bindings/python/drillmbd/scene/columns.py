@@ -246,7 +246,8 @@ def _of_bearing(match: re.Match[str]) -> Decimal:
 
 def _cell_of(number: Decimal, one: _Place, rest: str) -> Cell:
     unit = rest or one.unit
-    return Cell(float(number * units.factor(unit, one.column.unit)), f"{number} {unit}", float(number))
+    value = units.scaled(number, units.factor(unit, one.column.unit))
+    return Cell(value, f"{number} {unit}", float(number))
 
 
 def _check_widths(places: list[_Place], rows: list[Row], found: Found) -> None:

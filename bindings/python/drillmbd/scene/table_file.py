@@ -100,7 +100,10 @@ def _by_blanks(line: str) -> bool:
 
 def _split(line: str, separator: str) -> list[str]:
     if separator:
-        return [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))]
+        try:
+            return [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True), [])]
+        except csv.Error as error:
+            raise TableError(f"has a line that is no row of a table ({error}): {line[:40]}") from error
     wide = re.split(r"\s{2,}", line.strip())
     return wide if len(wide) >= 3 else _with_units(line.split())
 
@@ -157,7 +160,13 @@ def _las(lines: list[str]) -> Table:
 # ---- Excel -----------------------------------------------------------------------------------------------------------
 def _excel(path: pathlib.Path) -> Table:
     """The sheet with most rows that have three cells or more."""
-    book = need("openpyxl").load_workbook(path, read_only=True, data_only=True)
+    excel = need("openpyxl")
+    try:
+        book = excel.load_workbook(path, read_only=True, data_only=True)
+    except OSError:
+        raise
+    except Exception as error:  # zipfile, XML and openpyxl raise many kinds
+        raise TableError(f"is no Excel file that can be read: {error}") from error
     tables = []
     for sheet in book.worksheets:
         table = Table(separator=";")

@@ -123,6 +123,9 @@ def meanings(text: str) -> tuple[tuple[bool, Unit, str], ...]:
     for combination in itertools.islice(itertools.product(*choices), 200):
         unit = NOTHING
         for (_, one, _), power in zip(combination, powers):
-            unit = unit.times(one, power)
+            try:
+                unit = unit.times(one, power)
+            except ArithmeticError as error:
+                raise UnknownUnit(text, "is not a known unit") from error
         found.append((all(own for own, _, _ in combination), unit, " ".join(key for _, _, key in combination)))
     return tuple(sorted(found, key=lambda one: not one[0]))

@@ -142,10 +142,18 @@ def _of_text(text: str, options: tuple[str, ...]) -> Reading:
         raise UnitError(f"is a diameter, must be {_wanted(options)}")
     assumed = f"is taken as {number} mm" if diameter and not unit else ""
     factor, about = _factor_of("mm" if assumed else unit, options)
-    found = float(number * factor)
+    return Reading(scaled(number, factor), assumed or about)
+
+
+def scaled(number: Decimal, by: Decimal) -> float:
+    """Their product, the double next to it. Raises UnitError where there is none."""
+    try:
+        found = float(number * by)
+    except ArithmeticError:
+        found = math.inf
     if not math.isfinite(found):
         raise UnitError("must be finite")
-    return Reading(found, assumed or about)
+    return found
 
 
 def _factor_of(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str]:
