@@ -155,11 +155,14 @@ typedef struct dmb_wall_def {
     int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
     double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7 */
     double exponent;          /* [-] n, 1 .. 3; default 1 */
-    double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4 */
+    double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4. EXACT returns this speed ratio,
+                                 HUNT_CROSSLEY 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
     double damping;           /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0 */
     double impact_depth;      /* [m] full damping from here on, of IMPACT; default 1e-4 */
-    double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01 */
-    double mu_static;         /* [-] >= mu_dynamic; default 0.35 */
+    double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01. Slower impacts return more than e: EXACT with
+                                 e = 0.4 returns 0.878 at 1 mm/s */
+    double mu_static;         /* [-] >= mu_dynamic; default 0.35. STRIBECK with the other defaults reaches 0.3237:
+                                 smoothing and decay overlap */
     double mu_dynamic;        /* [-] >= 0; default 0.30 */
     double stribeck_speed;    /* [m/s] > 0; default 1e-2 */
     double smoothing_speed;   /* [m/s] > 0; default 1e-3 */
