@@ -395,6 +395,44 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     return status;
 }
 
+/* The relaxation went downhill, but from a symmetric start it ends on a saddle, and next to a stiff compressed string
+ * what is left of the residual is rounding. It begins anew a little aside of an unstable state, which it then leaves;
+ * the unstable state is reported if it finds no other. */
+#define DMB_LEAVING_TRIES 3
+
+/* Of a stiffness that is not symmetric only the eigenvalues nearest 0 are counted: it is tried. */
+static int may_leave(const dmb_static_search *search, const dmb_static_report *out)
+{
+    if (search->steady != NULL || search->evaluation.slipping || out->method != DMB_STATIC_RELAXATION) return 0;
+    return out->negative > 0 || out->stiffness == DMB_STIFFNESS_UNSYMMETRIC;
+}
+
+static int32_t leave(dmb_static_search *search, uint32_t number, dmb_static_report *out)
+{
+    int32_t status = dmb_static_push_aside(search, number);
+    if (status >= 0) status = dmb_static_relaxation(search);
+    return status < 0 ? status : judge_stability(search, out);
+}
+
+static int32_t leave_unstable(dmb_static_search *search, dmb_static_report *out)
+{
+    const dmb_static_report found = *out;
+    int32_t status = DMB_OK;
+    search->caution = 1.0;
+    for (uint32_t k = 0; k < DMB_LEAVING_TRIES && status >= 0 && (k == 0 || out->negative > 0); k++) {
+        status = leave(search, k, out);
+        if (!may_try_again(status)) continue;
+        search->caution *= 3.0;
+        dmb_state_restore(search->sim);
+        *out = found;
+        const double caution = search->caution;
+        status = search_holding_spins(search, &out->method);
+        search->caution = caution;
+        if (status >= 0) status = judge_stability(search, out);
+    }
+    return status;
+}
+
 static int32_t find(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_sim *sim = search->sim;
@@ -406,9 +444,10 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
         dmb_state_restore(sim); /* the partition of joints may have changed on the way */
         return status;
     }
+    status = judge_stability(search, out);
+    if (status >= 0 && may_leave(search, out)) status = leave_unstable(search, out);
     tell(search, out);
-    status = refuse_torn(search);
-    if (status >= 0) status = judge_stability(search, out);
+    if (status >= 0) status = refuse_torn(search);
     if (status < 0) {
         dmb_state_restore(sim);
         return status;

@@ -228,6 +228,8 @@ int32_t dmb_static_correct(dmb_static_search *search);
 /* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes
  * 1998); slower and surer. */
 int32_t dmb_static_relaxation(dmb_static_search *search);
+/* Moves the trial aside by random displacements, the same for each number. */
+int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number);
 /* Strings that nothing holds along their hole go back to where their rig end was, if they rest there too. */
 int32_t dmb_static_take_back(dmb_static_search *search);
 

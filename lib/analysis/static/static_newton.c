@@ -265,6 +265,25 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     }
 }
 
+/* [-] length scales and [rad] that a state is pushed aside by */
+#define DMB_PUSH 1e-3
+
+int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_scene *scene = sim->scene;
+    uint64_t seed = UINT64_C(0x9E3779B97F4A7C15) * (number + 1);
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            const uint32_t row = scene->layout.row[i] + c;
+            seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+            const double random = (double)(seed >> 11) * 0x1p-52 - 1.0;
+            const double size = DMB_PUSH * (2 * c < scene->layout.size[i] ? scene->length_scale : 1.0);
+            sim->correction[row] = scene->solved_row[row] ? random * size : 0.0;
+        }
+    return dmb_static_move(search, sim->correction, 1.0);
+}
+
 /* ---- Along a straight hole ---------------------------------------------------------------------------------------
  * Nothing but pseudo mass holds a string there, and corrections far from equilibrium leave it a little way off: any
  * place along it is as good. It is put where its rig end was, where that is in equilibrium too. */
