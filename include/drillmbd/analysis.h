@@ -95,6 +95,7 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL.
  * A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis
  * sum to 0; else DMB_ERR_SINGULAR.
+ * Unstable equilibria that the search turned far to, or relaxed to, are left where a stable one is found beside.
  * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0);
  * DMB_NOTE_INCOMPLETE where the stability of an equilibrium at rest is not resolved (report->negative < 0; message
  * states the bound). Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION,

@@ -43,8 +43,32 @@ static void slack_strings_hang(void **state)
     hangs(60, 4, 2.0);
 }
 
+/* A body that may turn about x alone, its centre 1 m off the axis, from up to 160 degrees: it hangs. */
+static void guided_body_hangs(void **state)
+{
+    (void)state;
+    for (int degrees = -160; degrees <= 160; degrees++) {
+        rig s;
+        dmb_body_def body = dmb_body_def_default();
+        rig_open(&s, 0.0, 0.0, -9.81);
+        body.mass = 10.0, body.centre[2] = -1.0, body.free_mask = DMB_FREE_RX;
+        body.inertia[0] = body.inertia[1] = body.inertia[2] = 1.0;
+        body.rotation[0] = degrees * 3.141592653589793 / 180.0;
+        (void)add_body(&s, &body);
+        (void)rig_start(&s, NULL);
+        const dmb_static_report report = find_equilibrium(&s, NULL);
+        const dmb_momentum m = momentum_of(&s);
+        if (report.negative != 0 || !(fabs(m.centre[2] + 1.0) < 1e-9))
+            fail_msg("from %d degrees: %d negative, centre at %g", degrees, report.negative, m.centre[2]);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slack_strings_hang)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slack_strings_hang),
+        cmocka_unit_test(guided_body_hangs),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,7 +94,8 @@ static int may_try_again(int32_t status)
 
 /* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. Between walls
  * they are short enough. */
-#define DMB_CAUTION_MAX 10.0
+#define DMB_CAUTION_MAX 100.0
+#define DMB_CAUTION_ENOUGH 10.0 /* where neither joints limit the way nor elements bend too far */
 
 static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
 {
@@ -102,8 +103,9 @@ static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
     for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
         status = dmb_static_equal_steps(search, dmb_static_relaxation, steps);
         const int in_hole = search->sim->scene->site_count > 0;
+        const int enough = search->caution > DMB_CAUTION_ENOUGH && search->sim->scene->cluster_count == 0;
         const int too_far = status == DMB_ERR_ROTATION || status == DMB_ERR_GEOMETRY;
-        if (!too_far && (singular || search->loose || in_hole)) break;
+        if (!too_far && (singular || search->loose || in_hole || enough)) break;
     }
     return status;
 }
@@ -400,15 +402,30 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
  * the unstable state is reported if it finds no other. */
 #define DMB_LEAVING_TRIES 3
 
+/* Newton that turns a part this far from its start, to where it is unstable, has missed the equilibrium it was to find.
+ */
+#define DMB_TURNED_TOO_FAR 0.3 /* [rad] */
+
+static int has_turned(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = scene->layout.size[i] / 2; c < scene->layout.size[i]; c++)
+            if (fabs(sim->increment[scene->layout.row[i] + c]) > DMB_TURNED_TOO_FAR) return 1;
+    return 0;
+}
+
 /* Of a stiffness that is not symmetric only the eigenvalues nearest 0 are counted: it is tried. */
 static int may_leave(const dmb_static_search *search, const dmb_static_report *out)
 {
-    if (search->steady != NULL || search->evaluation.slipping || out->method != DMB_STATIC_RELAXATION) return 0;
+    if (search->steady != NULL || search->evaluation.slipping) return 0;
+    if (out->method != DMB_STATIC_RELAXATION) return out->negative > 0 && has_turned(search->sim);
     return out->negative > 0 || out->stiffness == DMB_STIFFNESS_UNSYMMETRIC;
 }
 
 static int32_t leave(dmb_static_search *search, uint32_t number, dmb_static_report *out)
 {
+    out->method = DMB_STATIC_RELAXATION;
     int32_t status = dmb_static_push_aside(search, number);
     if (status >= 0) status = dmb_static_relaxation(search);
     return status < 0 ? status : judge_stability(search, out);
