@@ -34,11 +34,11 @@ static void hangs(uint32_t pipes, uint32_t elements, double direction)
 static void slack_strings_hang(void **state)
 {
     (void)state;
-    const uint32_t pipes[] = {10, 24, 26, 40, 50, 60, 80, 100};
+    const uint32_t pipes[] = {10, 26, 50, 80};
     for (size_t i = 0; i < sizeof pipes / sizeof *pipes; i++)
         for (uint32_t elements = 1; elements <= 2; elements++) hangs(pipes[i], elements, 0.0);
     hangs(50, 1, 0.7);
-    hangs(60, 4, 0.0);
+    hangs(100, 1, 0.0);
     hangs(60, 2, 2.0);
     hangs(60, 4, 2.0);
 }
