@@ -205,7 +205,7 @@ class SurveyTest(unittest.TestCase):
 
 class WordsTest(unittest.TestCase):
     def test_the_scene_in_words(self):
-        text = SCENE % ("s.csv", "") + '[[bit]]\nload = "8 kN"\n[[drive]]\ncomponent = "rx"\nprogramme = "130 rpm"\n[run]\nend = "1 s"\nstep = "2 ms"\n'
+        text = SCENE % ("s.csv", "") + 'damping_time = 0\n[[bit]]\nload = "8 kN"\n[[drive]]\ncomponent = "rx"\nprogramme = "130 rpm"\n[run]\nend = "1 s"\nstep = "2 ms"\n'
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "s.csv").write_text("depth [m],dip [deg],azimuth [deg]\n0,5,350\n100,5,0\n200,4,10\n", encoding="utf-8")
             rig = scene.loads(text, folder=folder)
