@@ -94,7 +94,11 @@ int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc)
     }
     status = close_in(dip, path, dip->before.arc - dip->last.arc, arc, &least);
     if (status < 0 && dmb_is_final(status)) return status;
-    const int found = status >= 0 && least.value < DMB_DIP_DEEP * dip->most;
+    if (status < 0) { /* lost between contacts that open and close: the point itself */
+        least = dip->last;
+        least.arc = 0.0;
+    }
+    const int found = least.value < DMB_DIP_DEEP * dip->most;
     dip->depth = 1.0 - least.value / dip->most;
     status = probe(dip, path, found ? least.arc : arc, &least);
     if (!found) step_to(dip, next);

@@ -367,6 +367,7 @@ static void begin_run(follower *f, const dmb_vector *longer, int first)
     b->info.linearisations = 1;
     b->info.points = 0;
     b->info.confirmed = 0;
+    b->info.dip = 0.0;
 }
 
 /* The path from the present state to its end; the steps are kept. */
@@ -399,7 +400,7 @@ static void say_not_confirmed(follower *f, const outcome *coarse, const outcome 
                     fine->factor, coarse->factor);
 }
 
-/* Runs until two in a row end alike; the last one that came to an end is the answer, its first factor that of the run
+/* Runs until two in a row end alike; the last one that came to an end is the answer, a limit point that of the run
  * before where they agree: longer steps add less of Newton's tolerance up. */
 static int32_t run_and_confirm(follower *f)
 {
@@ -423,7 +424,7 @@ static int32_t run_and_confirm(follower *f)
     dmb_vector_release(&longer, &f->sim->allocator);
     dmb_vector_release(&f->steps, &f->sim->allocator);
     if (fine.status < 0) return fine.status;
-    if (agreed && f->buckling->count > 0) f->buckling->factor[0] = coarse.factor;
+    if (agreed && fine.end == DMB_BUCKLING_LIMIT) f->buckling->factor[0] = coarse.factor;
     if (agreed) return fine.status;
     f->buckling->info.confirmed = 0;
     say_not_confirmed(f, &coarse, &fine);
