@@ -96,6 +96,7 @@ static void check_refused(const rig *s, int32_t axes, const char *part)
     const modes_refusal got = refused_modes(s, &options);
     assert_int_equal(got.status, DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(got.text, part));
+    if (axes == DMB_MODES_AXES_AT_REST) assert_null(strstr(got.text, "choose axes"));
 }
 
 /* In the axes of the bodies what the carrier's tilt is for the rotor turns with it, and axes at rest are those about
@@ -220,7 +221,8 @@ static void rolling_is_refused(void **state)
         (void)add_joint(&s, &joint);
         (void)rig_start(&s, NULL);
         if (speed > 0.0) {
-            check_refused(&s, DMB_MODES_AXES_TURNING, "disc");
+            check_refused(&s, DMB_MODES_AXES_TURNING, "in axes that turn and in axes at rest: choose a state");
+            check_refused(&s, DMB_MODES_AXES_AT_REST, "in axes that turn and in axes at rest: choose a state");
         } else {
             dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
             assert_int_equal(info_of(modes).rigid, info_of(modes).count); /* at rest nothing holds it */

@@ -44,6 +44,7 @@ typedef struct dmb_linear {
     uint32_t largest_node;    /* where */
     int32_t balanced;         /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
     int32_t slides;           /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
+    int32_t still;            /* of the options: axes of d do not spin */
     uint32_t rows;            /* of the scene */
     double *stiffness_size;   /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
     uint32_t coordinates;     /* length of z */
@@ -51,6 +52,7 @@ typedef struct dmb_linear {
     uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
     uint32_t turning;      /* a constraint whose equations change as the state moves on; DMB_NONE: none */
+    int32_t rolls;         /* 1: they change in any axes, as of rolling */
     uint32_t turning_node; /* a node that turns on the wall in axes that turn with it; DMB_NONE: none */
     double load_factor;    /* [-] of gravity, loads and bit loads */
     double *spin, *rest;   /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */

@@ -124,6 +124,7 @@ int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, d
     if (status < 0) return status;
     *linear = dmb_linear_allocate(sim);
     if (*linear == NULL) return DMB_ERR_NO_MEMORY;
+    (*linear)->still = options->still;
     status = linearise(*linear, options);
     if (status >= 0) status = dmb_linear_find_turning(*linear, sim);
     if (status < 0) dmb_linear_release(linear);

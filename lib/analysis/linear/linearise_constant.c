@@ -126,11 +126,14 @@ static int rolls(const dmb_linear *linear, const dmb_sim *copy, const dmb_constr
     return motion > DMB_LINEAR_BALANCED * rate;
 }
 
-static uint32_t find_turning(const dmb_linear *linear, const dmb_sim *copy, double rate, double *z, double *d)
+static uint32_t find_turning(dmb_linear *linear, const dmb_sim *copy, double rate, double *z, double *d)
 {
     uint64_t seed = 1;
     for (uint32_t i = 0; i < linear->scene.constraint_count; i++)
-        if (rolls(linear, copy, linear->scene.constraints + i, rate)) return i;
+        if (rolls(linear, copy, linear->scene.constraints + i, rate)) {
+            linear->rolls = 1;
+            return i;
+        }
     for (int k = 0; k < DMB_JOINTS_DRAWS; k++) {
         draw(linear, &seed, z, d);
         turn_back(linear, DMB_JOINTS_ANGLE / rate, d);
@@ -185,17 +188,20 @@ static int tell_change(const dmb_linear *linear, const char *who, const char *th
     } else if (linear->turning != DMB_NONE) {
         dmb_message owner;
         dmb_constraint_text(&linear->scene, linear->turning, &owner);
-        dmb_message_set(message,
-                        "%s: %s: its parts move against each other, so that its equations change in axes that turn "
-                        "with them: %s",
-                        who, owner.text, then);
+        const char *const axes = linear->rolls   ? "axes that turn and in axes at rest"
+                                 : linear->still ? "axes at rest"
+                                                 : "axes that turn with them";
+        dmb_message_set(message, "%s: %s: its parts move against each other, so that its equations change in %s: %s",
+                        who, owner.text, axes, then);
     }
     return linear->turning_node != DMB_NONE || linear->turning != DMB_NONE;
 }
 
 int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
 {
-    const char *const then = "take DMB_MODES_AXES_AT_REST, or a state that does not turn";
+    const char *const then = linear->still || linear->rolls
+                                 ? "choose a state in which they do not move, or a run in time"
+                                 : "choose axes at rest, or a state that does not turn";
     return tell_change(linear, who, then, message) ? DMB_ERR_UNSUPPORTED : DMB_OK;
 }
 
