@@ -25,7 +25,7 @@
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
        by system/constrain/cluster_projection, system/constrain/cluster_assembly; at the start and at jumps by         \
-       system/start, system/jump: */                                                                                   \
+       system/start, system/jump, system/bounce_end: */                                                                                   \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
@@ -79,16 +79,16 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK) /* times and step lengths: integrator/attempt, integrator/step, system/start;       \
+    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/attempt, integrator/step, system/start;       \
                                      powers: system/assemble/energy */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                                \
-    X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
+    X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/attempt, integrator/step, system/start,      \
                                               system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
                                               system/constrain/cluster */                                              \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
-    X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself:                   \
+    X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself: system/bounce_end, \
                                          system/assemble/bounces */                                                  \
-    X(double, site_age, s, NUMBERS)   /* [-] steps since the ring touched, 0: open: system/assemble/bounces */        \
+    X(double, site_age, s, NUMBERS)   /* [-] steps since touch: system/bounce_end, system/assemble/bounces */           \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                         \
@@ -150,7 +150,7 @@
     X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of    \
                                                     each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
-    /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
+    /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint system/constrain/cluster, \
        system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
     X(double, residual, r)              /* [N, N m] of the trial */                                                   \
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
@@ -163,13 +163,13 @@
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/jump */   \
-    X(uint8_t, bounce_mode, u)          /* DMB_BOUNCE_..., of the step: system/assemble/bounces */                    \
-    X(double, bounce_own, u)            /* [N, N m] force of the step's own integration, likewise */                  \
-    X(double, bounce_warmth, u)         /* [W] into its damper, likewise */                                           \
-    X(uint8_t, bounce_stays, u)         /* 1: the next step integrates it by itself too, likewise */                  \
-    X(double, bounce_taken, ur)         /* [m/s2, rad/s2] M^-1 of those forces, likewise */                            \
-    X(double, bounce_given, ur)         /* [m/s2, rad/s2] M^-1 of the forces of laws in their place, likewise */      \
-    X(double, bounce_rows, ur)          /* [N, N m] residual that waits, likewise */                                  \
+    X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/follow */                       \
+    X(double, bounce_own, u) /* [N, N m] force of the step's own integration: system/assemble/bounces */              \
+    X(double, bounce_warmth, u) /* [W] into its damper: system/assemble/bounces */                                    \
+    X(uint8_t, bounce_stays, u) /* 1: the next step does so too: system/bounce_end */                                 \
+    X(double, bounce_taken, ur) /* [m/s2, rad/s2] M^-1 of those forces: system/bounce_end */                          \
+    X(double, bounce_given, ur) /* [m/s2, rad/s2] M^-1 of the laws' forces: system/bounce_end */                      \
+    X(double, bounce_rows, ur) /* [N, N m] residual: system/bounce_end, system/assemble/bounces */                    \
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/jump */             \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
