@@ -188,6 +188,49 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
         self.assertIn("arrives", out)
 
+    def test_torque_drag_table_and_broomstick(self):
+        """Level hole: closed forms of wall force, stretch, torque and hook loads; all fields by depth; chosen depths and frictions."""
+        self.scene = self.write("rig.toml", SCENE.replace("eccentricity", 'yield_strength = "400 MPa"\neccentricity', 1))
+        out, summary = self.answer("torque-drag", "--depths", "4 m,8 m", "--frictions", "0.5,0.2", "--block-weight", "3 kN",
+                                   "--weight-on-bit", "1 kN")
+        area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
+        weight = 9.81 * 7850 * area
+        table = summary["torque_drag_by_depth"]["main"]["pick-up"]
+        self.assertEqual(table["depth_m"], [4.0, 8.0])
+        for depth, load, wall, stretch in zip(*(table[key] for key in ("depth_m", "hook_load_N", "wall_force_N", "stretch_m"))):
+            self.assertAlmostEqual(load, 3e3 + 0.3 * weight * depth, 6)
+            self.assertAlmostEqual(wall, weight * depth, 6)
+            self.assertAlmostEqual(stretch / (0.15 * weight * depth ** 2 / (2.1e11 * area)), 1.0, 6)
+        slide = summary["torque_drag"]["main"]["slide"]
+        self.assertAlmostEqual(slide["lowest_force_N"], -1e3 - 0.3 * weight * 8, 6)
+        self.assertAlmostEqual(slide["yield_share"] / ((1e3 + 0.3 * weight * 8) / area / 400e6), 1.0, 1)
+        self.assertIn("hook loads include 3 kN of block and top drive", out)
+        self.assertIn("torque on bit 0 N m: it is not estimated", out)
+        with open(self.output / "torque_drag_main.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 12)
+        self.assertIn("yield share [-]", rows[0])
+        broom = summary["broomstick"]["main"]
+        self.assertEqual(broom["friction"], [0.2, 0.5])
+        for friction, loads, torques in zip(broom["friction"], broom["slack-off_hook_load_N"], broom["rotate_torque_N_m"]):
+            self.assertAlmostEqual(loads[1], 3e3 - friction * weight * 8, 6)
+            self.assertAlmostEqual(torques[0], friction * weight * 4 * 0.0365, 6)
+        self.assertIn("broomstick_main.png", summary["files"])
+        self.assertIn("friction coefficients 0.15, 0.3, 0.45", self.ask("torque-drag", self.scene, "--depths", "2"))
+        for words, wanted in ((["--depths", "9 m"], "at most 8 m"), (["--depths", "0"], "outside 1"), (["--frictions", "0.2,x"], "no number"),
+                              (["--frictions", "-1"], "outside 0 .. 10"), (["--block-weight", "3 m"], "--block-weight")):
+            self.assertIn(wanted, self.ask("torque-drag", self.scene, *words, status=2))
+
+    def test_torque_drag_loads_of_the_scene(self):
+        """Load and torque of the bit are those of the scene; with another load the estimate of the torque follows."""
+        scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + '[[programme]]\nname = "bit load"\nterm = {h0 = "2 kN"}\n'
+        self.scene = self.write("rig.toml", scene)
+        for words, weight, torque in ((), 2e3, 30.0), (("--weight-on-bit", "4 kN"), 4e3, 60.0):
+            out, summary = self.answer("torque-drag", *words)
+            self.assertAlmostEqual(summary["operations"]["drill"]["weight_on_bit_N"], weight)
+            self.assertAlmostEqual(summary["operations"]["drill"]["torque_on_bit_N_m"], torque)
+            self.assertIn("estimated: 0.5 x weight on bit x bit diameter / 3", out)
+
     def test_stuck(self):
         out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction", "0")
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3, 3)

@@ -95,10 +95,12 @@ def parser() -> argparse.ArgumentParser:
                 command.add_argument(f"--{word}", metavar=word.upper(), help=STUCK[word] + f', as "20 {unit}"')
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "torque-drag":
-            command.add_argument("--depths", type=int, metavar="N", default=20, help="number of depths up to the described "
-                                 "one (default %(default)s)")
-            command.add_argument("--weight-on-bit", metavar="FORCE", default="0 N", help='while drilling and sliding, as "20 kN"')
-            command.add_argument("--torque-on-bit", metavar="TORQUE", default="0 N m", help='while drilling, as "500 N m"')
+            command.add_argument("--depths", metavar="N|LIST", default="20", help='number of depths up to the described one '
+                                 '(default %(default)s), or depths as "100 m,200 m"')
+            command.add_argument("--weight-on-bit", metavar="FORCE", help='while drilling and sliding, as "20 kN"; left out: that of the scene')
+            command.add_argument("--torque-on-bit", metavar="TORQUE", help='while drilling, as "500 N m"; left out: estimated from the load')
+            command.add_argument("--frictions", metavar="LIST", help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
+            command.add_argument("--block-weight", metavar="FORCE", help='of block and top drive, added to the hook loads')
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")

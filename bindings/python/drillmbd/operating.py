@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _structs, enums
+from .analysis import OPERATIONS, usual_operation
 from .scene import Scene
 
 #: Torque of the bit over a third of its diameter times its load, where the scene has no rock law (the bit-specific
@@ -64,9 +65,29 @@ def _value(programmes: list[Any], part: Any) -> float | None:
     return largest_of(programmes[part.index & 0xFFFFFF]) if part else None
 
 
+def operations_of(plan: Operating) -> list[_structs.Operation]:
+    """The usual operations, in the order of OPERATIONS, with the rotation, feed and load on the bit of the plan."""
+    found = [usual_operation(kind) for kind in OPERATIONS]
+    for kind in (enums.OPERATION_DRILL, enums.OPERATION_SLIDE):
+        found[kind].weight_on_bit = plan.weight_on_bit or 0.0
+    found[enums.OPERATION_DRILL].torque_on_bit = plan.torque_on_bit
+    for kind in (enums.OPERATION_DRILL, enums.OPERATION_ROTATE):
+        found[kind].rotary_speed = plan.rotation or found[kind].rotary_speed
+    found[enums.OPERATION_DRILL].axial_speed = plan.feed or found[enums.OPERATION_DRILL].axial_speed
+    return found
+
+
+def with_weight(scene: Scene, plan: Operating, weight: float) -> Operating:
+    """The plan with another weight on the bit [N], and the torque that belongs to it by the same estimate."""
+    bit = next((arguments[0] for name, arguments in scene.model.calls if name == "add_bit"), {})
+    found = Operating(plan.rotation, plan.feed, weight)
+    _estimate(found, bit)
+    return found
+
+
 def _estimate(found: Operating, bit: dict[str, Any]) -> None:
     law = bit.get("law", bit.get("rock", enums.ROCK_NONE))
     diameter = float(bit.get("diameter", _structs.BitDef().diameter))
-    if found.weight_on_bit and law == enums.ROCK_NONE and math.isfinite(diameter):
+    if found.weight_on_bit and law == enums.ROCK_NONE and 0.0 < diameter < math.inf:
         found.torque_on_bit = BIT_FRICTION * found.weight_on_bit * diameter / 3.0
         found.estimated = True

@@ -153,12 +153,14 @@ def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, titl
     return figure
 
 
-def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "") -> Any:
-    """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation."""
+def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_weight: float = 0.0) -> Any:
+    """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation.
+    block_weight [N]: added to the hook loads."""
     figure, ((load, torque),) = _axes(1, 2, (11, 6), sharey=True)
     for axes, field, label in ((load, "hook_load", "hook load [{}N]\n(> 0: the rig pulls)"),
                                (torque, "torque", "torque at the rig [{}N m]")):
-        columns = [found.column(field, number) for number in range(len(names))]
+        more = block_weight if field == "hook_load" else 0.0
+        columns = [[value + more for value in found.column(field, number)] for number in range(len(names))]
         factor, prefix = _kilo(*columns)
         for number, (name, column) in enumerate(zip(names, columns)):
             axes.plot([factor * value for value in column], found.column("depth", number), label=name, **_style(number))
@@ -167,6 +169,38 @@ def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "") -> Any
     load.set_ylabel("measured depth of the bit [m]")
     load.invert_yaxis()
     _legend(torque)
+    figure.suptitle(title)
+    return figure
+
+
+def broomstick(depths: Sequence[float], loads: dict[tuple[str, float], Sequence[float]], torques: dict[float, Sequence[float]],
+               title: str = "", measured: dict[str, Any] | None = None) -> Any:
+    """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction coefficient (kind
+    of line); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as points."""
+    figure, ((load, torque),) = _axes(1, 2, (13, 7), sharey=True)
+    measured = measured or {}
+    words, frictions = list(dict.fromkeys(word for word, _ in loads)), list(torques)
+    factor, prefix = _kilo(*loads.values(), *(values for word, (_, values) in measured.items() if word != "torque"))
+    for (word, friction), column in loads.items():
+        load.plot([factor * value for value in column], depths, label=f"{word}, friction {friction:.3g}", linewidth=1.2,
+                  color=COLOURS[words.index(word)], linestyle=LINES[frictions.index(friction) % len(LINES)])
+    for number, word in enumerate(words):
+        if word in measured:
+            load.plot([factor * value for value in measured[word][1]], measured[word][0], "osD"[number], markersize=4, fillstyle="none",
+                      color=COLOURS[number], label=f"{word}, measured")
+    load.axvline(0.0, color="#999999", linewidth=0.8)
+    load.set(xlabel=f"hook load [{prefix}N]\n(< 0: the rig thrusts)", ylabel="measured depth of the bit [m]")
+    factor, prefix = _kilo(*torques.values(), *(values for word, (_, values) in measured.items() if word == "torque"))
+    for number, (friction, column) in enumerate(torques.items()):
+        torque.plot([factor * value for value in column], depths, label=f"rotate, friction {friction:.3g}", linewidth=1.2,
+                    color=COLOURS[2], linestyle=LINES[number % len(LINES)])
+    if "torque" in measured:
+        torque.plot([factor * value for value in measured["torque"][1]], measured["torque"][0], "D", markersize=4, fillstyle="none",
+                    color=COLOURS[2], label="rotate, measured")
+    torque.set_xlabel(f"torque at the rig [{prefix}N m]")
+    load.invert_yaxis()
+    for axes in (load, torque):
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2 if axes is torque else 3, fontsize=8)
     figure.suptitle(title)
     return figure
 

@@ -1,15 +1,12 @@
 """The questions that the command asks of a scene, one function each."""
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 from . import _structs, enums, station
 from ._optional import need
-from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
-from .answers import RPM, Output, count_fatigue, file_name, friction_option, note_bounces, \
-    quantity, record, tell_fatigue
+from .answers import RPM, Output, count_fatigue, file_name, note_bounces, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
 from .scene import Scene, words
@@ -304,52 +301,8 @@ def clearance_at(scene: Scene, place: Any) -> float | None:
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """Hook load and torque of the rig by depth and operation."""
-    weight = quantity(options.weight_on_bit, "N", "--weight-on-bit")
-    torque = quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
-    if options.depths < 1:
-        raise Usage(f"--depths {options.depths}, must be >= 1")
-    more = friction_option(options)
-    operations = [usual_operation(kind) for kind in OPERATIONS]
-    for kind in (enums.OPERATION_DRILL, enums.OPERATION_SLIDE):
-        operations[kind].weight_on_bit = weight
-    operations[enums.OPERATION_DRILL].torque_on_bit = torque
-    with scene.new_sim() as sim:
-        for name in scene.pipes:
-            string = scene.names[name]
-            last = sim.torque_drag(operations, string=string, **more).rows[0][0].depth
-            first = last - _length(sim, string)
-            depths = [first + (last - first) * (i + 1) / options.depths for i in range(options.depths)]
-            _tell_torque_drag(output, name, sim.torque_drag(operations, depths, string=string, **more))
-    return output.finish()
-
-
-def _length(sim: Sim, string: Any) -> float:
-    """[m] of a string: the distance of the last of two stations."""
-    from .profile import values_of
-    return float(values_of(sim, string, [enums.PROFILE_DISTANCE], count=2)[1, 0])
-
-
-def _tell_torque_drag(output: Output, name: str, found: TorqueDrag) -> None:
-    words = [operation_name(kind) for kind in OPERATIONS]
-    for word, row in zip(words, found.rows[-1]):
-        told = "locks up: no push at the rig does it" if row.locked else (
-            f"hook load {row.hook_load / 1e3:.4g} kN, torque {row.torque:.4g} N m, {100 * row.transfer:.0f} % of a push "
-            f"arrives, {row.helical_share:.2g} of helical buckling")
-        output.say(f"{name}, {word} at {row.depth:.4g} m: {told}")
-    output.summary.setdefault("torque_drag", {})[name] = {
-        word: {"depth_m": row.depth, "locked": bool(row.locked), "hook_load_N": _or_none(row.hook_load),
-               "torque_N_m": _or_none(row.torque), "transfer": row.transfer} for word, row in zip(words, found.rows[-1])}
-    heads = ["depth [m]", *(f"{word}, {what}" for word in words for what in ("hook load [N]", "torque [N m]", "transfer [-]",
-                                                                            "helical share [-]", "locked"))]
-    output.table(f"torque_drag_{file_name(name)}.csv", heads,
-                 [[rows[0].depth, *(value for row in rows for value in (row.hook_load, row.torque, row.transfer,
-                                                                        row.helical_share, row.locked))]
-                  for rows in found.rows])
-    output.picture(f"torque_drag_{file_name(name)}.png", lambda plots: plots.torque_drag(found, words, name))
-
-
-def _or_none(value: float) -> float | None:
-    return None if math.isnan(value) else value
+    from .torque_drag import torque_drag as answer
+    return answer(scene, output, options)
 
 
 def buckle(scene: Scene, output: Output, options: Any) -> int:

@@ -9,11 +9,11 @@ from typing import Any
 
 from . import __version__, _structs, enums
 from ._optional import need
-from .analysis import OPERATIONS, operation_name, usual_operation
+from .analysis import OPERATIONS, operation_name
 from .answers import RPM, Output, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
 from .fatigue import StringFatigue
-from .operating import BIT_FRICTION, Operating, operating
+from .operating import BIT_FRICTION, Operating, operating, operations_of
 from .plots import COLOURS
 from .profile import Profile, values_of
 from .questions import LINEAR, NOTHING_EXCITES
@@ -124,13 +124,7 @@ class Study:
     # ---- Torque and drag --------------------------------------------------------------------------------------------
     def _torque_drag(self) -> None:
         """Hook load and torque by depth while the hole is drilled, with the bit load and rotation of the scene."""
-        plan, operations = self.plan, [usual_operation(kind) for kind in OPERATIONS]
-        for kind in (enums.OPERATION_DRILL, enums.OPERATION_SLIDE):
-            operations[kind].weight_on_bit = plan.weight_on_bit or 0.0
-        operations[enums.OPERATION_DRILL].torque_on_bit = plan.torque_on_bit
-        for kind in (enums.OPERATION_DRILL, enums.OPERATION_ROTATE):
-            operations[kind].rotary_speed = plan.rotation or operations[kind].rotary_speed
-        operations[enums.OPERATION_DRILL].axial_speed = plan.feed or operations[enums.OPERATION_DRILL].axial_speed
+        plan, operations = self.plan, operations_of(self.plan)
         with self.scene.new_sim() as sim:
             last = sim.torque_drag([enums.OPERATION_ROTATE], string=self.part).rows[0][0].depth
             first = last - float(values_of(sim, self.part, [enums.PROFILE_DISTANCE], count=2)[1, 0])

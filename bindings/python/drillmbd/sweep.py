@@ -15,7 +15,7 @@ from .scene import CannotSave, Scene, SceneError
 from .scene.changes import path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
-_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status")
+_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick")
 MOST_CASES, MOST_ITEMS = 100_000, 32
 
 

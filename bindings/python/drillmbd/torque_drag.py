@@ -1,0 +1,239 @@
+"""Hook load and torque of the rig by depth and operation, as a soft string, and the broomstick picture over friction coefficients."""
+from __future__ import annotations
+
+import math
+from ctypes import c_double
+from dataclasses import dataclass, field
+from typing import Any
+
+from . import enums
+from ._structs import Operation, TorqueDragOptions, TorqueDragRow
+from .analysis import OPERATIONS, TorqueDrag, operation_name
+from .answers import RPM, Output, file_name, friction_option, quantity
+from .errors import Error, Usage
+from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
+from .profile import values_of
+from .scene import Scene
+from .sim import Sim
+
+BROOMSTICK = (enums.OPERATION_PICK_UP, enums.OPERATION_SLACK_OFF, enums.OPERATION_ROTATE)
+FACTORS = (0.5, 1.0, 1.5)   #: of the wall's friction coefficient, where no coefficients are given
+MOST_DEPTHS, MOST_FRICTIONS = 2 ** 20, 20
+FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items() if name not in ("struct_size", "reserved", "depth", "locked")}
+WORDS = {int(kind): operation_name(kind) for kind in OPERATIONS}
+
+
+@dataclass
+class Settings:
+    """Of the command line and the scene."""
+    plan: Operating
+    operations: list[Operation]
+    block_weight: float                                    #: [N]
+    more: dict[str, Any]                                   #: options of the analysis: friction
+    frictions: list[float] = field(default_factory=list)   #: of the broomstick; empty: by the wall
+    notes: list[str] = field(default_factory=list)         #: origins of the values
+
+
+@dataclass
+class Curves:
+    """Of one string in its hole."""
+    name: str
+    string: Any
+    found: TorqueDrag
+    block_weight: float
+
+    def hook_load(self, row: TorqueDragRow) -> float:
+        """[N] with block and top drive."""
+        return float(row.hook_load) + self.block_weight
+
+
+def torque_drag(scene: Scene, output: Output, options: Any) -> int:
+    """All results of the soft string by depth and operation."""
+    settings = _settings(scene, options)
+    output.summary["block_weight_N"] = settings.block_weight
+    output.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
+                                           "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
+                                    for word, one in zip(WORDS.values(), settings.operations)}
+    for text in settings.notes:
+        output.say(text)
+    with scene.new_sim() as sim:
+        for name in scene.pipes:
+            string = scene.names[name]
+            depths = _depths(sim, string, options.depths)
+            found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
+            curves = Curves(name, string, found, settings.block_weight)
+            _write_rows(sim, output, curves, settings)
+            _broomstick(scene, sim, output, curves, settings)
+    return output.finish()
+
+
+# ---- Settings --------------------------------------------------------------------------------------------------------
+def _settings(scene: Scene, options: Any) -> Settings:
+    plan, notes = operating(scene), []
+    if options.weight_on_bit is not None:
+        plan = with_weight(scene, plan, quantity(options.weight_on_bit, "N", "--weight-on-bit"))
+        notes.append(f"weight on bit {_kilo(plan.weight_on_bit or 0.0)}N, as given")
+    elif plan.weight_on_bit:
+        notes.append(f"weight on bit {_kilo(plan.weight_on_bit)}N, the largest load of the bit in the scene")
+    else:
+        notes.append("weight on bit 0 N, because the scene gives the bit no load; give --weight-on-bit")
+    if options.torque_on_bit is not None:
+        plan.torque_on_bit, plan.estimated = quantity(options.torque_on_bit, "N*m", "--torque-on-bit"), False
+        notes.append(f"torque on bit {_kilo(plan.torque_on_bit)}N m, as given")
+    elif plan.estimated:
+        notes.append(f"torque on bit {_kilo(plan.torque_on_bit)}N m, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
+    elif plan.weight_on_bit:
+        notes.append("torque on bit 0 N m: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
+    block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
+    if block:
+        notes.append(f"hook loads include {_kilo(block)}N of block and top drive")
+    operations = operations_of(plan)
+    drill = operations[enums.OPERATION_DRILL]
+    notes.append(f"drilling at {drill.rotary_speed / RPM:.4g} rpm and {1e3 * drill.axial_speed:.4g} mm/s"
+                 + ("" if plan.rotation and plan.feed else " (usual values where the scene gives none)"))
+    return Settings(plan, operations, block, friction_option(options), _frictions(options.frictions), ["; ".join(notes)])
+
+
+def _frictions(text: str | None) -> list[float]:
+    if text is None:
+        return []
+    found = []
+    for one in text.split(","):
+        try:
+            found.append(float(one))
+        except ValueError:
+            raise Usage(f"--frictions {text}: {one.strip()!r} is no number; give coefficients as 0.2,0.3,0.4") from None
+        if not 0.0 <= found[-1] <= 10.0:
+            raise Usage(f"--frictions {text}: {one.strip()} is outside 0 .. 10")
+    if len(found) > MOST_FRICTIONS:
+        raise Usage(f"--frictions: {len(found)} coefficients, at most {MOST_FRICTIONS} are allowed")
+    return sorted(set(found))
+
+
+def _depths(sim: Sim, string: Any, text: str) -> list[float]:
+    """[m] Depths of the bit: a number of them up to the described one, or a list."""
+    last = float(sim.torque_drag([enums.OPERATION_ROTATE], string=string).rows[0][0].depth)
+    first = last - float(values_of(sim, string, [enums.PROFILE_DISTANCE], count=2)[1, 0])
+    if text.strip().lstrip("+-").isdigit():
+        count = int(text)
+        if not 1 <= count <= MOST_DEPTHS:
+            raise Usage(f"--depths {count} is outside 1 .. {MOST_DEPTHS}; it is a number of depths, depths have units, as \"100 m,200 m\"")
+        return [first + (last - first) * (i + 1) / count for i in range(count)]
+    found = sorted({quantity(one.strip(), "m", "--depths") for one in text.split(",")})
+    for depth in found:
+        if not first < depth <= last + 1e-9 * abs(last):
+            raise Usage(f"--depths: {depth:g} m must be above {first:g} m, where the string begins, and at most {last:g} m, where it ends "
+                        "in the scene")
+    return [min(depth, last) for depth in found]
+
+
+# ---- Rows ------------------------------------------------------------------------------------------------------------
+def _kilo(value: float) -> str:
+    return f"{value / 1e3:.4g} k" if abs(value) >= 1e3 else f"{value:.4g} "
+
+
+def _key(name: str) -> str:
+    unit = FIELDS[name]
+    return name if unit in ("", "-") else f"{name}_{unit.replace(' ', '_')}"
+
+
+def _or_none(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _values(curves: Curves, row: TorqueDragRow) -> list[float]:
+    return [curves.hook_load(row) if name == "hook_load" else float(getattr(row, name)) for name in FIELDS]
+
+
+def _write_rows(sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
+    found, told = curves.found, {}
+    for kind, row in zip(WORDS, found.rows[-1]):
+        neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
+        output.say(f"{curves.name}, {WORDS[kind]} at {row.depth:.4g} m: {_sentence(curves, row, neutral)}")
+        told[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
+                             **{_key(name): _or_none(value) for name, value in zip(FIELDS, _values(curves, row))}}
+    if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
+        output.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
+    output.summary.setdefault("torque_drag", {})[curves.name] = told
+    output.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
+        word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
+               **{_key(name): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
+        for number, word in WORDS.items()}
+    heads = ["depth [m]", "operation", "locked", *(f"{name.replace('_', ' ')} [{unit or '-'}]" for name, unit in FIELDS.items())]
+    output.table(f"torque_drag_{file_name(curves.name)}.csv", heads,
+                 [[row.depth, word, row.locked, *_values(curves, row)]
+                  for number, word in WORDS.items() for row in (rows[number] for rows in found.rows)])
+    output.picture(f"torque_drag_{file_name(curves.name)}.png",
+                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight))
+
+
+def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None) -> str:
+    if row.locked:
+        return "locks up: no thrust at the rig moves the string"
+    load = curves.hook_load(row)
+    parts = [f"hook load {load / 1e3:.4g} kN" if load >= 0.0 else f"thrust {-load / 1e3:.4g} kN", f"torque {row.torque:.4g} N m",
+             f"{100.0 * row.transfer:.0f} % of a small increase of thrust arrives at the bit"]
+    if row.lowest_force < 0.0:
+        parts.append(f"largest compression {-row.lowest_force / 1e3:.4g} kN at {row.lowest_at:.4g} m, "
+                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at {row.buckled_at:.4g} m"
+                        if math.isfinite(row.helical_share) else "buckling not assessed, because a compressed part is not pressed to the wall"))
+    if neutral is not None:
+        parts.append(f"neutral point at {neutral:.4g} m")
+    if row.helix_length > 0.0:
+        parts.append(f"{row.helix_length:.4g} m of helix")
+    if math.isfinite(row.yield_share):
+        parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {row.yield_at:.4g} m")
+    parts.append(f"stretch {1e3 * row.stretch:.3g} mm, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {row.wall_force / 1e3:.3g} kN")
+    return ", ".join(parts)
+
+
+def _neutral_point(sim: Sim, curves: Curves, settings: Settings, kind: int, depth: float) -> float | None:
+    """[m] The shallowest depth where the effective axial force changes its sign; None if it does not."""
+    options = TorqueDragOptions(string=curves.string, depth_count=1, **settings.more)
+    options.depths = (c_double * 1)(depth)
+    try:
+        along = sim.torque_drag_profile(settings.operations[kind], 201, options)
+    except Error:
+        return None  # it locks up
+    places = list(zip(along["depth"], along["axial_force"]))
+    for (above, first), (below, second) in zip(places, places[1:]):
+        if first * second < 0.0:
+            return float(above + (below - above) * first / (first - second))
+    return None
+
+
+# ---- Broomstick ------------------------------------------------------------------------------------------------------
+def wall_friction(scene: Scene, depths: list[float]) -> tuple[float, bool]:
+    """The wall's dynamic coefficient, averaged over depths [m], and whether it is the same at all of them."""
+    values = [float(scene.model.hole(depth).mu_dynamic) for depth in depths]
+    mean = sum(values) / len(values)
+    return mean, max(values) - min(values) <= 1e-12 * max(1.0, mean)
+
+
+def _broomstick(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
+    depths, operations = curves.found.column("depth"), [settings.operations[kind] for kind in BROOMSTICK]
+    frictions = settings.frictions
+    if not frictions:
+        mean, same = wall_friction(scene, depths)
+        frictions = [round(factor * mean, 12) for factor in FACTORS] if mean > 0.0 else [0.0]
+        output.say(f"{curves.name}, broomstick: friction coefficients {', '.join(f'{one:.4g}' for one in frictions)}, "
+                   + ("0.5, 1 and 1.5 times that of the wall" if mean > 0.0 else "that of the wall")
+                   + ("" if same else ", which is the mean over the depths"))
+    families = [sim.torque_drag(operations, depths, string=curves.string, friction=one) for one in frictions]
+    columns = {(kind, friction): [one.hook_load + settings.block_weight for one in (rows[number] for rows in family.rows)]
+               for number, kind in enumerate(BROOMSTICK) for friction, family in zip(frictions, families)}
+    torques = {friction: family.column("torque", 2) for friction, family in zip(frictions, families)}
+    for (kind, friction), column in columns.items():
+        locked = next((depth for depth, value in zip(depths, column) if not math.isfinite(value)), None)
+        if locked is not None:
+            output.say(f"{curves.name}, {WORDS[kind]} with friction {friction:.4g}: locks up from {locked:.4g} m on")
+    output.summary.setdefault("broomstick", {})[curves.name] = {
+        "depth_m": depths, "friction": frictions,
+        **{f"{WORDS[kind]}_hook_load_N": [columns[kind, one] for one in frictions] for kind in BROOMSTICK},
+        "rotate_torque_N_m": [torques[one] for one in frictions]}
+    heads = ["depth [m]", *(f"{WORDS[kind]}, friction {one:.4g}: hook load [N]" for kind, one in columns),
+             *(f"rotate, friction {one:.4g}: torque [N m]" for one in frictions)]
+    output.table(f"broomstick_{file_name(curves.name)}.csv", heads, zip(depths, *columns.values(), *torques.values()))
+    title = curves.name + (f", with {_kilo(settings.block_weight)}N of block and top drive" if settings.block_weight else "")
+    output.picture(f"broomstick_{file_name(curves.name)}.png", lambda plots: plots.broomstick(
+        depths, {(WORDS[kind], friction): column for (kind, friction), column in columns.items()}, torques, title))
