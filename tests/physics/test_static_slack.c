@@ -21,7 +21,9 @@ static void hangs(uint32_t pipes, uint32_t elements, double direction)
     pin.axis_a[0] = -sin(direction), pin.axis_a[1] = cos(direction);
     pin.axis_b[0] = 0.0, pin.axis_b[1] = 1.0;
     (void)add_joint(&s, &pin);
-    (void)rig_start(&s, NULL);
+    dmb_sim_options options = dmb_sim_options_default();
+    options.assembly_energy = 1e12;
+    (void)rig_start(&s, &options);
     const dmb_static_report report = find_equilibrium(&s, NULL);
     const dmb_pose middle = pose_at(&s, dmb_station(pipe.string, pipes / 2 - 1, 1.0));
     print_message("  %u pipes, %u elements: %u iterations, %d negative, middle at %.4f m\n", pipes, elements,
