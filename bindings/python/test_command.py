@@ -231,6 +231,28 @@ class CommandTest(FolderTest):
             self.assertAlmostEqual(summary["operations"]["drill"]["torque_on_bit_N_m"], torque)
             self.assertIn("estimated: 0.5 x weight on bit x bit diameter / 3", out)
 
+    def test_rig_limits(self):
+        """Level hole: the torque of rotation and the friction of sliding grow with depth, so the reach has a closed form."""
+        weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
+        turning = 0.3 * weight * 0.0365  # N m per metre
+        self.scene = self.write("rig.toml", SCENE + f'[limits]\ntorque = "{5.5 * turning:.9f} N m"\npull = "1 kN"\n')
+        out, summary = self.answer("torque-drag", "--depths", "8")
+        found = summary["rig_limits"]["main"]
+        self.assertAlmostEqual(found["reach_m"], 5.5, 6)
+        self.assertEqual(found["first_limit"], "torque")
+        self.assertAlmostEqual(found["share"]["torque"], 8 / 5.5, 6)
+        self.assertAlmostEqual(found["share"]["pull"], 8 * 0.3 * weight / 1e3, 6)
+        self.assertIn("this rig reaches 5.5 m: torque (rotate)", out)
+        self.assertIn("thrust: not assessed, because [limits] has no push", out)
+        self.assertIn("rig_limits_main.csv", summary["files"])
+        self.assertIn("exceeded at 6 m, the first depth", self.ask("torque-drag", self.scene, "--depths", "6 m"))
+        self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 kN"\n')
+        self.assertRegex(self.ask("torque-drag", self.scene), r"not reached down to 8 m: thrust 233 N, 23 % of the limit \(slack-off at 8 m\)")
+        self.assertIn("this rig reaches 7.999 m: thrust (slide)", self.ask("torque-drag", self.scene, "--weight-on-bit", f"{1e3 - 0.3 * weight * 7.999:.6f} N",
+                                                               "--depths", "4"))
+        self.scene = self.write("rig.toml", SCENE)
+        self.assertIn("limits of the rig: not assessed, because the scene has no [limits]", self.ask("torque-drag", self.scene))
+
     def test_stuck(self):
         out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction", "0")
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3, 3)

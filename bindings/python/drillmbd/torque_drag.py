@@ -6,7 +6,7 @@ from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import enums
+from . import enums, rig_limits
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
 from .answers import RPM, Output, file_name, friction_option, quantity
@@ -63,6 +63,8 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
             curves = Curves(name, string, found, settings.block_weight)
             _write_rows(sim, output, curves, settings)
+            loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
+            rig_limits.write(output, name, found.column("depth"), loads, scene.limits)
             _broomstick(scene, sim, output, curves, settings)
     return output.finish()
 
