@@ -231,6 +231,33 @@ class CommandTest(FolderTest):
             self.assertAlmostEqual(summary["operations"]["drill"]["torque_on_bit_N_m"], torque)
             self.assertIn("estimated: 0.5 x weight on bit x bit diameter / 3", out)
 
+    def test_measured_hook_loads(self):
+        """Loads made with a known friction are found again; scatter of two measurements at one depth gives Student's interval."""
+        weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
+        rows = [(depth, 2e3 + 0.25 * weight * depth, 2e3 - 0.35 * weight * depth + error, 2000.0, 0.2 * weight * depth * 0.0365)
+                for depth, error in ((4.0, 0.0), (8.0, 10.0), (8.0, -10.0))]
+        path = self.write("log.csv", "MD [ft];pick_up [kN];slack_off [lbf];Rotating weight [kN];Torque [N m]\n"
+                          + "".join(f"{d / 0.3048:.9f};{p / 1e3:.9f};{s / 4.4482216152605:.9f};{r / 1e3:.3f};{t:.9f}\n" for d, p, s, r, t in rows))
+        out, summary = self.answer("torque-drag", "--measured", path, "--block-weight", "2 kN")
+        found = summary["measured"]["main"]
+        self.assertAlmostEqual(found["pick-up"]["friction"], 0.25, 6)
+        self.assertAlmostEqual(found["torque"]["friction"], 0.2, 6)
+        self.assertIsNone(found["rotate"]["friction"])
+        slopes = weight ** 2 * (16 + 64 + 64)
+        self.assertAlmostEqual(found["slack-off"]["friction"], 0.35, 6)
+        self.assertAlmostEqual(found["slack-off"]["half_width_95"] / (4.302653 * (200 / 2 / slopes) ** 0.5), 1.0, 3)
+        self.assertIn("hook load, rotate: friction not assessed, because", out)
+        self.assertIn("measured_main.csv", summary["files"])
+        for text, wanted in (("depth [m],hook load [kN]\n5,3\n", "line 2: hook load of no operation"), ("depth [m],pick up\n5,3\n", "has no unit"),
+                             ("depth [m],pick up [kN]\n5,-999.25\n", "missing value"), ("depth [m],pick up [kN]\n9,3\n", "at most 8 m"),
+                             ("depth [m],inc [deg],azi [deg]\n5,3,3\n", "no column of loads"), ("a,b\n1,2\n", "no head names depth; give the heads")):
+            self.assertIn(wanted, self.ask("torque-drag", self.scene, "--measured", self.write("bad.csv", text), status=2))
+        self.ask("torque-drag", self.scene, "--measured", self.folder / "none.csv", status=3)
+        log = "depth [m],hook load [kN],operation\n4,0.3,pick-up\n8,99,slack off\n"
+        out = self.ask("torque-drag", self.scene, "--measured", self.write("log.csv", log))
+        self.assertIn("confidence not assessed, because one measurement has no scatter", out)
+        self.assertIn("hook load, slack-off: friction not assessed, because no coefficient", out)
+
     def test_rig_limits(self):
         """Level hole: the torque of rotation and the friction of sliding grow with depth, so the reach has a closed form."""
         weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)

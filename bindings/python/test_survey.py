@@ -47,6 +47,7 @@ SAME = {
     "semicolon.csv": CSV.replace(",", ";"), "tabs.txt": CSV.replace(",", "\t"), "comment.csv": "# survey by MWD\n" + CSV,
     "title.csv": "Well A\nsurveyed 2024-03-01, magnetic\n\n" + CSV, "order.csv": "azimuth [deg],depth [m],inclination [deg]\n0,0,0\n0,100,0\n45,200,10\n45,300,20\n",
     "extra.csv": "No,MD (m),TVD (m),Inc (deg),Azi (deg),N/S (m)\n1,0,0,0,0,0\n2,100,100,0,0,0\n3,200,199,10,45,6\n4,300,295,20,45,25\n",
+    "many_columns.csv": "MD (m),Inc (deg),Azi (deg),TVD (m),N (m),E (m),DLS\n0,0,0,0,0,0,0\n100,0,0,100,0,0,0\n200,10,45,199,6,6,3\n300,20,45,295,25,25,3\n",
     "unit_row.csv": "Measured Depth,Inclination,Azimuth\n(m),(deg),(deg)\n0,0,0\n100,0,0\n200,10,45\n300,20,45\n",
     "blanks.txt": "Measured Depth (m)   Inclination (deg)   Azimuth (deg)\n   0.00   0.0   0.0\n 100.00   0.0   0.0\n 200.00  10.0  45.0\n 300.00  20.0  45.0\n",
     "one_blank.txt": "MD (m) Inc (deg) Azi (deg)\n0 0 0\n100 0 0\n200 10 45\n300 20 45\n",

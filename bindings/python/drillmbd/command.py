@@ -100,6 +100,7 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--weight-on-bit", metavar="FORCE", help='while drilling and sliding, as "20 kN"; left out: that of the scene')
             command.add_argument("--torque-on-bit", metavar="TORQUE", help='while drilling, as "500 N m"; left out: estimated from the load')
             command.add_argument("--frictions", metavar="LIST", help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
+            command.add_argument("--measured", metavar="FILE", help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
             command.add_argument("--block-weight", metavar="FORCE", help='of block and top drive, added to the hook loads')
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "modes":

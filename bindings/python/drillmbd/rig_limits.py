@@ -61,7 +61,7 @@ def reach(depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dic
                 depth = depths[number - 1] + (depth - depths[number - 1]) * (limit - before) / (load.value - before)
             found.append(Reach(depth, LOCKED if math.isinf(load.value) else word, load.operation))
             break
-    return min(found, key=lambda one: one.depth, default=None)
+    return min(found, key=lambda one: one.depth) if found else None
 
 
 def write(output: Output, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float]) -> None:

@@ -6,7 +6,7 @@ from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import enums, rig_limits
+from . import enums, measured, rig_limits
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
 from .answers import RPM, Output, file_name, friction_option, quantity
@@ -32,6 +32,7 @@ class Settings:
     more: dict[str, Any]                                   #: options of the analysis: friction
     frictions: list[float] = field(default_factory=list)   #: of the broomstick; empty: by the wall
     notes: list[str] = field(default_factory=list)         #: origins of the values
+    series: dict[str, measured.Series] = field(default_factory=dict)  #: measured at the rig, of the first string
 
 
 @dataclass
@@ -56,6 +57,10 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
                                     for word, one in zip(WORDS.values(), settings.operations)}
     for text in settings.notes:
         output.say(text)
+    if options.measured is not None:
+        settings.series, remarks = measured.read(options.measured)
+        for text in remarks:
+            output.note_text(f"{options.measured}: {text}")
     with scene.new_sim() as sim:
         for name in scene.pipes:
             string = scene.names[name]
@@ -65,7 +70,9 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
             _write_rows(sim, output, curves, settings)
             loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
             rig_limits.write(output, name, found.column("depth"), loads, scene.limits)
+            _compare(scene, sim, output, curves, settings)
             _broomstick(scene, sim, output, curves, settings)
+            settings.series = {}
     return output.finish()
 
 
@@ -114,8 +121,7 @@ def _frictions(text: str | None) -> list[float]:
 
 def _depths(sim: Sim, string: Any, text: str) -> list[float]:
     """[m] Depths of the bit: a number of them up to the described one, or a list."""
-    last = float(sim.torque_drag([enums.OPERATION_ROTATE], string=string).rows[0][0].depth)
-    first = last - float(values_of(sim, string, [enums.PROFILE_DISTANCE], count=2)[1, 0])
+    first, last = _range(sim, string)
     if text.strip().lstrip("+-").isdigit():
         count = int(text)
         if not 1 <= count <= MOST_DEPTHS:
@@ -123,10 +129,34 @@ def _depths(sim: Sim, string: Any, text: str) -> list[float]:
         return [first + (last - first) * (i + 1) / count for i in range(count)]
     found = sorted({quantity(one.strip(), "m", "--depths") for one in text.split(",")})
     for depth in found:
-        if not first < depth <= last + 1e-9 * abs(last):
-            raise Usage(f"--depths: {depth:g} m must be above {first:g} m, where the string begins, and at most {last:g} m, where it ends "
-                        "in the scene")
+        _check_depth("--depths", depth, first, last)
     return [min(depth, last) for depth in found]
+
+
+def _range(sim: Sim, string: Any) -> tuple[float, float]:
+    """[m] Measured depths of the two ends."""
+    last = float(sim.torque_drag([enums.OPERATION_ROTATE], string=string).rows[0][0].depth)
+    return last - float(values_of(sim, string, [enums.PROFILE_DISTANCE], count=2)[1, 0]), last
+
+
+def _check_depth(option: str, depth: float, first: float, last: float) -> None:
+    if not first < depth <= last + 1e-9 * abs(last):
+        raise Usage(f"{option}: {depth:g} m must be above {first:g} m, where the string begins, and at most {last:g} m, where it ends in "
+                    "the scene")
+
+
+def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
+    """The measurements against this string; those beyond it are refused."""
+    if not settings.series:
+        return
+    first, last = _range(sim, curves.string)
+    for one in settings.series.values():
+        for depth in one.depths:
+            _check_depth("--measured", depth, first, last)
+    friction = settings.more.get("friction")
+    if friction is None:
+        friction, _ = wall_friction(scene, curves.found.column("depth"))
+    measured.compare(sim, curves.string, curves.name, output, settings.series, settings.operations, settings.block_weight, friction)
 
 
 # ---- Rows ------------------------------------------------------------------------------------------------------------
@@ -236,6 +266,8 @@ def _broomstick(scene: Scene, sim: Sim, output: Output, curves: Curves, settings
     heads = ["depth [m]", *(f"{WORDS[kind]}, friction {one:.4g}: hook load [N]" for kind, one in columns),
              *(f"rotate, friction {one:.4g}: torque [N m]" for one in frictions)]
     output.table(f"broomstick_{file_name(curves.name)}.csv", heads, zip(depths, *columns.values(), *torques.values()))
+    series = settings.series
     title = curves.name + (f", with {_kilo(settings.block_weight)}N of block and top drive" if settings.block_weight else "")
     output.picture(f"broomstick_{file_name(curves.name)}.png", lambda plots: plots.broomstick(
-        depths, {(WORDS[kind], friction): column for (kind, friction), column in columns.items()}, torques, title))
+        depths, {(WORDS[kind], friction): column for (kind, friction), column in columns.items()}, torques, title,
+        {word: (one.depths, one.values) for word, one in series.items()}))

@@ -101,12 +101,12 @@ def _is_number(cell: str) -> bool:
         return bool(re.match(r"[-+]?\d", cell))
 
 
-def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row]]:
-    """Columns and the rows below their heads. Raises TableError."""
+def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row], int]:
+    """Columns, the rows below their heads, and the number of heads."""
     if given is not None:
-        return _places(Row(0, given), columns), _from_numbers(table.rows)
+        return _places(Row(0, given), columns), _from_numbers(table.rows), len(given)
     if table.heads is not None:
-        return _places(table.heads, columns), table.rows
+        return _places(table.heads, columns), table.rows, len(table.heads.cells)
     best: tuple[list[_Place], int] = ([], -1)
     for at, row in enumerate(table.rows[:200]):
         if sum(map(_is_number, row.cells)) > 1:
@@ -114,7 +114,7 @@ def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -
         places = _places(row, columns)
         if len(places) > len(best[0]):
             best = places, at
-    return best[0], table.rows[best[1] + 1:]
+    return best[0], table.rows[best[1] + 1:], len(table.rows[best[1]].cells) if best[1] >= 0 else 0
 
 
 def _from_numbers(rows: list[Row]) -> list[Row]:
@@ -136,41 +136,48 @@ def _take_units(places: list[_Place], rows: list[Row]) -> list[Row]:
     return rows[1:]
 
 
-def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = None) -> Found:
-    """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. Raises TableError
-    where the columns are not found."""
-    places, rows = _heads(table, columns, given)
+#: Advice for a survey without the heads that are needed, and the key of the scene file that gives them.
+SURVEY_ADVICE = ("give the heads in the file, as \"depth [m], inclination [deg], azimuth [deg]\", or in the scene file, as survey_columns = "
+                 "[\"depth [m]\", \"dip [deg]\", \"azimuth [deg]\"]")
+SURVEY_KEY = "survey_columns"
+
+
+def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = None, advice: str = SURVEY_ADVICE,
+         key: str = SURVEY_KEY) -> Found:
+    """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. advice: to an author whose
+    file has no such heads; key: of the scene file that gives them, "" if there is none. Raises TableError where the columns are not
+    found."""
+    places, rows, width = _heads(table, columns, given)
     rows = _take_units(places, rows)
     keys = {one.column.key for one in places}
     missing = [one for one in columns if one.needed and one.key not in keys]
     if missing:
-        raise TableError(_no_columns(table, missing, given))
+        raise TableError(_no_columns(table, missing, given, advice))
     found = Found([], {}, {}, [], [])
     for one in places:
-        _settle_unit(one, found, rows)
+        _settle_unit(one, found, rows, key)
     comma = _decimal_comma(table, places, rows)
     for row in rows:
         if any(any(row.cells[one.index:one.index + 1]) for one in places if one.column.unit):
             _read_row(row, places, table, comma, found)
     if table.separator == "," and not found.faults:
-        _check_widths(places, rows, found)
+        _check_widths(width, rows, found)
     if len(found.faults) > MOST_FAULTS:
         found.faults[MOST_FAULTS:] = [f"and {len(found.faults) - MOST_FAULTS} more lines are wrong"]
     return found
 
 
-def _no_columns(table: Table, missing: list[Column], given: list[str] | None) -> str:
+def _no_columns(table: Table, missing: list[Column], given: list[str] | None, advice: str) -> str:
     words = " and ".join(one.key for one in missing)
     if given is not None:
         return f"survey_columns must name {words}"
     first = table.heads or next(iter(table.rows), None)
     if first is None:
         return "is empty"
-    return (f"line {first.line} ({', '.join(first.cells)[:80]}): no head names {words}; give the heads in the file, as \"depth [m], inclination "
-            "[deg], azimuth [deg]\", or in the scene file, as survey_columns = [\"depth [m]\", \"dip [deg]\", \"azimuth [deg]\"]")
+    return f"line {first.line} ({', '.join(first.cells)[:80]}): no head names {words}; {advice}"
 
 
-def _settle_unit(one: _Place, found: Found, rows: list[Row]) -> None:
+def _settle_unit(one: _Place, found: Found, rows: list[Row], key: str) -> None:
     column = one.column
     if not column.unit:
         return
@@ -180,8 +187,8 @@ def _settle_unit(one: _Place, found: Found, rows: list[Row]) -> None:
         found.remarks.append(f"column {one.index + 1} ({one.head}) has no unit: {column.assumed} is assumed")
         one.unit = column.assumed
     elif not one.unit:
-        found.faults.append(f"column {one.index + 1} ({one.head}) has no unit; write it in the head, as \"{one.head} [m]\", or give "
-                            f"survey_columns in the scene file")
+        found.faults.append(f"column {one.index + 1} ({one.head}) has no unit; write it in the head, as \"{one.head} [{column.unit}]\""
+                            + (f", or give {key} in the scene file" if key else ""))
         one.unit = column.unit
     found.heads[column.key], found.unit[column.key] = one.head, one.unit
 
@@ -250,9 +257,8 @@ def _cell_of(number: Decimal, one: _Place, rest: str) -> Cell:
     return Cell(value, f"{number} {unit}", float(number))
 
 
-def _check_widths(places: list[_Place], rows: list[Row], found: Found) -> None:
-    """Twice the number of cells, separated by commas: their commas are decimal."""
-    width = max(one.index for one in places) + 1
+def _check_widths(width: int, rows: list[Row], found: Found) -> None:
+    """Twice as many cells as heads, separated by commas: their commas are decimal."""
     bad = [row for row in rows if len(row.cells) >= 2 * width]
     if bad and len(bad) == len(rows):
         found.faults.append(f"line {bad[0].line} has {len(bad[0].cells)} cells below {width} heads: with decimal commas the cells must "
