@@ -68,6 +68,10 @@ class WrongName(Error, AttributeError):
     """A field that the struct does not have."""
 
 
+class Unanswered(ArithmeticError):
+    """A question of the command that has no answer for a scene, with the reason."""
+
+
 class Usage(ValueError):
     """A command line or a scene that does not fit the question."""
 

@@ -182,7 +182,7 @@ def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any, stopped:
     output.summary["hash"] = f"{sim.hash():016x}"
 
 
-def _stations(scene: Scene) -> list[tuple[str, list[Any], list[float]]]:
+def stations_of(scene: Scene) -> list[tuple[str, list[Any], list[float]]]:
     """Name, places and distances along each string."""
     return [(name, [station(scene.names[name], pipe, 1.0) for pipe in range(pipes)],
              [float(pipe + 1) for pipe in range(pipes)]) for name, pipes in scene.pipes.items()]
@@ -203,16 +203,16 @@ def modes(scene: Scene, output: Output, options: Any) -> int:
             output.say(f"{row[0]:14.6g} {row[1]:13.4g} {row[2]:7d} {row[3]:11.3f} {row[4]:15.3f} {row[5]:13.3f}")
         output.table("modes.csv", heads, rows)
         output.summary["modes"] = {"frequency_Hz": [row[0] for row in rows], "damping": [row[1] for row in rows]}
-        for name, places, along in _stations(scene):
+        for name, places, along in stations_of(scene):
             output.picture(f"modes_{file_name(name)}.png",
-                           lambda plots: _along_pipes(plots.shapes(found, places, along, 6, "modes")))
+                           lambda plots: along_pipes(plots.shapes(found, places, along, 6, "modes")))
         if output.folder is not None:
             for index in range(min(len(found), 12)):
                 found.write_vtk(index, output.path(f"mode_{index:02d}.vtp"))
     return output.finish()
 
 
-def _along_pipes(figure: Any) -> Any:
+def along_pipes(figure: Any) -> Any:
     figure.axes[-1].set_xlabel("pipe, from the rig [-]")
     return figure
 
@@ -306,25 +306,9 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
 
 
 def buckle(scene: Scene, output: Output, options: Any) -> int:
-    """Critical factors."""
-    ends = {int(value): value.name.lower() for value in enums.BucklingEnd}
-    with scene.new_sim() as sim:
-        to_rest(scene, sim, output)
-        with sim.buckling(**scene.fields_of("buckling")) as found:
-            output.note(found.status, "buckling")
-            confirmed = found.info.confirmed
-            for index, factor in enumerate(found.factors):
-                output.say(f"factor {factor:.6g}: " + ("confirmed" if index < confirmed else "extrapolated"))
-            if not found.factors:
-                output.say("it does not buckle as far as it was looked for")
-            output.summary["buckling"] = {"factors": found.factors, "confirmed": confirmed, "end": ends[found.info.end]}
-            output.table("buckling.csv", ["factor", "confirmed"],
-                         [(factor, int(index < confirmed)) for index, factor in enumerate(found.factors)])
-            for name, places, along in _stations(scene) if found.factors else []:
-                shape = found.shapes(0, places)
-                output.picture(f"buckling_{file_name(name)}.png", lambda plots: _along_pipes(
-                    plots.buckling(shape, along, found.factors[0], scene.title)))
-    return output.finish()
+    """Critical factors, and thrusts that buckle a soft string."""
+    from .buckle import buckle as answer
+    return answer(scene, output, options)
 
 
 def report(scene: Scene, output: Output, options: Any) -> int:

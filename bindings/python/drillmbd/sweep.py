@@ -93,7 +93,7 @@ class Sweep:
             QUESTIONS[self.question](scene, output, options)
             row.update(numbers_of(output.summary))
             row["message"] = "; ".join(output.summary["notes"])
-        except (Error, SceneError, CannotSave) as error:
+        except (Error, ArithmeticError, SceneError, CannotSave) as error:
             self.failed += 1
             row.update(status="failed", message=str(error))
         self.rows.append(row)

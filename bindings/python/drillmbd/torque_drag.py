@@ -64,7 +64,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     with scene.new_sim() as sim:
         for name in scene.pipes:
             string = scene.names[name]
-            depths = _depths(sim, string, options.depths)
+            depths = depths_of(sim, string, options.depths)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
             curves = Curves(name, string, found, settings.block_weight)
             _write_rows(sim, output, curves, settings)
@@ -119,7 +119,7 @@ def _frictions(text: str | None) -> list[float]:
     return sorted(set(found))
 
 
-def _depths(sim: Sim, string: Any, text: str) -> list[float]:
+def depths_of(sim: Sim, string: Any, text: str) -> list[float]:
     """[m] Depths of the bit: a number of them up to the described one, or a list."""
     first, last = _range(sim, string)
     if text.strip().lstrip("+-").isdigit():
