@@ -3,12 +3,12 @@
  * The element is the helix H_A exp(x d), d = (U; O), with the offset of its bending shapes to first order. With the
  * frame half way between its ends, R_m = R_A exp(O/2), its kinetic energy is
  *
- *     T = m |V|^2/2 + w.J(d) w/2 + d'.C d'/2,   V: velocity of the centre of mass x_c = (x_A + x_B)/2 + R_m z(d),
+ *     T = m |V|^2/2 + w.J(d) w/2 + d'.C d'/2 + S,   V: velocity of the centre of mass x_c = (x_A + x_B)/2 + R_m z(d),
  *
  * J the inertia about it in the axes of the middle, w = w_m + Gamma d' the speed of the mean axes, C what is left of
- * the straight mass. A rigid motion has d' = 0, so mass, momentum and energy are those of the bent body; C and J are
- * positive definite, and at rest the straight element's mass results. Forces are Lagrange's, so the power of inertia is
- * T' whatever d does. */
+ * the straight mass, S the coupling of spin and bend (below). A rigid motion has d' = 0, so mass, momentum and
+ * energy are those of the bent body; C and J are positive definite, and at rest the straight element's mass results.
+ * Forces are Lagrange's, so the power of inertia is T' whatever d does. */
 #ifndef DMB_ELEMENT_CURVED_MASS_H
 #define DMB_ELEMENT_CURVED_MASS_H
 
@@ -177,6 +177,161 @@ static inline void dmb_curved_subtract_gradient(const dmb_curved_constants *c, c
     }
 }
 
+/* ---- Spin of the material ---------------------------------------------------------------------------------------- */
+
+/* A round element that spins about its own bent axis carries its bend d backwards, d' = -w_x e_x x d, and its centre
+ * line stands still. Across, with the bow Z = O x U of the line, E = m even, b_0 = m L^2/720, what J and C have is
+ * completed by
+ *
+ *     S = E |Z'|^2/2 - b_0 |O'|^2/2 + w_x e_x.(E Z x Z' + k O x O' + q U x U')
+ *         + (U' + w_x e_x x U).C_U (U' + w_x e_x x U)/2 - U'.C_U U'/2,
+ *
+ * k = (C_O - b_0 - (r_0 - r_1)/12)/2, q = (m (s - G L)^2/12 + 2 (r_0 - r_1) t G + r_1 G^2)/2 with the spread s and tilt
+ * t of the shape and G of Gamma: nothing is left of the energy of such a spin to the second order of d. Squares of Z'
+ * and U' with their turn are whole, so the mass stays positive definite. */
+typedef struct dmb_curved_spinning {
+    dmb_real Z1[3], Z2[3];      /* Z', Z'' */
+    dmb_real bow, bow_rate;     /* E, E' */
+    dmb_real straight, k, q[2]; /* b_0; q by plane */
+} dmb_curved_spinning;
+
+/* e_x.(a x b) */
+static inline dmb_real dmb_curved_area(const dmb_real a[3], const dmb_real b[3])
+{
+    return a[1] * b[2] - a[2] * b[1];
+}
+
+/* out += f e_x x a */
+static inline void dmb_curved_add_across(dmb_real f, const dmb_real a[3], dmb_real out[3])
+{
+    out[1] -= f * a[2];
+    out[2] += f * a[1];
+}
+
+static inline void dmb_curved_spinning_at(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                          const dmb_real rate[6], dmb_curved_spinning *out)
+{
+    const dmb_real *O = s->d + 3, L = 12.0 * c->sixth, across = c->rotary[0] - c->rotary[1];
+    dmb_real U1[3];
+    dmb_curved_spread(c, rate, U1);
+    dmb_curved_cross_rate(O, rate + 3, s->U, U1, out->Z1);
+    out->Z1[0] = dmb_real_of(0.0);
+    out->bow = c->mass * s->even[0];
+    out->bow_rate = 2.0 * c->mass * s->even[1] * dmb_vec3_dot(O, rate + 3);
+    out->straight = (1.0 / 720.0) * c->mass * L * L;
+    out->k = 0.25 * (c->moving[4] + c->moving[5]) - 0.5 * out->straight - (1.0 / 24.0) * across;
+    for (int i = 0; i < 2; i++) {
+        const dmb_real off = 1.0 + 12.0 * c->offset[i] - c->turn[i] * L;
+        out->q[i] = (1.0 / 24.0) * c->mass * off * off + across * c->tilt[i] * c->turn[i] +
+                    0.5 * c->rotary[1] * c->turn[i] * c->turn[i];
+    }
+}
+
+/* C_U w_x e_x x U */
+static inline void dmb_curved_sway(const dmb_curved_constants *c, dmb_real w, const dmb_real U[3], dmb_real out[3])
+{
+    dmb_vec3_set(dmb_real_of(0.0), -w * c->moving[1] * U[2], w * c->moving[2] * U[1], out);
+}
+
+/* The work of F, across, at Z' = O' x U + O x U', added to D. */
+static inline void dmb_curved_add_bow_force(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                            const dmb_real F[3], dmb_real D[6])
+{
+    dmb_real y[3], x[3];
+    dmb_vec3_cross(s->U, F, y);
+    dmb_vec3_add(D + 3, y, D + 3);
+    dmb_vec3_cross(F, s->d + 3, y);
+    dmb_curved_spread(c, y, x);
+    dmb_vec3_add(D, x, D);
+}
+
+/* Derivatives of S by w and d', added to N and D. */
+static inline void dmb_curved_add_spin_momentum(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                                const dmb_curved_motion *motion, dmb_curved_force *f)
+{
+    const dmb_real *d = s->d, *rate = motion->rate, w = motion->w[0];
+    dmb_curved_spinning n;
+    dmb_real sway[3], whole[3], F[3];
+    dmb_curved_spinning_at(c, s, rate, &n);
+    const dmb_real q = 0.5 * (n.q[0] + n.q[1]);
+    dmb_curved_sway(c, w, d, sway);
+    dmb_vec3_set(dmb_real_of(0.0), c->moving[1] * rate[1] + sway[1], c->moving[2] * rate[2] + sway[2], whole);
+    f->N[0] += n.bow * dmb_curved_area(s->Z, n.Z1) + n.k * dmb_curved_area(d + 3, rate + 3) +
+               q * dmb_curved_area(d, rate) + dmb_curved_area(d, whole);
+    dmb_vec3_scale(n.bow, n.Z1, F);
+    dmb_curved_add_across(n.bow * w, s->Z, F);
+    dmb_curved_add_bow_force(c, s, F, f->D);
+    for (int i = 4; i < 6; i++) f->D[i] -= n.straight * rate[i];
+    dmb_curved_add_across(n.k * w, d + 3, f->D + 3);
+    dmb_curved_add_across(q * w, d, f->D);
+    dmb_vec3_add(f->D, sway, f->D);
+}
+
+/* Of the bow: the rate of its part of D less its gradient. */
+static inline void dmb_curved_add_bow_inertia(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                              const dmb_curved_motion *motion, const dmb_curved_spinning *n,
+                                              dmb_real D[6])
+{
+    const dmb_real w = motion->w[0], turning = motion->turning[0];
+    const dmb_real slope = 0.5 * dmb_vec3_norm_squared(n->Z1) + w * dmb_curved_area(s->Z, n->Z1);
+    dmb_real F[3];
+    for (int i = 0; i < 3; i++) F[i] = n->bow_rate * n->Z1[i] + n->bow * n->Z2[i];
+    dmb_curved_add_across(n->bow_rate * w + n->bow * turning, s->Z, F);
+    dmb_curved_add_across(2.0 * n->bow * w, n->Z1, F);
+    dmb_curved_add_bow_force(c, s, F, D);
+    dmb_vec3_axpy(-2.0 * c->mass * s->even[1] * slope, s->d + 3, D + 3);
+}
+
+/* Z'', across */
+static inline void dmb_curved_bow_second(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                         const dmb_curved_motion *motion, dmb_real out[3])
+{
+    dmb_real U1[3], U2[3], x[3];
+    dmb_curved_spread(c, motion->rate, U1);
+    dmb_curved_spread(c, motion->second, U2);
+    dmb_curved_cross_rate(s->d + 3, motion->second + 3, s->U, U2, out);
+    dmb_vec3_cross(motion->rate + 3, U1, x);
+    dmb_vec3_axpy(dmb_real_of(2.0), x, out);
+    out[0] = dmb_real_of(0.0);
+}
+
+/* Forces of inertia of S: the rate of N, turned with the middle, and the rate of D less the gradient by d. */
+static inline void dmb_curved_add_spin_inertia(const dmb_curved_constants *c, const dmb_curved_shape *s,
+                                               const dmb_curved_motion *motion, dmb_curved_force *f)
+{
+    const dmb_real *d = s->d, *rate = motion->rate, *second = motion->second, *w = motion->w;
+    const dmb_real turning = motion->turning[0];
+    dmb_curved_spinning n;
+    dmb_real sway[3], at_rate[3], turned[3], whole[3], change[3];
+    dmb_curved_spinning_at(c, s, rate, &n);
+    dmb_curved_bow_second(c, s, motion, n.Z2);
+    const dmb_real q = 0.5 * (n.q[0] + n.q[1]);
+    dmb_curved_sway(c, w[0], d, sway);
+    dmb_curved_sway(c, w[0], rate, at_rate);
+    dmb_curved_sway(c, turning, d, turned);
+    dmb_vec3_zero(whole);
+    dmb_vec3_zero(change);
+    for (int i = 1; i < 3; i++) {
+        whole[i] = c->moving[i] * rate[i] + sway[i];
+        change[i] = c->moving[i] * second[i] + at_rate[i] + turned[i];
+        f->D[i] += at_rate[i] + turned[i];
+        f->D[3 + i] -= n.straight * second[3 + i];
+    }
+    const dmb_real N = n.bow * dmb_curved_area(s->Z, n.Z1) + n.k * dmb_curved_area(d + 3, rate + 3) +
+                       q * dmb_curved_area(d, rate) + dmb_curved_area(d, whole);
+    f->N[0] += n.bow_rate * dmb_curved_area(s->Z, n.Z1) + n.bow * dmb_curved_area(s->Z, n.Z2) +
+               n.k * dmb_curved_area(d + 3, second + 3) + q * dmb_curved_area(d, second) +
+               dmb_curved_area(rate, whole) + dmb_curved_area(d, change);
+    f->N[1] += w[2] * N;
+    f->N[2] -= w[1] * N;
+    dmb_curved_add_across(w[0], whole, f->D); /* less the gradient by U: -w_x (whole x e_x) */
+    dmb_curved_add_across(n.k * turning, d + 3, f->D + 3);
+    dmb_curved_add_across(2.0 * n.k * w[0], rate + 3, f->D + 3);
+    dmb_curved_add_across(q * turning, d, f->D);
+    dmb_curved_add_across(2.0 * q * w[0], rate, f->D);
+    dmb_curved_add_bow_inertia(c, s, motion, &n, f->D);
+}
+
 /* ---- Forces ------------------------------------------------------------------------------------------------------ */
 
 /* The work of F at z' added to D: G x O + ... with G of the centre; `along` [m] is taken off gamma of U_x. */
@@ -237,6 +392,7 @@ static inline void dmb_curved_add_momentum(const dmb_curved_constants *c, const 
     for (int i = 0; i < 6; i++) f.D[i] = c->moving[i] * motion->rate[i];
     f.D[1] += c->turn[0] * spin.momentum[2];
     f.D[2] -= c->turn[1] * spin.momentum[1];
+    dmb_curved_add_spin_momentum(c, shape, motion, &f);
     dmb_curved_apply(c, shape, &f, p);
 }
 
@@ -262,6 +418,7 @@ static inline void dmb_curved_add_inertia(const dmb_curved_constants *c, const d
     f.D[1] += c->turn[0] * change[2];
     f.D[2] -= c->turn[1] * change[1];
     dmb_curved_subtract_gradient(c, shape, &spin, motion.mean, f.D);
+    dmb_curved_add_spin_inertia(c, shape, &motion, &f);
     dmb_curved_apply(c, shape, &f, ends);
 }
 

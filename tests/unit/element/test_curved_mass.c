@@ -217,6 +217,47 @@ static void forces_are_those_of_lagrange(void **state)
     check_below("forces of inertia, of p' - ad(v)^T p - dT/dq", worst, 1e-9);
 }
 
+/* ---- Spin -------------------------------------------------------------------------------------------------------- */
+
+/* Both ends of a round element spin about their own axes: the centre line stands still, and each section has the
+ * angular momentum of its rotary inertia. Largest force over m W^2 times the bow, and error of the energy over the
+ * bow's. */
+static void spin_errors(uint64_t *seed, double angle, double shear, double error[2])
+{
+    static const double arm[2] = {0.0, 0.0}, W = 3.0;
+    dmb_pipe_def def = dmb_pipe_def_default();
+    dmb_element_type type;
+    double d[6], v[12] = {0.0}, a[12] = {0.0}, p[12], f[12];
+    def.length = 2.0;
+    dmb_element_type_of(&def, arm, 0.0, &type);
+    dmb_element_make_curved(&def, &type);
+    draw_shape(seed, def.length, angle, shear * angle, d);
+    d[3] = 0.0;
+    d[0] = def.length;
+    v[3] = v[9] = W;
+    dmb_element_inertia(&type, d, v, a, f);
+    dmb_element_momentum(&type, d, v, v + 6, p, p + 6);
+    const double bow = angle * def.length / 8.0, energy = 0.5 * W * (p[3] + p[9]);
+    error[0] = largest(12, f) / (type.curved.mass * W * W * bow);
+    error[1] = fabs(energy / (0.5 * W * W * type.curved.rotary[0]) - 1.0);
+}
+
+static void spin_about_the_bent_axis_has_no_inertia(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double shear = k < 2 ? 0.0 : 0.1;
+        uint64_t coarse_seed = (uint64_t)(7 + k), fine_seed = coarse_seed;
+        double coarse[2], fine[2];
+        spin_errors(&coarse_seed, 0.2, shear, coarse);
+        spin_errors(&fine_seed, 0.1, shear, fine);
+        check_below("force of a spin, of that of the bow", fine[0], 5e-3);
+        check_below("its fall with the bend", fine[0] / coarse[0], 0.3);
+        check_below("energy of a spin, of the rotary one", fine[1], 5e-3);
+        check_below("its fall with the bend", fine[1] / coarse[1], 0.1);
+    }
+}
+
 /* ---- Definite ---------------------------------------------------------------------------------------------------- */
 
 /* Pivots of Cholesky's factors, lengths over that of the element; the smallest over the smallest of the straight one.
@@ -297,6 +338,7 @@ int main(void)
         cmocka_unit_test(a_straight_one_has_the_constant_mass),
         cmocka_unit_test(rigid_motion_has_the_momentum_of_slices),
         cmocka_unit_test(forces_are_those_of_lagrange),
+        cmocka_unit_test(spin_about_the_bent_axis_has_no_inertia),
         cmocka_unit_test(mass_is_positive_definite),
         cmocka_unit_test(a_free_one_falls_with_g),
     };
