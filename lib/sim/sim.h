@@ -151,12 +151,14 @@
                                                     each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint system/constrain/cluster, \
-       system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
+       system/constrain/sparse_cluster; torques of free rotations taken out by analysis/static/static_spin;          \
+       factors in their place by system/solve/solve: */                                                              \
     X(double, residual, r)              /* [N, N m] of the trial */                                                   \
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
-                                analysis/static/static_newton; pulls and stretches: analysis/static/static_lay */      \
+                                analysis/static/static_newton; without free rotations: analysis/static/static_spin;    \
+                                pulls and stretches: analysis/static/static_lay */                                     \
     X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin   \
                                      with: system/assemble/inertia_of_change */                                     \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \

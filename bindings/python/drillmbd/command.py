@@ -126,7 +126,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_new(commands: Any) -> None:
-    from .scene.new import OPTIONS
+    from .new_options import OPTIONS
     text = "writes a commented scene from a few values"
     made = commands.add_parser("new", help=text, description=text)
     made.add_argument("kind", choices=list(OPTIONS))
