@@ -495,6 +495,8 @@ class CommandTest(FolderTest):
         summary = json.loads((self.output / "summary.json").read_text(encoding="utf-8"))
         self.assertIn("stopped by Ctrl-C", summary["notes"][-1])
         self.assertIn("run.csv", summary["files"])
+        self.assertGreater(summary["run"]["elapsed_s"], 0.0)
+        self.assertGreater(summary["run"]["real_time_factor"], 0.0)
 
 
 if __name__ == "__main__":

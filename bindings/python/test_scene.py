@@ -734,6 +734,8 @@ class BadFilesTest(unittest.TestCase):
         self.one("count = 3", 'count = 3\nouter_diameter = "50 mm"', 11, "string[0].pipes[0].outer_diameter", "must")
         self.one('end = "10 ms"', 'end = "-10 ms"', 15, "run.end", "must be > 0 s")
         self.one('end = "10 ms"', 'end = "10 m"', 15, "run.end", "has the unit 'm'", "time")
+        self.one("[run]", "[[bitt]]\nx = 1\n[[bitt]]\n[run]", 14, "bitt", "unknown key", "did you mean bit?")
+        self.one("[run]", "[[string.bits]]\nx = 1\n[run]", 14, "string[0].bits", "unknown key")
         self.one("[run]", "[rum]", 14, "rum", "unknown key", "did you mean run?")
         self.one('name = "main"', 'name = "feed"', 8, "string[0].name", "names a programme already")
         self.one('name = "main"', "name = 3", 8, "string[0].name", "must be a text")
@@ -745,7 +747,9 @@ class BadFilesTest(unittest.TestCase):
     def test_name_that_is_none(self):
         found = problems(SMALL.replace('programme = "feed"', 'programme = "fed"'))
         self.assertIn("drive[0].programme", [one.key for one in found])
-        self.assertTrue(any("names no part; did you mean feed?" in str(one) for one in found))
+        self.assertTrue(any("names no programme; did you mean feed?" in str(one) for one in found))
+        found = [str(one) for one in problems(SMALL.replace('programme = "feed"', 'programme = "nope"'))]  # no drives among the candidates
+        self.assertTrue(any(one.endswith("names no programme; possible are feed") for one in found), found)
 
     def test_all_faults_at_once(self):
         text = SMALL.replace('"94 mm"', '"-94 mm"\nrestitution = 3\nmu_dynamics = 0.1').replace('"10 ms"', '"10 kg"')

@@ -72,7 +72,8 @@ def _found(sim: Sim, values: dict[str, Any], output: Output) -> Buckling:
     except Error as error:
         if error.status != enums.Status.ERR_NO_CONVERGENCE or not values.get("follow", 1):
             raise
-        found = sim.buckling(**{**values, "follow": 0})
+        present: dict[str, Any] = {**values, "follow": 0}
+        found = sim.buckling(**present)
         reached = re.search(r"stable up to factor = [-+.\de]+", error.message)
         output.note_text("buckling: the equilibria " + (f"are {reached[0]} and " if reached else "") + "could not be followed to the critical factor; "
                          "factors are extrapolated from the static state. Use more elements or a softer wall to confirm them")

@@ -79,7 +79,7 @@ def operations_of(plan: Operating) -> list[_structs.Operation]:
 
 def with_weight(scene: Scene, plan: Operating, weight: float) -> Operating:
     """The plan with another weight on the bit [N], and the torque that belongs to it by the same estimate."""
-    bit = next((arguments[0] for name, arguments in scene.model.calls if name == "add_bit"), {})
+    bit: dict[str, Any] = next((arguments[0] for name, arguments in scene.model.calls if name == "add_bit"), {})
     found = Operating(plan.rotation, plan.feed, weight)
     _estimate(found, bit)
     return found

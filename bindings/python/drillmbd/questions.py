@@ -1,6 +1,7 @@
 """The questions that the command asks of a scene, one function each."""
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -136,16 +137,18 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
     every = scene.output.get("vtk_interval") if output.folder is not None else None
     if every and step:
         every = max(1, round(every / step)) * step  # whole steps: files change no step
-    bar, frame, steps, elapsed, begin = None if output.quiet else Bar(sim.time, end), 0, 0, 0.0, sim.time
+    bar, frame, elapsed, begin = None if output.quiet else Bar(sim.time, end), 0, 0.0, sim.time
     stopped = False
     try:
         while end - sim.time > (1e-6 * step if step else 0.0):
             if every:
                 sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
                 frame += 1
-            done = sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar,
-                           counters=counters)
-            steps, elapsed = steps + done.steps, elapsed + done.elapsed
+            started = time.perf_counter()
+            try:
+                sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar, counters=counters)
+            finally:
+                elapsed += time.perf_counter() - started
     except KeyboardInterrupt:
         stopped = True
         output.summary["notes"].append(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")

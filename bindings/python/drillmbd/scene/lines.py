@@ -71,7 +71,10 @@ def _table(keys: list[str], is_array: bool, counts: dict[Path, int]) -> Path:
 
 
 def line_of(found: dict[Path, int], path: Path) -> int:
-    """The line of the path, or of the closest thing it stands in."""
+    """The line of the path or of the first thing in it, as [[bitt]] for "bitt"; else of the closest thing it stands in."""
     while path and path not in found:
+        inside = [line for other, line in found.items() if other[:len(path)] == path]
+        if inside:
+            return min(inside)
         path = path[:-1]
     return found.get(path, 1)

@@ -74,6 +74,10 @@ def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: st
     scene.divided = [one for one in divided or [] if one.elements > 1]
     return scene, loader.undivided
 
+#: Kinds of the parts that a key names; those of other keys: any part.
+NAMES_OF = {"programme": ("programme",), "excitation": ("programme",), "load": ("programme",), "string": ("string",), "ring": ("ring",),
+            "input": ("input",), "body": ("body",), "third_joint": ("joint",), "fourth_joint": ("joint",)}
+
 
 class Loader:
     """Goes through the content: names, units of programmes, then part by part into the model."""
@@ -230,7 +234,10 @@ class Loader:
         if isinstance(value, str) and value in self.names:
             return self.names[value]  # type: ignore[no-any-return]
         if not isinstance(value, str) or value not in self.kinds:
-            self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
+            wanted = next((part for part in reversed(path) if isinstance(part, str)), "part")
+            kinds = NAMES_OF.get(wanted, PARTS)
+            self.problems.add(path, value, f"names no {kinds[0] if len(kinds) == 1 else 'part'}"
+                              + meant(str(value), [name for name, kind in self.kinds.items() if kind in kinds]))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
                                            "then strings, subs, bodies, bits, rings, joints, couplings, drives, loads, springs, "

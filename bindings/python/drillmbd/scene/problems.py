@@ -76,7 +76,7 @@ def dotted(path: Path) -> str:
 
 def meant(word: str, known: Iterable[str]) -> str:
     """A suggestion for a misspelt word, or what is possible."""
-    known = sorted(known)
+    known = sorted(set(known))
     close = difflib.get_close_matches(word, known, 1, 0.6)
     if close:
         return f"; did you mean {close[0]}?"
