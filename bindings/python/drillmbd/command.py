@@ -90,6 +90,7 @@ def parser() -> argparse.ArgumentParser:
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
+            command.add_argument("--verify", action="store_true", help="runs the last tenth again with half the step and compares all channels")
         if name == "stuck":
             for word, unit in (("pull", "kN"), ("push", "kN"), ("torque", "N m"), ("overpull", "kN"), ("stretch", "mm")):
                 command.add_argument(f"--{word}", metavar=word.upper(), help=STUCK[word] + f', as "20 {unit}"')

@@ -12,6 +12,7 @@ from .enums import Status
 from .errors import Usage
 from .scene import Scene, words
 from .scene.units import UnitError, parse
+from .run_quality import FirstTenth, LastPart, energy_error
 from .running import Bar
 from .sim import Sim
 
@@ -126,9 +127,16 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], rows, interval
                                 ) if scene.channels else None
         counters = count_fatigue(scene, sim)
-        stopped = _go(scene, sim, output, end, step, recorder, list(counters.values()))
+        last = LastPart(scene, sim, end, step) if options.verify else None
+        first = FirstTenth(sim, sim.time, end) if scene.sim.get("energy_ledger", 1) else None
+        takers = [*counters.values(), *(one for one in (last, first) if one is not None)]
+        stopped = _go(scene, sim, output, end, step, recorder, takers)
         tell_fatigue(counters, output)
-        _run_answers(scene, sim, output, recorder, stopped)
+        if first is not None and sim.statistics().steps:
+            energy_error(sim, output, first, not stopped)
+        _run_answers(scene, sim, output, recorder)
+        if last is not None and not stopped:
+            last.verify(output)
     return output.finish(130 if stopped else 0)
 
 
@@ -163,13 +171,7 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
     return stopped
 
 
-def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any, stopped: bool) -> None:
-    if sim.statistics().steps and scene.sim.get("energy_ledger", 1):
-        energy = sim.energy()
-        output.summary["energy_error"] = energy.error
-        output.summary["energy_error_growth"] = energy.growth
-        output.say(f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present,"
-                   f" of which {energy.growth:.1e} in the last tenth of the run")
+def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any) -> None:
     note_bounces(sim, output)
     if recorder is not None and len(recorder):
         table = recorder.table

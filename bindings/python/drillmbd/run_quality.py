@@ -1,0 +1,101 @@
+"""Quality of a run in time: the energy error of its first and last tenth, and the last part again with half the step."""
+from __future__ import annotations
+
+from typing import Any
+
+from .answers import Output
+from .enums import Status
+from .errors import Usage
+from .scene import Scene
+from .sim import Sim
+
+PART, LEAST_STEPS = 0.1, 20   #: of the run that is verified; it has as many steps at least
+NOTABLE = 0.05                #: difference of largest values, of the larger one, above which a note is made
+GROWS, SMALL = 10.0, 1e-4     #: energy error of the last tenth over that of the first, and over the energy, above which a note is made
+MOST_NUMBERS = 50_000_000
+
+
+class FirstTenth:
+    """Takes the energy balance at the end of the first tenth of a run."""
+
+    def __init__(self, sim: Sim, begin: float, end: float) -> None:
+        self.sim, self.until = sim, begin + 0.1 * (end - begin)
+        self.start = sim.energy().balance
+        self.balance: float | None = None   #: [J] change of the balance
+
+    def take(self) -> int:
+        """Once, at the first step that ends there or later."""
+        if self.balance is None and self.sim.time >= self.until:
+            self.balance = self.sim.energy().balance - self.start
+        return Status.OK
+
+
+class LastPart:
+    """Takes the state at the beginning of the last part of a run, and all channels after each step from there on."""
+
+    def __init__(self, scene: Scene, sim: Sim, end: float, step: float | None) -> None:
+        if not step:
+            raise Usage("--verify needs a given step: give [run] step or --step")
+        if not scene.channels:
+            raise Usage("--verify compares the channels of the scene, which has none; add a [[channel]]")
+        self.scene, self.sim, self.end, self.step = scene, sim, end, step
+        self.length = min(end - sim.time, max(PART * (end - sim.time), LEAST_STEPS * step))
+        self.begin = end - self.length
+        self.rows = int(self.length / step + 3)
+        if 2 * self.rows * (1 + len(scene.channels)) > MOST_NUMBERS:
+            raise Usage(f"--verify: {2 * self.rows} rows of {1 + len(scene.channels)} numbers are more than {MOST_NUMBERS}; give a longer step")
+        self.state: bytes | None = None
+        self.recorder = self._recorder(self.rows)
+        if self.length == end - sim.time:
+            self.take()
+
+    def _recorder(self, rows: int) -> Any:
+        return self.sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.channels], rows, 0.0)
+
+    def take(self) -> int:
+        """A row, and the state with the first one."""
+        if self.sim.time < self.begin - 1e-6 * self.step:
+            return Status.OK
+        if self.state is None:
+            self.state, self.begin = self.sim.snapshot(), self.sim.time
+        return int(self.recorder.take())
+
+    def verify(self, output: Output) -> None:
+        """Runs the part again with half the step, and compares the largest magnitude of each channel. The sim is at the end of the run
+        before and after."""
+        assert self.state is not None
+        self.sim.restore(self.state)
+        again = self._recorder(2 * self.rows + 3)
+        self.sim.run(self.end, 0.5 * self.step, again)
+        output.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
+        told: dict[str, Any] = {}
+        changed: list[str] = []
+        for column, name in enumerate(self.recorder.columns[1:], 1):
+            first, second = (float(abs(one.table[:, column]).max()) for one in (self.recorder, again))
+            larger = max(first, second)
+            change = (second - first) / larger if larger > 0.0 else 0.0
+            told[name] = {"step": first, "half_step": second, "change": change}
+            output.say(f"  {name}: {first:.5g}, with half the step {second:.5g} ({100.0 * change:+.2g} %)")
+            if abs(change) > NOTABLE:
+                changed.append(name)
+        output.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step, "channels": told}
+        if changed:
+            output.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more than {100.0 * NOTABLE:g} %; run "
+                             "with a shorter step and compare again")
+
+
+def energy_error(sim: Sim, output: Output, first: FirstTenth, complete: bool) -> None:
+    """The error at the end, and its parts in the first and the last tenth of a run that is complete."""
+    energy = sim.energy()
+    output.summary.update(energy_error=energy.error, energy_error_growth=energy.growth)
+    text = f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present"
+    if complete and first.balance is not None and energy.scale > 0.0:
+        begin = abs(first.balance) / energy.scale
+        output.summary["energy_error_first_tenth"] = begin
+        text += f"; its change in the first tenth of the run {begin:.1e}, in the last tenth {abs(energy.growth):.1e}"
+        if abs(energy.growth) > max(SMALL, GROWS * begin):
+            output.note_text("the energy error grows faster at the end of the run than at its beginning: the steps do not resolve the motion there; "
+                             "run with half the step and compare")
+    else:
+        text += f", of which {energy.growth:.1e} in the last tenth of the run"
+    output.say(text)
