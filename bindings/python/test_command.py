@@ -277,6 +277,20 @@ class CommandTest(FolderTest):
                               (["--frictions", "-1"], "outside 0 .. 10"), (["--block-weight", "3 m"], "--block-weight")):
             self.assertIn(wanted, self.ask("torque-drag", self.scene, *words, status=2))
 
+    def test_broomstick_of_a_hole_with_sections(self):
+        """The friction of each section times 0.5, 1 and 1.5; a coefficient of the command line takes the place of all."""
+        weight = 9.81 * 7850 * 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
+        self.scene = self.write("rig.toml", SCENE + '[[hole.section]]\ndepth = "4 m"\nmu_static = 0.5\nmu_dynamic = 0.4\ntransition = "1 mm"\n')
+        out, summary = self.answer("torque-drag", "--depths", "8 m")
+        broom = summary["broomstick"]["main"]
+        self.assertEqual((broom["factor"], broom["friction"]), ([0.5, 1.0, 1.5], None))
+        for factor, loads in zip(broom["factor"], broom["pick-up_hook_load_N"]):
+            self.assertAlmostEqual(loads[0] / (factor * weight * 4 * (0.3 + 0.4)), 1.0, 4)
+        self.assertAlmostEqual(broom["pick-up_hook_load_N"][1][0], summary["torque_drag"]["main"]["pick-up"]["hook_load_N"], 9)
+        self.assertIn("broomstick: 0.5, 1 and 1.5 times the wall's friction at each depth", out)
+        out, summary = self.answer("torque-drag", "--depths", "8 m", "--friction", "0.2")
+        self.assertEqual(summary["broomstick"]["main"]["friction"], [0.1, 0.2, 0.3])
+
     def test_torque_drag_loads_of_the_scene(self):
         """Load and torque of the bit are those of the scene; with another load the estimate of the torque follows."""
         scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + '[[programme]]\nname = "bit load"\nterm = {h0 = "2 kN"}\n'

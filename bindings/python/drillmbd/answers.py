@@ -106,6 +106,11 @@ def finite(value: Any) -> Any:
     return [finite(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
+def kilo(value: float) -> str:
+    """A number in four digits with the prefix of its unit: "1.5 k"."""
+    return f"{value / 1e3:.4g} k" if abs(value) >= 1e3 else f"{value:.4g} "
+
+
 def record(struct: Any) -> dict[str, Any]:
     """A struct as plain Python for the summary."""
     return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))

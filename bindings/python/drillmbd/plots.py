@@ -173,16 +173,16 @@ def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_
     return figure
 
 
-def broomstick(depths: Sequence[float], loads: dict[tuple[str, float], Sequence[float]], torques: dict[float, Sequence[float]],
+def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[float]], torques: dict[str, Sequence[float]],
                title: str = "", measured: dict[str, Any] | None = None) -> Any:
-    """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction coefficient (kind
-    of line); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as points."""
+    """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction (kind of line; "friction
+    0.3"); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as points."""
     figure, ((load, torque),) = _axes(1, 2, (13, 7), sharey=True)
     measured = measured or {}
     words, frictions = list(dict.fromkeys(word for word, _ in loads)), list(torques)
     factor, prefix = _kilo(*loads.values(), *(values for word, (_, values) in measured.items() if word != "torque"))
     for (word, friction), column in loads.items():
-        load.plot([factor * value for value in column], depths, label=f"{word}, friction {friction:.3g}", linewidth=1.2,
+        load.plot([factor * value for value in column], depths, label=f"{word}, {friction}", linewidth=1.2,
                   color=COLOURS[words.index(word)], linestyle=LINES[frictions.index(friction) % len(LINES)])
     for number, word in enumerate(words):
         if word in measured:
@@ -192,7 +192,7 @@ def broomstick(depths: Sequence[float], loads: dict[tuple[str, float], Sequence[
     load.set(xlabel=f"hook load [{prefix}N]\n(< 0: the rig thrusts)", ylabel="measured depth of the bit [m]")
     factor, prefix = _kilo(*torques.values(), *(values for word, (_, values) in measured.items() if word == "torque"))
     for number, (friction, column) in enumerate(torques.items()):
-        torque.plot([factor * value for value in column], depths, label=f"rotate, friction {friction:.3g}", linewidth=1.2,
+        torque.plot([factor * value for value in column], depths, label=f"rotate, {friction}", linewidth=1.2,
                     color=COLOURS[2], linestyle=LINES[number % len(LINES)])
     if "torque" in measured:
         torque.plot([factor * value for value in measured["torque"][1]], measured["torque"][0], "D", markersize=4, fillstyle="none",

@@ -6,18 +6,16 @@ from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import enums, measured, rig_limits
+from . import broomstick, enums, measured, rig_limits
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
-from .answers import RPM, Output, file_name, friction_option, quantity
+from .answers import RPM, Output, file_name, friction_option, kilo, quantity
 from .errors import Error, Usage
 from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
 from .profile import values_of
 from .scene import Scene
 from .sim import Sim
 
-BROOMSTICK = (enums.OPERATION_PICK_UP, enums.OPERATION_SLACK_OFF, enums.OPERATION_ROTATE)
-FACTORS = (0.5, 1.0, 1.5)   #: of the wall's friction coefficient, where no coefficients are given
 MOST_DEPTHS, MOST_FRICTIONS = 2 ** 20, 20
 FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items() if name not in ("struct_size", "reserved", "depth", "locked")}
 WORDS = {int(kind): operation_name(kind) for kind in OPERATIONS}
@@ -71,7 +69,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
             loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
             rig_limits.write(output, name, found.column("depth"), loads, scene.limits)
             _compare(scene, sim, output, curves, settings)
-            _broomstick(scene, sim, output, curves, settings)
+            broomstick.write(scene, sim, output, curves, settings)
             settings.series = {}
     return output.finish()
 
@@ -81,21 +79,21 @@ def _settings(scene: Scene, options: Any) -> Settings:
     plan, notes = operating(scene), []
     if options.weight_on_bit is not None:
         plan = with_weight(scene, plan, quantity(options.weight_on_bit, "N", "--weight-on-bit"))
-        notes.append(f"weight on bit {_kilo(plan.weight_on_bit or 0.0)}N, as given")
+        notes.append(f"weight on bit {kilo(plan.weight_on_bit or 0.0)}N, as given")
     elif plan.weight_on_bit:
-        notes.append(f"weight on bit {_kilo(plan.weight_on_bit)}N, the largest load of the bit in the scene")
+        notes.append(f"weight on bit {kilo(plan.weight_on_bit)}N, the largest load of the bit in the scene")
     else:
         notes.append("weight on bit 0 N, because the scene gives the bit no load; give --weight-on-bit")
     if options.torque_on_bit is not None:
         plan.torque_on_bit, plan.estimated = quantity(options.torque_on_bit, "N*m", "--torque-on-bit"), False
-        notes.append(f"torque on bit {_kilo(plan.torque_on_bit)}N m, as given")
+        notes.append(f"torque on bit {kilo(plan.torque_on_bit)}N m, as given")
     elif plan.estimated:
-        notes.append(f"torque on bit {_kilo(plan.torque_on_bit)}N m, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
+        notes.append(f"torque on bit {kilo(plan.torque_on_bit)}N m, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
     elif plan.weight_on_bit:
         notes.append("torque on bit 0 N m: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
     block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
     if block:
-        notes.append(f"hook loads include {_kilo(block)}N of block and top drive")
+        notes.append(f"hook loads include {kilo(block)}N of block and top drive")
     operations = operations_of(plan)
     drill = operations[enums.OPERATION_DRILL]
     notes.append(f"drilling at {drill.rotary_speed / RPM:.4g} rpm and {1e3 * drill.axial_speed:.4g} mm/s"
@@ -155,15 +153,11 @@ def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: S
             _check_depth("--measured", depth, first, last)
     friction = settings.more.get("friction")
     if friction is None:
-        friction, _ = wall_friction(scene, curves.found.column("depth"))
+        friction = broomstick.wall_friction(scene, first, last)
     measured.compare(sim, curves.string, curves.name, output, settings.series, settings.operations, settings.block_weight, friction)
 
 
 # ---- Rows ------------------------------------------------------------------------------------------------------------
-def _kilo(value: float) -> str:
-    return f"{value / 1e3:.4g} k" if abs(value) >= 1e3 else f"{value:.4g} "
-
-
 def _key(name: str) -> str:
     unit = FIELDS[name]
     return name if unit in ("", "-") else f"{name}_{unit.replace(' ', '_')}"
@@ -232,42 +226,3 @@ def _neutral_point(sim: Sim, curves: Curves, settings: Settings, kind: int, dept
         if first * second < 0.0:
             return float(above + (below - above) * first / (first - second))
     return None
-
-
-# ---- Broomstick ------------------------------------------------------------------------------------------------------
-def wall_friction(scene: Scene, depths: list[float]) -> tuple[float, bool]:
-    """The wall's dynamic coefficient, averaged over depths [m], and whether it is the same at all of them."""
-    values = [float(scene.model.hole(depth).mu_dynamic) for depth in depths]
-    mean = sum(values) / len(values)
-    return mean, max(values) - min(values) <= 1e-12 * max(1.0, mean)
-
-
-def _broomstick(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
-    depths, operations = curves.found.column("depth"), [settings.operations[kind] for kind in BROOMSTICK]
-    frictions = settings.frictions
-    if not frictions:
-        mean, same = wall_friction(scene, depths)
-        frictions = [round(factor * mean, 12) for factor in FACTORS] if mean > 0.0 else [0.0]
-        output.say(f"{curves.name}, broomstick: friction coefficients {', '.join(f'{one:.4g}' for one in frictions)}, "
-                   + ("0.5, 1 and 1.5 times that of the wall" if mean > 0.0 else "that of the wall")
-                   + ("" if same else ", which is the mean over the depths"))
-    families = [sim.torque_drag(operations, depths, string=curves.string, friction=one) for one in frictions]
-    columns = {(kind, friction): [one.hook_load + settings.block_weight for one in (rows[number] for rows in family.rows)]
-               for number, kind in enumerate(BROOMSTICK) for friction, family in zip(frictions, families)}
-    torques = {friction: family.column("torque", 2) for friction, family in zip(frictions, families)}
-    for (kind, friction), column in columns.items():
-        locked = next((depth for depth, value in zip(depths, column) if not math.isfinite(value)), None)
-        if locked is not None:
-            output.say(f"{curves.name}, {WORDS[kind]} with friction {friction:.4g}: locks up from {locked:.4g} m on")
-    output.summary.setdefault("broomstick", {})[curves.name] = {
-        "depth_m": depths, "friction": frictions,
-        **{f"{WORDS[kind]}_hook_load_N": [columns[kind, one] for one in frictions] for kind in BROOMSTICK},
-        "rotate_torque_N_m": [torques[one] for one in frictions]}
-    heads = ["depth [m]", *(f"{WORDS[kind]}, friction {one:.4g}: hook load [N]" for kind, one in columns),
-             *(f"rotate, friction {one:.4g}: torque [N m]" for one in frictions)]
-    output.table(f"broomstick_{file_name(curves.name)}.csv", heads, zip(depths, *columns.values(), *torques.values()))
-    series = settings.series
-    title = curves.name + (f", with {_kilo(settings.block_weight)}N of block and top drive" if settings.block_weight else "")
-    output.picture(f"broomstick_{file_name(curves.name)}.png", lambda plots: plots.broomstick(
-        depths, {(WORDS[kind], friction): column for (kind, friction), column in columns.items()}, torques, title,
-        {word: (one.depths, one.values) for word, one in series.items()}))
