@@ -12,13 +12,20 @@
  * An element's strain is 0 in a candidate, so that its part of K B is rounding however long, bent or soft the string
  * is: a row is 0 where it is below a part of its terms, sum |K_ij| |B_jk|, and the rank is that of few and well-scaled
  * numbers, by Givens rotations of its rows and Householder's QR with column pivoting (Golub, Van Loan 2013, 5.2
- * and 5.4). */
+ * and 5.4).
+ *
+ * Candidates that nearly cancel leave a small motion whose stiffness is below the rounding of their terms: a rotation
+ * about the axis less that of all sections is the sag of the string, turned out of its plane. Therefore the motions r
+ * found, r^T M r = 1, are judged once more by themselves: they are rotated among each other so that r_i^T K r_j is
+ * diagonal, and r is a rigid-body motion if w^2 = r^T K r is rounding of its terms, eps sum |r_i| |K_ij| |r_j|. An
+ * error of r changes w^2 by its square only. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
+#include "math/bridge.h"
 #include "math/dense.h"
 #include "math/null_space.h"
 #include "math/so3.h"
@@ -30,6 +37,8 @@
 #define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
 /* Forces that the state leaves over turn with a motion. */
 #define DMB_RIGID_RESIDUAL 8.0
+/* [-] r^T K r below this part of its terms is rounding. */
+#define DMB_RIGID_QUOTIENT (64.0 * DBL_EPSILON)
 /* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
 #define DMB_RIGID_BENT 1e-6
 /* The conditions are dense in the candidates: 200 parts. */
@@ -304,6 +313,73 @@ static void take_motion(const conditions *c, const double *q)
     search->rigid_count++;
 }
 
+/* ---- Motions that K turns back ----------------------------------------------------------------------------------- */
+
+/* Whether w^2 = r^T K r is more than rounding of its terms. */
+static int is_resisted(const conditions *c, const double *r)
+{
+    const size_t rows = c->linear->rows;
+    double noise = 0.0;
+    memcpy(c->d, r, rows * sizeof(double));
+    dmb_linear_multiply(c->linear, &c->linear->stiffness, c->d, c->Kd);
+    dmb_linear_terms(c->linear, &c->linear->stiffness, c->d, c->terms_d);
+    add_rounding(c);
+    add_unbalanced(c);
+    for (size_t i = 0; i < rows; i++) noise += c->tolerance * fabs(r[i]) * c->terms_d[i];
+    return !(fabs(dmb_dot(rows, r, c->Kd)) <= noise);
+}
+
+/* r_i^T K r_j, symmetric */
+static void project(const conditions *c, double *K)
+{
+    const size_t m = c->search->rigid_count, rows = c->linear->rows;
+    const double *r = c->search->rigid;
+    for (size_t j = 0; j < m; j++) {
+        dmb_linear_multiply(c->linear, &c->linear->stiffness, r + rows * j, c->Kd);
+        for (size_t i = 0; i < m; i++) K[m * j + i] = dmb_dot(rows, r + rows * i, c->Kd);
+    }
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < j; i++) K[m * j + i] = K[m * i + j] = 0.5 * (K[m * j + i] + K[m * i + j]);
+}
+
+/* The combinations of the motions, by the vectors Y, that K does not turn back; `mixed`: shape (rigid_count, rows). */
+static void keep_unresisted(const conditions *c, const double *Y, double *mixed)
+{
+    dmb_mode_search *search = c->search;
+    const size_t m = search->rigid_count, rows = c->linear->rows;
+    memset(mixed, 0, m * rows * sizeof(double));
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++)
+            for (size_t k = 0; k < rows; k++) mixed[rows * i + k] += Y[m * i + j] * search->rigid[rows * j + k];
+    search->rigid_count = 0;
+    for (size_t i = 0; i < m; i++) {
+        if (is_resisted(c, mixed + rows * i)) continue;
+        const size_t at = rows * search->rigid_count++;
+        memcpy(search->rigid + at, mixed + rows * i, rows * sizeof(double));
+        dmb_linear_multiply(c->linear, &c->linear->mass, search->rigid + at, search->rigid_momentum + at);
+    }
+}
+
+/* Motions with a stiffness above rounding are vibrations and leave. An unsymmetric K has no such quotient. */
+static int32_t leave_vibrations(conditions *c)
+{
+    dmb_mode_search *search = c->search;
+    const size_t m = search->rigid_count, rows = c->linear->rows, work = dmb_eigen_work(m);
+    const size_t bytes = (m * m + m + work + m * rows) * sizeof(double);
+    uint32_t resisted = 0;
+    c->tolerance += DMB_RIGID_QUOTIENT - DMB_RIGID_ROUNDING;
+    for (size_t i = 0; i < m; i++) resisted += is_resisted(c, search->rigid + rows * i) != 0;
+    if (resisted == 0 || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)) return DMB_OK;
+    double *K = dmb_allocate(c->allocator, bytes);
+    if (K == NULL) return DMB_ERR_NO_MEMORY;
+    double *values = K + m * m, *lapack = values + m;
+    project(c, K);
+    const int32_t status = dmb_eigen_symmetric(m, K, values, lapack) == 0 ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
+    if (status >= 0) keep_unresisted(c, K, lapack + work);
+    dmb_release(c->allocator, K, bytes);
+    return status;
+}
+
 static int32_t reserve(dmb_mode_search *search, size_t count)
 {
     const size_t rows = search->linear->rows;
@@ -335,7 +411,7 @@ static int32_t take_null_space(conditions *c)
         take_motion(c, q);
     }
     dmb_release(c->allocator, R, bytes);
-    return status;
+    return status < 0 || rank == n ? status : leave_vibrations(c);
 }
 
 static int32_t open_conditions(conditions *c)
