@@ -20,8 +20,9 @@ EXAMPLES = """examples:
   drillmbd modes rig.toml                     natural frequencies
   drillmbd response rig.toml --output out     what shakes how much, by [response]
   drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
-  drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
-  drillmbd buckle rig.toml                    critical factors, by [buckling]
+  drillmbd torque-drag rig.toml --measured log.csv -o out   the friction that explains measured hook loads
+  drillmbd speeds rig.toml                    rotary speeds to avoid, by [speeds]
+  drillmbd buckle rig.toml                    critical factors by [buckling], thrusts that buckle the string
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
   drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   what arrives at a stuck bit; how far is it free?
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
@@ -75,13 +76,13 @@ def parser() -> argparse.ArgumentParser:
                                     epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
     found.add_argument("--version", action="version", version=f"drillmbd {__version__}")
     commands = found.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, text in (("check", "reads the scene and tells what it consists of and what looks wrong"),
-                       ("static", "finds the static state"), ("run", "runs the scene in time"),
-                       ("modes", "finds natural frequencies about the static state"),
-                       ("response", "finds the response to what shakes about the static state"),
-                       ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at"),
-                       ("torque-drag", "finds what the rig must pull, push and turn at each depth, as a soft string"),
-                       ("stuck", "finds what pull, push and torque arrive at a stuck bit, and the free point by stretch"),
+    for name, text in (("check", "describes the scene and warns of what looks wrong"),
+                       ("static", "computes the static equilibrium"), ("run", "runs the scene in time"),
+                       ("modes", "computes natural frequencies about the static equilibrium"),
+                       ("response", "computes the linear response to excitations about the static equilibrium"),
+                       ("speeds", "computes rotary speeds to avoid"), ("buckle", "computes critical factors, and thrusts at which the string buckles"),
+                       ("torque-drag", "computes hook load and torque by depth as a soft string, reach of the rig, friction from measurements"),
+                       ("stuck", "computes pull, push and torque that arrive at a stuck bit, and the free point by stretch"),
                        ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
