@@ -236,6 +236,8 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(found["helical_thrust_N"][-1] / (2 ** 0.5 * load), 1.0, 6)
         self.scene = self.write("column.toml", COLUMN.replace("start_free = []", "start_free = [\"rx\"]"))
         self.assertRegex(self.ask("buckle", self.scene, status=1), "^drillmbd: buckling: not assessed, because no drive holds")
+        told = self.ask("torque-drag", self.scene, status=1)
+        self.assertRegex(told, "^drillmbd: torque and drag: the model has no hole")
 
     def test_torque_drag(self):
         out, summary = self.answer("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths", "5")
@@ -288,6 +290,10 @@ class CommandTest(FolderTest):
             self.assertAlmostEqual(loads[0] / (factor * weight * 4 * (0.3 + 0.4)), 1.0, 4)
         self.assertAlmostEqual(broom["pick-up_hook_load_N"][1][0], summary["torque_drag"]["main"]["pick-up"]["hook_load_N"], 9)
         self.assertIn("broomstick: 0.5, 1 and 1.5 times the wall's friction at each depth", out)
+        log = self.write("log.csv", f"depth [m],pick-up [N]\n8,{weight * 4 * (0.3 + 0.4):.6f}\n")
+        out, summary = self.answer("torque-drag", "--depths", "8 m", "--measured", log)
+        self.assertIn("one coefficient is fitted for all sections of the hole", out)
+        self.assertAlmostEqual(summary["measured"]["main"]["pick-up"]["friction"], 0.35, 4)
         out, summary = self.answer("torque-drag", "--depths", "8 m", "--friction", "0.2")
         self.assertEqual(summary["broomstick"]["main"]["friction"], [0.1, 0.2, 0.3])
 

@@ -29,10 +29,15 @@ class Family:
     rows: list[list[TorqueDragRow]]
 
 
-def wall_friction(scene: Scene, first: float, last: float) -> float:
-    """The wall's dynamic coefficient, averaged between two depths [m]."""
+def wall_frictions(scene: Scene, first: float, last: float) -> list[float]:
+    """The wall's dynamic coefficient at places spread evenly between two depths [m]."""
     depths = [first + (last - first) * (i + 0.5) / SAMPLES for i in range(SAMPLES)]
-    return sum(float(scene.model.hole(depth).mu_dynamic) for depth in depths) / SAMPLES
+    return [float(scene.model.hole(depth).mu_dynamic) for depth in depths]
+
+
+def wall_friction(scene: Scene, first: float, last: float) -> float:
+    """The mean of these."""
+    return sum(wall_frictions(scene, first, last)) / SAMPLES
 
 
 def _scaled(scene: Scene, factor: float) -> Scene | None:
@@ -70,7 +75,7 @@ def _families(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: 
         mean = wall_friction(scene, 0.0, depths[-1]) if base is None else base
         frictions = [round(factor * mean, 12) for factor in FACTORS] if mean > 0.0 else [0.0]
         output.say(f"{curves.name}, broomstick: friction coefficients {', '.join(f'{one:.4g}' for one in frictions)}"
-                   + (f", 0.5, 1 and 1.5 times that of {'the wall' if base is None else '--friction'}" if mean > 0.0 else ""))
+                   + (f" (0.5, 1 and 1.5 times that of {'the wall' if base is None else '--friction'})" if mean > 0.0 else ""))
     return [Family(f"friction {one:.4g}", one, sim.torque_drag(operations, depths, string=curves.string, friction=one).rows) for one in frictions]
 
 

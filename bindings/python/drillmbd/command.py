@@ -5,6 +5,7 @@ import argparse
 import importlib
 import math
 import os
+import re
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -226,7 +227,9 @@ def _guarded(ask: Callable[[], int]) -> int:
         return _tell(2, str(error))
     except (Usage, CannotSave, CannotExport) as error:
         return _tell(2, f"drillmbd: {error}")
-    except (Error, ArithmeticError) as error:
+    except Error as error:
+        return _tell(1, f"drillmbd: {_without_functions(error.message)}")
+    except ArithmeticError as error:
         return _tell(1, f"drillmbd: {error}")
     except BrokenPipeError:
         raise
@@ -237,6 +240,11 @@ def _guarded(ask: Callable[[], int]) -> int:
         return _tell(2, f"drillmbd: {error}")
     except KeyboardInterrupt:
         return _tell(130, "drillmbd: stopped")
+
+
+def _without_functions(message: str) -> str:
+    """A message of the library with the names of commands in place of those of C functions."""
+    return re.sub(r"\bdmb_(?:analysis_)?(\w+)", lambda found: found[1].replace("_", "-"), message)
 
 
 def _tell(status: int, text: str) -> int:

@@ -83,13 +83,13 @@ def write(output: Output, name: str, depths: Sequence[float], table: Sequence[di
         [depth, *(cell for key, _, _ in QUANTITIES for cell in (loads[key].value, loads[key].operation, loads[key].share(given.get(key))))]
         for depth, loads in zip(depths, table)])
     output.summary.setdefault("rig_limits", {})[name] = {
-        "reach_m": first.depth if first else None, "first_limit": first.word if first else None,
+        "reach_m": first.depth if first and first.depth > depths[0] else None, "first_limit": first.word if first else None,
         "assessed_to_m": depths[-1], "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
 
 
 def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None) -> str:
     if first is not None and first.depth <= depths[0]:
-        return f"exceeded at {depths[0]:.4g} m, the first depth, already: {_cause(first)}; give smaller --depths"
+        return f"exceeded at {depths[0]:.4g} m, the first depth: {_cause(first)}; choose smaller --depths to find the reach"
     if first is not None:
         return f"this rig reaches {first.depth:.4g} m: {_cause(first)}"
     shares = {word: max(((loads[key].share(given[key]), depth, loads[key]) for depth, loads in zip(depths, table)), key=lambda one: one[0])

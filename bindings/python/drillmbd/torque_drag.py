@@ -154,6 +154,9 @@ def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: S
     friction = settings.more.get("friction")
     if friction is None:
         friction = broomstick.wall_friction(scene, first, last)
+    values = broomstick.wall_frictions(scene, first, last)
+    if max(values) - min(values) > 1e-9:
+        output.say(f"{curves.name}, measured: one coefficient is fitted for all sections of the hole")
     measured.compare(sim, curves.string, curves.name, output, settings.series, settings.operations, settings.block_weight, friction)
 
 
@@ -209,7 +212,8 @@ def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None) -> str:
         parts.append(f"{row.helix_length:.4g} m of helix")
     if math.isfinite(row.yield_share):
         parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {row.yield_at:.4g} m")
-    parts.append(f"stretch {1e3 * row.stretch:.3g} mm, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {row.wall_force / 1e3:.3g} kN")
+    stretch = f"{row.stretch:.3g} m" if abs(row.stretch) >= 1.0 else f"{1e3 * row.stretch:.3g} mm"
+    parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {row.wall_force / 1e3:.3g} kN")
     return ", ".join(parts)
 
 
