@@ -29,6 +29,9 @@ def buckle(scene: Scene, output: Output, options: Any) -> int:
         soft = [_thrusts(scene, sim, output, name) for name in scene.pipes]
         try:
             _factors(scene, sim, output)
+        except KeyboardInterrupt:
+            output.note_text("stopped by Ctrl-C before the critical factors were found")
+            return output.finish(130)
         except Error as error:
             reasons.append(reason_of(scene, sim, error))
             output.note_text(f"critical factors: not assessed, because {reasons[-1]}")
