@@ -3,6 +3,7 @@
  * by 1e-4 rad, so that they can turn about their own axis otherwise than as rigid bodies. Frequencies are those of
  * Timoshenko's cantilever (Huang 1961) and of the compound pendulum. */
 #include <stdio.h>
+#include <string.h>
 
 #include "modal.h"
 
@@ -85,7 +86,6 @@ static void cantilevers(void **state)
     (void)state;
     check_cantilever(500, 1e-3, DMB_FREE_NONE, 0, 5);
     check_cantilever(1000, 1e-3, DMB_FREE_NONE, 0, 5);
-    check_cantilever(2000, 1e-3, DMB_FREE_NONE, 0, 3);
     check_cantilever(2000, 1e-3, DMB_FREE_NONE, 0, 10);
     check_cantilever(2000, 2e-3, DMB_FREE_NONE, 0, 5);
     check_cantilever(2000, 1e-2, DMB_FREE_NONE, 0, 5);
@@ -122,9 +122,36 @@ static void pendulums(void **state)
     }
 }
 
+/* Of elements so short that rounding hides the pendulum, w^2 < 64 eps sum |r| |K| |r|, it is refused, not rigid; bands
+ * above it are found, and so are all modes without gravity, where the pendulum's motions are rigid. */
+static void hidden_pendulum(void **state)
+{
+    (void)state;
+    static const double gravity[3] = {9.81, 0.0, 0.0}, none[3] = {0.0, 0.0, 0.0};
+    dmb_modes_options options = dmb_modes_options_default();
+    rig s;
+    open_string(&s, 2000, 1e-4, DMB_FREE_SPHERICAL, gravity);
+    options.count = 3;
+    const modes_refusal refusal = refused_modes(&s, &options);
+    assert_int_equal(refusal.status, DMB_ERR_NO_CONVERGENCE);
+    assert_non_null(strstr(refusal.text, "1.33"));
+    assert_non_null(strstr(refusal.text, "elements of 0.0001 m"));
+    dmb_modes *modes = modes_in_band(&s, DMB_MODES_UNDAMPED, 2000.0, 6000.0);
+    const double bending = frequency_at(modes, 0);
+    assert_int_equal(info_of(modes).rigid, 0);
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+    open_string(&s, 2000, 1e-4, DMB_FREE_SPHERICAL, none);
+    modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 4);
+    assert_int_equal(info_of(modes).rigid, 3);
+    check_relative("bending, with and without gravity", frequency_at(modes, 3), bending, 1e-4);
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cantilevers), cmocka_unit_test(free_along_the_axis),
-                                       cmocka_unit_test(pendulums)};
+                                       cmocka_unit_test(pendulums), cmocka_unit_test(hidden_pendulum)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -371,7 +371,8 @@ int32_t dmb_modes_find(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
     int32_t status = set_rigid_apart(search);
-    if (status >= 0 && options->select != DMB_MODES_ALL) status = dmb_modes_choose_shift(search);
+    if (status < 0) return status;
+    if (options->select != DMB_MODES_ALL) status = dmb_modes_choose_shift(search);
     if (status >= 0)
         status = options->select == DMB_MODES_LOWEST ? dmb_modes_lowest(search)
                  : options->select == DMB_MODES_ALL  ? dmb_modes_dense(search)

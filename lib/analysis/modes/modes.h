@@ -11,6 +11,8 @@
 #define DMB_MODES_ASYMMETRY 1e-9
 /* Rounding of K_ii/M_ii, as a part of it. */
 #define DMB_NOISE DBL_EPSILON
+/* The same for each size of a part that the part lies away from the origin, whose poses are rounded there. */
+#define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
 /* An eigenvalue of up to so much noise may be 0. */
 #define DMB_RIGID_NOISE 1e3
 
@@ -149,8 +151,14 @@ int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high
 /* Where its roots stand in a strip along the imaginary axis, which is quick to cover: 1. */
 int dmb_modes_find_strip(dmb_mode_search *search, double high, double strip[2]);
 
-/* Finds all rigid-body motions. DMB_ERR_NO_MEMORY. */
+/* Finds all rigid-body motions. DMB_ERR_NO_MEMORY; DMB_ERR_NO_CONVERGENCE, with a message, where rounding hides
+ * whether the forces of the state turn one back. */
 int32_t dmb_modes_find_rigid(dmb_mode_search *search);
+/* Leaves those of them that K does not turn back, to a part `away` of its terms above rounding. Errors as above. */
+int32_t dmb_modes_check_rigid(dmb_mode_search *search, double away);
+/* sum |K_ij| |d_j| by rows, and what, times the tolerance, frames and unbalanced forces of the state add to the
+ * rounding of K d. */
+void dmb_modes_rigid_terms(dmb_linear *linear, double tolerance, const double *d, double *terms);
 /* Factors K with pins where its rigid-body motions are apart: pinned 1, or 0 if something else is singular too.
  * DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_pin(dmb_mode_search *search);

@@ -14,31 +14,20 @@
  * numbers, by Givens rotations of its rows and Householder's QR with column pivoting (Golub, Van Loan 2013, 5.2
  * and 5.4).
  *
- * Candidates that nearly cancel leave a small motion whose stiffness is below the rounding of their terms: a rotation
- * about the axis less that of all sections is the sag of the string, turned out of its plane. Therefore the motions r
- * found, r^T M r = 1, are judged once more by themselves: they are rotated among each other so that r_i^T K r_j is
- * diagonal, and r is a rigid-body motion if w^2 = r^T K r is rounding of its terms, eps sum |r_i| |K_ij| |r_j|. An
- * error of r changes w^2 by its square only. */
+ * Candidates that nearly cancel are judged once more, by the motion that they leave (modes_rigid_check). */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
-#include "math/bridge.h"
 #include "math/dense.h"
 #include "math/null_space.h"
 #include "math/so3.h"
 #include "sim/node.h"
 
-/* A row of the conditions below this part of its terms is rounding; and what is added to it for each size of a part
- * that the part lies away from the origin, whose poses are rounded there. */
+/* A row of the conditions below this part of its terms is rounding. */
 #define DMB_RIGID_ROUNDING 1e-12
-#define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
-/* Forces that the state leaves over turn with a motion. */
-#define DMB_RIGID_RESIDUAL 8.0
-/* [-] r^T K r below this part of its terms is rounding. */
-#define DMB_RIGID_QUOTIENT (64.0 * DBL_EPSILON)
 /* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
 #define DMB_RIGID_BENT 1e-6
 /* The conditions are dense in the candidates: 200 parts. */
@@ -193,46 +182,13 @@ static int32_t put_held_rows(conditions *c, uint32_t candidate)
     return status;
 }
 
-/* Residual forces of the state do not count as holding: it turns with a motion. On rows that a guide holds they are its
- * reaction, which balances. */
-static void add_unbalanced(const conditions *c)
-{
-    const dmb_block_layout *layout = &c->linear->scene.layout;
-    const uint8_t *solved = c->linear->scene.solved_row;
-    for (uint32_t i = 0; i < layout->n; i++) {
-        const uint32_t size = layout->size[i], row = layout->row[i];
-        double force = 0.0, motion = 0.0;
-        for (uint32_t k = 0; k < size; k++) {
-            force += solved[row + k] ? fabs(c->linear->residual[row + k]) : 0.0;
-            motion += fabs(c->d[row + k]);
-        }
-        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += DMB_RIGID_RESIDUAL / c->tolerance * force * motion;
-    }
-}
-
-/* Frames turn a stiffness and its rounding into all rows of a node. */
-static void add_rounding(const conditions *c)
-{
-    const dmb_block_layout *layout = &c->linear->scene.layout;
-    const double arm = c->linear->scene.length_scale;
-    for (uint32_t i = 0; i < layout->n; i++) {
-        const uint32_t size = layout->size[i], row = layout->row[i];
-        double most = 0.0;
-        for (uint32_t k = 0; k < size; k++) most = fmax(most, c->terms_d[row + k] / (2 * k < size ? 1.0 : arm));
-        most *= DMB_RIGID_AWAY / c->tolerance;
-        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += most * (2 * k < size ? 1.0 : arm);
-    }
-}
-
 /* R^T K d */
 static int32_t put_forces(conditions *c, uint32_t candidate)
 {
     dmb_linear *linear = c->linear;
     int32_t status = DMB_OK;
     dmb_linear_multiply(linear, &linear->stiffness, c->d, c->Kd);
-    dmb_linear_terms(linear, &linear->stiffness, c->d, c->terms_d);
-    add_rounding(c);
-    add_unbalanced(c);
+    dmb_modes_rigid_terms(linear, c->tolerance, c->d, c->terms_d);
     dmb_linear_restrict(linear, c->Kd, c->g);
     dmb_linear_restrict_terms(linear, c->terms_d, c->terms_g);
     for (uint32_t i = 0; i < linear->coordinates && status >= 0; i++)
@@ -313,73 +269,6 @@ static void take_motion(const conditions *c, const double *q)
     search->rigid_count++;
 }
 
-/* ---- Motions that K turns back ----------------------------------------------------------------------------------- */
-
-/* Whether w^2 = r^T K r is more than rounding of its terms. */
-static int is_resisted(const conditions *c, const double *r)
-{
-    const size_t rows = c->linear->rows;
-    double noise = 0.0;
-    memcpy(c->d, r, rows * sizeof(double));
-    dmb_linear_multiply(c->linear, &c->linear->stiffness, c->d, c->Kd);
-    dmb_linear_terms(c->linear, &c->linear->stiffness, c->d, c->terms_d);
-    add_rounding(c);
-    add_unbalanced(c);
-    for (size_t i = 0; i < rows; i++) noise += c->tolerance * fabs(r[i]) * c->terms_d[i];
-    return !(fabs(dmb_dot(rows, r, c->Kd)) <= noise);
-}
-
-/* r_i^T K r_j, symmetric */
-static void project(const conditions *c, double *K)
-{
-    const size_t m = c->search->rigid_count, rows = c->linear->rows;
-    const double *r = c->search->rigid;
-    for (size_t j = 0; j < m; j++) {
-        dmb_linear_multiply(c->linear, &c->linear->stiffness, r + rows * j, c->Kd);
-        for (size_t i = 0; i < m; i++) K[m * j + i] = dmb_dot(rows, r + rows * i, c->Kd);
-    }
-    for (size_t j = 0; j < m; j++)
-        for (size_t i = 0; i < j; i++) K[m * j + i] = K[m * i + j] = 0.5 * (K[m * j + i] + K[m * i + j]);
-}
-
-/* The combinations of the motions, by the vectors Y, that K does not turn back; `mixed`: shape (rigid_count, rows). */
-static void keep_unresisted(const conditions *c, const double *Y, double *mixed)
-{
-    dmb_mode_search *search = c->search;
-    const size_t m = search->rigid_count, rows = c->linear->rows;
-    memset(mixed, 0, m * rows * sizeof(double));
-    for (size_t i = 0; i < m; i++)
-        for (size_t j = 0; j < m; j++)
-            for (size_t k = 0; k < rows; k++) mixed[rows * i + k] += Y[m * i + j] * search->rigid[rows * j + k];
-    search->rigid_count = 0;
-    for (size_t i = 0; i < m; i++) {
-        if (is_resisted(c, mixed + rows * i)) continue;
-        const size_t at = rows * search->rigid_count++;
-        memcpy(search->rigid + at, mixed + rows * i, rows * sizeof(double));
-        dmb_linear_multiply(c->linear, &c->linear->mass, search->rigid + at, search->rigid_momentum + at);
-    }
-}
-
-/* Motions with a stiffness above rounding are vibrations and leave. An unsymmetric K has no such quotient. */
-static int32_t leave_vibrations(conditions *c)
-{
-    dmb_mode_search *search = c->search;
-    const size_t m = search->rigid_count, rows = c->linear->rows, work = dmb_eigen_work(m);
-    const size_t bytes = (m * m + m + work + m * rows) * sizeof(double);
-    uint32_t resisted = 0;
-    c->tolerance += DMB_RIGID_QUOTIENT - DMB_RIGID_ROUNDING;
-    for (size_t i = 0; i < m; i++) resisted += is_resisted(c, search->rigid + rows * i) != 0;
-    if (resisted == 0 || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)) return DMB_OK;
-    double *K = dmb_allocate(c->allocator, bytes);
-    if (K == NULL) return DMB_ERR_NO_MEMORY;
-    double *values = K + m * m, *lapack = values + m;
-    project(c, K);
-    const int32_t status = dmb_eigen_symmetric(m, K, values, lapack) == 0 ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
-    if (status >= 0) keep_unresisted(c, K, lapack + work);
-    dmb_release(c->allocator, K, bytes);
-    return status;
-}
-
 static int32_t reserve(dmb_mode_search *search, size_t count)
 {
     const size_t rows = search->linear->rows;
@@ -411,7 +300,7 @@ static int32_t take_null_space(conditions *c)
         take_motion(c, q);
     }
     dmb_release(c->allocator, R, bytes);
-    return status < 0 || rank == n ? status : leave_vibrations(c);
+    return status < 0 ? status : dmb_modes_check_rigid(c->search, c->tolerance - DMB_RIGID_ROUNDING);
 }
 
 static int32_t open_conditions(conditions *c)
