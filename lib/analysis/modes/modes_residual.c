@@ -15,6 +15,9 @@
  * their terms. */
 #define DMB_MODE_CONVERGED 1e-10
 #define DMB_MODE_ROUNDING 1024.0
+/* Refined are also those that leave more than this part of it: their residual in the norm of dmb_modes_residual may be
+ * larger. */
+#define DMB_MODE_SHARP 0.1
 
 typedef struct complex_rows {
     double *re, *im, *product;
@@ -415,7 +418,7 @@ int32_t dmb_modes_polish(dmb_mode_search *search)
         status = dmb_progress_pulse(search->linear->work);
         if (status < 0) break;
         const dmb_mode_defect defect = dmb_modes_defect(search, k);
-        if (search->modes->rigid[k] || defect.value <= defect.bound) continue;
+        if (search->modes->rigid[k] || defect.value <= DMB_MODE_SHARP * defect.bound) continue;
         if (block == NULL) {
             block = dmb_allocate(&search->linear->allocator, bytes);
             status = block != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
