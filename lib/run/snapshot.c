@@ -8,6 +8,7 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"
+#include "system/assemble/bounces.h"
 #include "system/constrain/constrain.h"
 
 /* ---- Is this a state of the scene? ------------------------------------------------------------------------------- */
@@ -244,6 +245,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_REUSE: return check_factors(p);
     case DMB_CHECK_PREDICTION: return check_prediction(p);
     case DMB_CHECK_FRAMES: return check_frames(p);
+    case DMB_CHECK_AGES: return check_words(p, (uint32_t)DMB_BOUNCE_STEPS + 1, 0);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
 }

@@ -25,7 +25,7 @@
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
        by system/constrain/cluster_projection, system/constrain/cluster_assembly; at the start and at jumps by         \
-       system/start, system/jump, system/bounce_end: */                                                                                   \
+       system/start, system/jump, system/bounce_end: */                                                                \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
@@ -79,22 +79,22 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/attempt, integrator/step, system/start;       \
-                                     powers: system/assemble/energy */                                                         \
-    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                                \
-    X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/attempt, integrator/step, system/start,      \
+    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/attempt, integrator/step, system/start; \
+                                     powers: system/assemble/energy */                                                 \
+    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                        \
+    X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/attempt, integrator/step, system/start, \
                                               system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
                                               system/constrain/cluster */                                              \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
     X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself: system/bounce_end, \
                                          system/assemble/bounces */                                                  \
-    X(double, site_age, s, NUMBERS)   /* [-] steps since touch: system/bounce_end, system/assemble/bounces */           \
+    X(uint32_t, site_age, s, AGES)    /* [-] steps since touch: system/bounce_end, system/assemble/bounces */          \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
-    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                         \
+    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                 \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
-    X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
+    X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each  \
                                                                  drive with a delay: system/assemble/actuators */     \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
                                                  run/inputs, sim/own_scene; of a stuck place that lets go          \
@@ -116,9 +116,9 @@
                                                      system/assemble/stuck */                                         \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
                                               system/constrain/joint_motion */                                        \
-    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */        \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */   \
     X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
-                                           system/constrain/cluster_assembly */                                             \
+                                           system/constrain/cluster_assembly */                                        \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
@@ -133,9 +133,9 @@
 /* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
     /* system/solve/solve: */                                                                                         \
-    X(double, reused_diagonal, kd, NUMBERS)                                                                             \
-    X(double, reused_lower, kl, NUMBERS)                                                                                \
-    X(double, reused_upper, kl, NUMBERS)                                                                                \
+    X(double, reused_diagonal, kd, NUMBERS)                                                                            \
+    X(double, reused_lower, kl, NUMBERS)                                                                               \
+    X(double, reused_upper, kl, NUMBERS)                                                                               \
     X(double, reused_quaternion, 4 * kn, FRAMES) /* of the nodes where they were made */                               \
     X(dmb_factor_reuse, reuse, 1, REUSE) /* integrator/newton; cleared by system/solve/solve */
 /* clang-format on */
@@ -147,7 +147,7 @@
                                system/constrain/cluster_projection, at the start system/constrain/cluster_assembly,    \
                                prescribed system/assemble/drives; of statics                                           \
                                analysis/static/static_move */                                                         \
-    X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of    \
+    X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of   \
                                                     each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint system/constrain/cluster, \
@@ -192,7 +192,7 @@
     X(double, raw_pseudo_acceleration, raw)                                                                           \
     X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/jump */              \
     X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/jump */                           \
-    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */                  \
+    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */              \
     X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
     X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \
     X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
@@ -216,7 +216,7 @@
     X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                      \
     X(double, cluster_full, full) /* iteration matrix before its reduction: system/solve/reduced_system */            \
     X(double, cluster_half, full) /* system/solve/reduced_system */                                                   \
-    /* reduced system, by system/solve/reduced_system and system/solve/reduced_system_sparse: */                             \
+    /* reduced system, by system/solve/reduced_system and system/solve/reduced_system_sparse: */                       \
     X(double, reduced_value, value)                                                                                   \
     X(uint32_t, reduced_pivot, pivots)                                                                                \
     X(uint32_t, reduced_size, block)                                                                                  \
@@ -230,7 +230,7 @@
     X(double, raw_residual, sparse_raw) /* residual with the forces of the multipliers at hand */                     \
     X(double, sparse_gradient, sparse_raw) /* by nodes: what multipliers of least norm have still to bear,            \
                                               system/constrain/sparse_cluster_least_norm */                           \
-    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_system_sparse */              \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_system_sparse */        \
     X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \

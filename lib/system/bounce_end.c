@@ -132,8 +132,8 @@ static double aged(dmb_sim *sim, double age, int touches, int closed)
 static void age_sites(dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
-        const int closed = sim->trial.site_penetration[s] > 0.0, was = sim->site_age[s] > 0.0;
-        if (closed || was) sim->site_age[s] = aged(sim, sim->site_age[s], closed && !was, closed);
+        const int closed = sim->trial.site_penetration[s] > 0.0, was = sim->site_age[s] > 0;
+        if (closed || was) sim->site_age[s] = (uint32_t)aged(sim, sim->site_age[s], closed && !was, closed);
     }
 }
 

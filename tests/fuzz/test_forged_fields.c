@@ -147,7 +147,8 @@ static void set_all(subject *s, const dmb_field *field, size_t at, double factor
 static void forge_field(subject *s, const dmb_field *field, size_t at)
 {
     const int of_words = (field->check >= DMB_CHECK_FLAGS && field->check <= DMB_CHECK_HISTORY_HEADS) ||
-                         field->check == DMB_CHECK_COUNTERS || field->check == DMB_CHECK_REUSE;
+                         field->check == DMB_CHECK_COUNTERS || field->check == DMB_CHECK_REUSE ||
+                         field->check == DMB_CHECK_AGES;
     const int of_doubles = field->check < DMB_CHECK_FLAGS || field->check > DMB_CHECK_COLUMN_ORDER;
     if (of_words) set_words(s, field, at);
     if (of_doubles) set_numbers(s, field, at);

@@ -89,7 +89,7 @@ static dmb_id add_jointed(rig *s, dmb_string_def def, dmb_pipe_def pipe, uint32_
     dmb_id before = {0, 0};
     for (uint32_t k = 0; k < count; k++) {
         if (k > 0) def.start_free = DMB_FREE_ALL;
-        def.offset[0] = 3.0 * k;
+        def.start_depth = 3.0 * k;
         pipe.string = add_string(s, &def);
         const dmb_id string = add_pipes(s, &pipe, 1);
         if (k > 0)

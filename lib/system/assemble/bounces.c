@@ -185,7 +185,7 @@ void dmb_bounces_jump(dmb_sim *sim)
 void dmb_bounces_start(dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
-        sim->site_age[s] = sim->now.site_penetration[s] > 0.0 ? DMB_BOUNCE_STEPS : 0.0;
+        sim->site_age[s] = sim->now.site_penetration[s] > 0.0 ? (uint32_t)DMB_BOUNCE_STEPS : 0;
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end end;
         end_at(sim->scene, u, sim->now.bounce_place[u], &end);
