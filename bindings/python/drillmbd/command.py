@@ -140,9 +140,10 @@ def _add_new(commands: Any) -> None:
 
 
 def _new(options: Any) -> int:
+    from .new_options import OPTIONS
     from .scene import new
     try:
-        text = new.text(options.kind, {name: getattr(options, name) for name in new.OPTIONS[options.kind] if getattr(options, name)})
+        text = new.text(options.kind, {name: getattr(options, name) for name in OPTIONS[options.kind] if getattr(options, name)})
     except ValueError as error:
         raise Usage(str(error)) from None
     if options.output is None:
