@@ -455,7 +455,8 @@ static void open_joints_begin_from_nothing(void **state)
         must(dmb_sim_snapshot_size(t.sim, &size));
         void *saved = malloc(size);
         assert_non_null(saved);
-        if (statics) assert_int_equal(dmb_analysis_static(t.sim, NULL, NULL), DMB_NOTE_INCOMPLETE); /* nothing resists it */
+        if (statics)
+            assert_int_equal(dmb_analysis_static(t.sim, NULL, NULL), DMB_NOTE_INCOMPLETE); /* nothing resists it */
         assert_true(ask(&t).command == 0.0 && ask(&t).made == 0.0 && ask(&t).force == 0.0);
         steps(&t, 0.01, 3);
         assert_true(ask(&t).command == 0.0 && ask(&t).made == 0.0 && ask(&t).speed == 0.0);
