@@ -298,12 +298,15 @@ static int32_t locked_up(void)
     for (int k = 0; k <= 4 && status >= 0; k++) {
         double reaction[6];
         dmb_section bit = dmb_section_default();
+        dmb_contact last = dmb_contact_default(); /* the section before it bears its friction, the bit does not */
         if (k > 0) status = settle_for(&s, 1, SLIDING);
         if (status >= 0) status = dmb_query_reaction(s.sim, s.string, reaction);
         if (status >= 0) status = dmb_query_section(s.sim, dmb_station(s.string, s.pipes - 1, 1.0), &bit);
+        if (status >= 0) status = dmb_query_contact(s.sim, s.pipes - 1, &last);
+        const double arrives = -bit.force[0] + last.friction[0];
         if (status >= 0)
-            printf("%22.1f %17.1f %27.1f\n", reaction[0] / 1e3, -bit.force[0] / 1e3,
-                   1e-3 / (-1.0 / bit.force[0] - 1.0 / reaction[0]));
+            printf("%22.1f %17.1f %27.1f\n", reaction[0] / 1e3, arrives / 1e3,
+                   1e-3 / (1.0 / arrives - 1.0 / reaction[0]));
     }
     if (status >= 0) printf("4 EI/(mu r L), thin pipe %42.1f\n", limit / 1e3);
     if (status < 0) (void)failed(&s, status);
