@@ -13,7 +13,7 @@ import tarfile
 import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-KINDS = (".py", ".typed", ".json", ".so", ".dylib", ".dll")
+KINDS = (".py", ".typed", ".json", ".toml", ".so", ".dylib", ".dll")
 
 
 def project():
@@ -95,7 +95,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     added = bundled()
     names = [f"drillmbd/{name}" for name, _ in added]
     files = [one for one in sources() if one[0] not in names] + list(zip(names, (path for _, path in added)))
-    binary = any(not path.endswith((".py", ".typed", ".json")) for path, _ in files)
+    binary = any(not path.endswith((".py", ".typed", ".json", ".toml")) for path, _ in files)
     tag = "py3-none-" + (re.sub(r"[-.]", "_", sysconfig.get_platform()) if binary else "any")
     return write_wheel(wheel_directory, [(path, file.read_bytes()) for path, file in files], tag)
 

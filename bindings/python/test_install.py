@@ -76,6 +76,7 @@ class InstallTest(unittest.TestCase):
         self.assertNotIn("-any", name)
         names = zipfile.ZipFile(self.folder / name).namelist()
         self.assertIn("drillmbd/libdrillmbd.so", names)
+        self.assertIn("drillmbd/scene/catalogue.toml", names)
         os.environ["DRILLMBD_BUNDLE"] = "no/such.so"
         with self.assertRaisesRegex(SystemExit, "must be the file of the built library"):
             backend.build_wheel(self.folder)

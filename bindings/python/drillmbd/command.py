@@ -32,6 +32,7 @@ EXAMPLES = """examples:
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd new drainage --length "200 m" --dip "5 deg" --rod "73 mm" -o hole.toml   a commented scene to start from
   drillmbd keys string.pipes                  keys with unit, default and meaning
+  drillmbd catalogue "5 in"                   drill pipe, rods, collars and rigs that scene files name
   drillmbd schema > scene.schema.json         for editors that check TOML
 
 exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
@@ -124,6 +125,9 @@ def parser() -> argparse.ArgumentParser:
     commands.add_parser("schema", help="prints the JSON schema of scene files")
     keys = commands.add_parser("keys", help="lists the keys of scene files with unit, default and meaning")
     keys.add_argument("table", nargs="?", help="a table, as string.pipes; left out: the usual keys of all")
+    listed = commands.add_parser("catalogue", help="lists drill pipe, rods, collars and rigs that scene files name, with sources")
+    listed.add_argument("word", nargs="?", help="of the names or sources; left out: all")
+    listed.add_argument("--file", action="append", default=[], metavar="FILE", help="a catalogue of your own too; once for each")
     _add_new(commands)
     return found
 
@@ -137,13 +141,15 @@ def _add_new(commands: Any) -> None:
     for name, (_, _, about) in OPTIONS["drainage"].items():
         defaults = ", ".join(f"{values[name][1]} ({kind})" for kind, values in OPTIONS.items())
         made.add_argument(f"--{name.replace('_', '-')}", metavar="VALUE", help=f"{about}; default {defaults}")
+    made.add_argument("--rods", metavar="NAME", help='of a catalogue or a size, as "phi 73 x 6.5" or "5 in 19.50 S135", instead of --rod and --bore')
+    made.add_argument("--rig", metavar="NAME", help="of a catalogue, for [limits]: drillmbd catalogue")
 
 
 def _new(options: Any) -> int:
     from .new_options import OPTIONS
     from .scene import new
     try:
-        text = new.text(options.kind, {name: getattr(options, name) for name in OPTIONS[options.kind] if getattr(options, name)})
+        text = new.text(options.kind, {name: getattr(options, name) for name in (*OPTIONS[options.kind], "rods", "rig") if getattr(options, name)})
     except ValueError as error:
         raise Usage(str(error)) from None
     if options.output is None:
@@ -159,6 +165,15 @@ def _keys(table: str | None) -> int:
     try:
         print(keys.text(table), end="")
     except ValueError as error:
+        raise Usage(str(error)) from None
+    return 0
+
+
+def _catalogue(options: Any) -> int:
+    from .scene import catalogue
+    try:
+        print(catalogue.text(options.word, options.file), end="")
+    except catalogue.CatalogueError as error:
         raise Usage(str(error)) from None
     return 0
 
@@ -317,6 +332,8 @@ def _ask(options: Any) -> int:
         return 0
     if options.command == "keys":
         return _keys(options.table)
+    if options.command == "catalogue":
+        return _catalogue(options)
     if options.command == "new":
         return _new(options)
     if options.command == "save":

@@ -45,7 +45,7 @@ class Asked:
         scene.sim = self.loader.read(("sim",), self.loader.table(("sim",)), fields_of(DEFINITIONS["sim"]))
         scene.run = self.loader.read(("run",), self.loader.table(("run",)), RUN)
         scene.output = self.loader.read(("output",), self.loader.table(("output",)), OUTPUT)
-        scene.limits = self.loader.read(("limits",), self.loader.table(("limits",)), LIMITS)
+        scene.limits = self.loader.read(("limits",), self.loader.table(("limits",)), LIMITS, ("rig",))
         for key, value in scene.limits.items():
             if not value > 0.0:
                 self.loader.problems.add(("limits", key), self.loader.written(("limits", key)), "must be > 0")

@@ -14,16 +14,18 @@ TABLES: dict[str, tuple[str, str]] = {
     "environment": ("environment", "fluid_density gravity lateral_damping flow_rate"),
     "hole": ("hole", "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic stiffness"),
     "hole.section": ("section", "depth diameter mu_static mu_dynamic"), "string": ("string", "name start_depth"),
-    "string.pipes": ("pipes", "count length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
+    "string.pipes": ("pipes", "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
                               "eccentricity damping_time yield_strength"),
     "bit": ("bit", "name load mass diameter rock_law"), "drive": ("drive", "name component programme kind"),
     "programme.term": ("term", "kind h0 h1 x0 x1 table"), "ring": ("ring", ""), "body": ("body", "name mass"),
     "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"), "spring": ("spring", ""),
-    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "torque push pull yield_stress"), "run": ("", "end step static"),
+    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress"), "run": ("", "end step static"),
     "output": ("", "interval"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
     "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
 
-_TEXT = {"count": ("", "1", "number of equal pipes, one after the other"), "name": ("", "", "for messages, and for other tables to refer to"),
+_TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
+         "rig": ("", "", "name of a catalogue, for torque, push and pull: drillmbd catalogue"),
+         "count": ("", "1", "number of equal pipes, one after the other"), "name": ("", "", "for messages, and for other tables to refer to"),
          "survey": ("", "", 'rows of depth, inclination and azimuth, as [["0 m", "90 deg", "0 deg"], ...]'),
          "survey_file": ("", "", "file of the survey: CSV, text with blanks, LAS 2.0, Excel"),
          "survey_columns": ("", "", 'heads of the columns in their order, as ["depth [m]", "dip [deg]", "azimuth [deg]"]'),

@@ -13,7 +13,7 @@ from .._keep import station
 from .._structs import Channel, Id, Motor, Place, Term
 from ..errors import Error
 from ..model import Model, motor_drive
-from . import failure, fields, hole, units, variability
+from . import catalogue, failure, fields, hole, units, variability
 from .asked import Asked
 from .changes import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
@@ -56,6 +56,7 @@ def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[st
         raise SceneError(name, [Problem(line, "the file", None, f"is no TOML: {error}")]) from error
     problems = Problems(find_lines(text))
     apply(content, changes or {}, problems)
+    catalogue.expand(content, problems, folder)
     scene, divided = _scene_of(copy.deepcopy(content), problems, folder, name)
     if divide(scene, divided, content):
         scene, _ = _scene_of(content, problems, folder, name, divided)
@@ -95,7 +96,7 @@ class Loader:
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "run", "output", "limits", "channel", "programme", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
+        known = ["title", "catalogue", "run", "output", "limits", "channel", "programme", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
                  "failure"]
         for key in self.content:
             if key not in known:
@@ -424,7 +425,9 @@ class Loader:
                 self.problems.add(where + ("count",), count, "must be a whole number 1 .. 2^20")
                 count = 1
             known = {key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"}
-            plain = self.read(where, section, known, ("count",))
+            plain = self.read(where, section, known, ("count", "pipe"))
+            if "pipe" in self.problems.refused_below(where):  # its diameters are not known: no second fault of the default ones
+                plain = {key: value for key, value in plain.items() if key == "length"}
             if 0.0 < plain.get("joint_outer_diameter", 0.0) < plain.get("outer_diameter", 0.073) - 1e-6:
                 self.problems.remark(where + ("joint_outer_diameter",), section["joint_outer_diameter"], "is smaller than the pipe's outer_diameter")
             if string is not None:

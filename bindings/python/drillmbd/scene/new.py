@@ -1,11 +1,12 @@
 """A commented scene from a few values, as `drillmbd new` writes it: a drainage hole or a well."""
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
 from ..new_options import OPTIONS
-from . import units
+from . import catalogue, units
 
 _SCENE = """# {title}. Written by: drillmbd new {kind}
 # Check it with: drillmbd check FILE. Keys with unit, default and meaning: drillmbd keys
@@ -41,8 +42,7 @@ name = "rods"
 [[string.pipes]]
 count = {count}
 length = "{rod_length}"
-outer_diameter = "{rod}"
-inner_diameter = "{bore}"
+{pipes}
 eccentricity = "0.5 mm"        # an assumption: without it rotation excites no lateral vibration
 angle_spread = "180 deg"
 damping_time = "0.1 ms"        # material damping, an assumption
@@ -64,11 +64,7 @@ name = "rotation drive"
 component = "rx"
 programme = "rotation"
 
-# [limits]                     # of your rig and pipes, so that commands compare with them
-# torque = "4 kN m"
-# push = "100 kN"
-# pull = "100 kN"
-# yield_stress = "550 MPa"
+{limits}
 
 [run]
 end = "8 s"
@@ -79,9 +75,16 @@ static = true
 interval = "20 ms"
 """
 
+_LIMITS = """# [limits]                     # of your rig and pipes, so that commands compare with them
+# torque = "4 kN m"
+# push = "100 kN"
+# pull = "100 kN"
+# yield_stress = "550 MPa\""""
+
 
 def text(kind: str, given: dict[str, str]) -> str:
-    """The scene. given: values with units, in place of the defaults. Raises ValueError that names the option."""
+    """The scene. given: values with units, in place of the defaults, and names of a catalogue for "rods" and "rig". Raises ValueError
+    that names the option."""
     values: dict[str, Any] = {}
     numbers: dict[str, float] = {}
     for name, (unit, default, about) in OPTIONS[kind].items():
@@ -91,13 +94,35 @@ def text(kind: str, given: dict[str, str]) -> str:
         except units.UnitError as error:
             raise ValueError(f"--{name.replace('_', '-')} {values[name]}: {error}") from error
         values[name] = _with_unit(values[name], name).replace('"', " in").strip()
+    values.update(_named(given, values, numbers))
     if numbers["rod"] >= numbers["hole"] or numbers["bore"] >= numbers["rod"]:
-        raise ValueError(f"--rod {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
+        raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
     count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
     if not 1 <= count <= 2 ** 20:
         raise ValueError(f"--length {values['length']} must be at least one --rod-length, {values['rod_length']}")
     title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
     return _SCENE.format(title=title, kind=kind, count=count, **values)
+
+
+def _named(given: dict[str, str], values: dict[str, Any], numbers: dict[str, float]) -> dict[str, str]:
+    """The lines of pipes and limits. numbers: diameters of rods by name are put there."""
+    lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"', "limits": _LIMITS}
+    if given.get("rods"):
+        found = _found("rods", given["rods"])
+        for name, key in (("rod", "outer_diameter"), ("bore", "inner_diameter")):
+            values[name], numbers[name] = found.values[key], units.parse(found.values[key], "m")
+        lines["pipes"] = f"# {found.text()}\npipe = {json.dumps(given['rods'], ensure_ascii=False)}"
+    if given.get("rig"):
+        lines["limits"] = f"[limits]\n# {_found('rig', given['rig']).text()}\nrig = {json.dumps(given['rig'], ensure_ascii=False)}"
+    return lines
+
+
+def _found(option: str, name: str) -> catalogue.Found:
+    known = catalogue.Catalogue()
+    try:
+        return known.rig(name) if option == "rig" else known.pipe(name)
+    except catalogue.CatalogueError as error:
+        raise ValueError(f"--{option} {name}: {error}") from None
 
 
 def _with_unit(value: str, name: str) -> str:

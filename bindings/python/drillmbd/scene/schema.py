@@ -61,9 +61,11 @@ def schema() -> dict[str, Any]:
     """The schema as plain Python."""
     row = {"type": "array", "minItems": 3, "maxItems": 3, "items": _QUANTITY}
     pipes = _object({key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"},
-                    count={"type": "integer", "minimum": 1})
+                    count={"type": "integer", "minimum": 1},
+                    pipe={**_NAME, "description": "name of a catalogue, for the keys that are left out: drillmbd catalogue"})
     properties: dict[str, Any] = {
-        "title": {"type": "string"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
+        "title": {"type": "string"},
+        "catalogue": {**_many(_NAME), "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
         "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT}, section=_many(_object(fields_of(DEFINITIONS["section"]))),
                         survey={"type": "array", "minItems": 2, "items": row},
                         survey_columns={"type": "array", "items": _NAME, "description": "heads of the columns of survey or of survey_file "
@@ -73,7 +75,7 @@ def schema() -> dict[str, Any]:
                                      "azimuth [deg] (clockwise from north)"}),
         "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
-        "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS),
+        "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS, rig={**_NAME, "description": "name of a catalogue, for torque, push and pull that are left out: drillmbd catalogue"}),
         "channel": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
