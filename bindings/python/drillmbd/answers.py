@@ -17,6 +17,7 @@ from .fatigue import StringFatigue
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Sim
+from .unit_systems import NAMES, SI, Units
 
 RPM = 2.0 * math.pi / 60.0
 
@@ -24,11 +25,12 @@ RPM = 2.0 * math.pi / 60.0
 class Output:
     """The folder of the answer and the lines on the terminal."""
 
-    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool) -> None:
+    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool, units: Units = SI) -> None:
         self.folder = pathlib.Path(folder) if folder is not None else None
-        self.quiet, self.scene = quiet, scene
+        self.quiet, self.scene, self.units = quiet, scene, units
         self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
-                                        "drillmbd": __version__, "notes": [], "files": []}
+                                        "drillmbd": __version__, "units": units.name,  # of texts, tables and pictures
+                                        "units_of_numbers": "si", "notes": [], "files": []}
         if self.folder is not None:
             self.folder.mkdir(parents=True, exist_ok=True)
             self.path("scene.toml").write_text(saves(scene), encoding="utf-8")
@@ -48,7 +50,7 @@ class Output:
     def note(self, status: int, of: str) -> None:
         """Tells the text of a status above 0."""
         if status > 0:
-            self.note_text(f"{of}: {status_text(status)}")
+            self.note_text(self.units.sentence(f"{of}: {status_text(status)}"))
 
     def note_text(self, text: str) -> None:
         """Something to know."""
@@ -56,12 +58,13 @@ class Output:
         self.say(f"note: {text}")
 
     def table(self, name: str, heads: list[str], rows: Iterable[Iterable[Any]]) -> None:
-        """A CSV file."""
+        """A CSV file. Heads and rows are in SI; they are written in the units of the output."""
         if self.folder is not None:
             with open(self.path(name), "w", encoding="utf-8", newline="") as file:
                 writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(heads)
-                writer.writerows([[repr(float(one)) if isinstance(one, float) else one for one in row] for row in rows])
+                writer.writerow([self.units.head(head) for head in heads])
+                factors = [self.units.factor_of(head) for head in heads]
+                writer.writerows([[repr(float(one) * factor) if isinstance(one, float) else one for one, factor in zip(row, factors)] for row in rows])
 
     def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
         """A picture by a function of drillmbd.plots, where matplotlib is there."""
@@ -106,11 +109,6 @@ def finite(value: Any) -> Any:
     return [finite(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
-def kilo(value: float) -> str:
-    """A number in four digits with the prefix of its unit: "1.5 k"."""
-    return f"{value / 1e3:.4g} k" if abs(value) >= 1e3 else f"{value:.4g} "
-
-
 def record(struct: Any) -> dict[str, Any]:
     """A struct as plain Python for the summary."""
     return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))
@@ -123,6 +121,15 @@ def file_name(name: str) -> str:
 
 
 # ---- Options ----------------------------------------------------------------------------------------------------------
+def units_of(options: Any, scene: Scene) -> Units:
+    """The units of the output, of the command line or of the scene. Raises UnknownUnit for channels without an equivalent."""
+    units = Units(options.units or NAMES[scene.output.get("units", 0)])
+    if options.command in ("run", "report"):
+        for unit in scene.channel_units:
+            units.unit(unit)
+    return units
+
+
 def quantity(text: str, unit: str, option: str) -> float:
     """An option of the command line as a number in its unit."""
     try:
@@ -161,7 +168,7 @@ def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str
             "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
             "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
         output.say(f"{name}: damage {found[index].damage:.3g} in {found[index].time:.4g} s at pipe {one.pipes[index]}, largest "
-                   f"range {found[index].largest_range / 1e6:.4g} MPa")
+                   f"range {output.units.text(found[index].largest_range / 1e6, 'MPa')}")
         clipped = sum(result.clipped for result in found)
         if clipped:
             output.note_text(f"fatigue of {name}: {clipped} stresses were beyond stress_range and count too little")
@@ -169,5 +176,5 @@ def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str
         output.table(f"fatigue_{file_name(name)}.csv", heads, (
             [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
             for pipe, one in zip(one.pipes, found)))
-        output.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run"))
+        output.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run", output.units))
     return worst

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import enums
 from ._structs import TorqueDragRow, WallDef
 from .analysis import operation_name
-from .answers import Output, file_name, kilo
+from .answers import Output, file_name
 from .scene import CannotSave, Scene, loads, saves
 from .sim import Sim
 
@@ -89,7 +89,7 @@ def write(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Sett
     for (word, label), column in columns.items():
         locked = next((depth for depth, value in zip(depths, column) if not math.isfinite(value)), None)
         if locked is not None:
-            output.say(f"{curves.name}, {word}, {label}: locks up from {locked:.4g} m on")
+            output.say(f"{curves.name}, {word}, {label}: locks up from {output.units.text(locked, 'm')} on")
     by_factor = not families[0].label.startswith("friction")
     output.summary.setdefault("broomstick", {})[curves.name] = {
         "depth_m": depths, "friction": None if by_factor else [one.value for one in families],
@@ -97,6 +97,6 @@ def write(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Sett
         **{f"{word}_hook_load_N": [columns[word, one.label] for one in families] for word in words}, "rotate_torque_N_m": list(torques.values())}
     heads = ["depth [m]", *(f"{word}, {label}: hook load [N]" for word, label in columns), *(f"rotate, {label}: torque [N m]" for label in torques)]
     output.table(f"broomstick_{file_name(curves.name)}.csv", heads, zip(depths, *columns.values(), *torques.values()))
-    title = curves.name + (f", with {kilo(curves.block_weight)}N of block and top drive" if curves.block_weight else "")
+    title = curves.name + (f", with {output.units.scaled(curves.block_weight, 'N')} of block and top drive" if curves.block_weight else "")
     output.picture(f"broomstick_{file_name(curves.name)}.png", lambda plots: plots.broomstick(
-        depths, columns, torques, title, {word: (one.depths, one.values) for word, one in settings.series.items()}))
+        depths, columns, torques, title, {word: (one.depths, one.values) for word, one in settings.series.items()}, output.units))

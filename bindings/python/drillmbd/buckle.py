@@ -15,6 +15,7 @@ from .questions import along_pipes, stations_of, to_rest
 from .scene import Scene
 from .sim import Sim
 from .torque_drag import depths_of
+from .unit_systems import Units
 
 DEPTHS = 5           #: of the table of thrusts
 DOUBLINGS, HALVINGS = 60, 45
@@ -33,7 +34,7 @@ def buckle(scene: Scene, output: Output, options: Any) -> int:
             output.note_text("stopped by Ctrl-C before the critical factors were found")
             return output.finish(130)
         except Error as error:
-            reasons.append(reason_of(scene, sim, error))
+            reasons.append(output.units.sentence(reason_of(scene, sim, error)))
             output.note_text(f"critical factors: not assessed, because {reasons[-1]}")
             output.summary["buckling"] = {"factors": [], "not_assessed": reasons[-1]}
     if reasons and not any(soft):
@@ -65,7 +66,7 @@ def _factors(scene: Scene, sim: Sim, output: Output) -> None:
         for name, places, along in stations_of(scene) if found.factors else []:
             shape = found.shapes(0, places)
             output.picture(f"buckling_{file_name(name)}.png", lambda plots: along_pipes(
-                plots.buckling(shape, along, found.factors[0], scene.title)))
+                plots.buckling(shape, along, found.factors[0], scene.title, output.units)))
 
 
 def _found(sim: Sim, values: dict[str, Any], output: Output) -> Buckling:
@@ -82,7 +83,7 @@ def _found(sim: Sim, values: dict[str, Any], output: Output) -> Buckling:
                          "factors are extrapolated from the static state. Use more elements or a softer wall to confirm them")
         return found
     if found.status > 0:
-        output.note_text("buckling: " + (sim.message or status_text(found.status)).removeprefix("buckling: "))
+        output.note_text("buckling: " + output.units.sentence(sim.message or status_text(found.status)).removeprefix("buckling: "))
     return found
 
 
@@ -142,12 +143,12 @@ def _thrusts(scene: Scene, sim: Sim, output: Output, name: str) -> bool:
     try:
         depths = depths_of(sim, string, str(DEPTHS))
     except Error as error:
-        output.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: {error.message}")
+        output.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: {output.units.sentence(error.message)}")
         return False
     rows = []
     for depth in depths:
         if math.isnan(_row(sim, string, depth, 1e3).helical_share):
-            output.say(f"{name}, thrust of buckling: not assessed, because at {depth:.4g} m a compressed part is not pressed to the wall")
+            output.say(f"{name}, thrust of buckling: not assessed, because at {output.units.text(depth, 'm')} a compressed part is not pressed to the wall")
             return False
         weights = [first_weight(lambda weight: _beyond(_row(sim, string, depth, weight), field)) for field in ("sinusoidal_share", "helical_share", "")]
         rows.append([depth, *(value for weight in weights[:2] for value in (-_row(sim, string, depth, weight).hook_load, weight)), weights[2]])
@@ -157,9 +158,10 @@ def _thrusts(scene: Scene, sim: Sim, output: Output, name: str) -> bool:
     output.summary.setdefault("buckling_thrust", {})[name] = {
         "depth_m": depths, "sinusoidal_thrust_N": [row[1] for row in rows], "helical_thrust_N": [row[3] for row in rows],
         "lock_up_weight_on_bit_N": [row[5] for row in rows]}
+    units = output.units
     for row in rows:
-        output.say(f"{name} at {row[0]:.4g} m, pushed without rotation: sinusoidal buckling {_thrust(row[1])}, helical {_thrust(row[3])}, "
-                   f"locks up at {row[5] / 1e3:.4g} kN on the bit")
+        output.say(f"{name} at {units.text(row[0], 'm')}, pushed without rotation: sinusoidal buckling {_thrust(row[1], units)}, "
+                   f"helical {_thrust(row[3], units)}, locks up at {units.text(row[5] / 1e3, 'kN')} on the bit")
     return True
 
 
@@ -167,5 +169,5 @@ def _beyond(row: TorqueDragRow, field: str) -> bool:
     return bool(row.locked) or (bool(field) and not getattr(row, field) < 1.0)
 
 
-def _thrust(value: float) -> str:
-    return f"from a thrust of {value / 1e3:.4g} kN" if value >= 0.0 else f"from a hook load below {-value / 1e3:.4g} kN"
+def _thrust(value: float, units: Units) -> str:
+    return f"from a thrust of {units.text(value / 1e3, 'kN')}" if value >= 0.0 else f"from a hook load below {units.text(-value / 1e3, 'kN')}"

@@ -12,6 +12,7 @@ from typing import Any
 
 from . import __version__
 from .errors import Error, Usage
+from .unit_systems import NAMES, UnknownUnit
 
 EXAMPLES = """examples:
   drillmbd check rig.toml                     is the scene complete? what does it consist of?
@@ -21,6 +22,7 @@ EXAMPLES = """examples:
   drillmbd modes rig.toml                     natural frequencies
   drillmbd response rig.toml --output out     what shakes how much, by [response]
   drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
+  drillmbd torque-drag rig.toml --units field -o out   in ft, lbf, ft-lbf, psi; or --units mine; or [output] units
   drillmbd torque-drag rig.toml --measured log.csv -o out   the friction that explains measured hook loads
   drillmbd speeds rig.toml                    rotary speeds to avoid, by [speeds]
   drillmbd buckle rig.toml                    critical factors by [buckling], thrusts that buckle the string
@@ -90,6 +92,8 @@ def parser() -> argparse.ArgumentParser:
         command.add_argument("scene", help="a scene file (TOML)")
         command.add_argument("--output", "-o", metavar="FOLDER", help="where tables, pictures and summary.json are written")
         command.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
+        command.add_argument("--units", choices=NAMES, help="of texts, tables and pictures, instead of [output] units: SI (default), field units "
+                             "(ft, lbf, psi) or mine units (m, kN, MPa); summary.json and files for ParaView stay in SI")
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
@@ -245,6 +249,8 @@ def _guarded(ask: Callable[[], int]) -> int:
         return _tell(2, f"drillmbd: {error}")
     except Error as error:
         return _tell(1, f"drillmbd: {_without_functions(error.message)}")
+    except UnknownUnit as error:
+        return _tell(2, f"drillmbd: {error}")
     except ArithmeticError as error:
         return _tell(1, f"drillmbd: {error}")
     except BrokenPipeError:
@@ -324,7 +330,7 @@ def least(name: str, scene: Any) -> str:
 
 def _ask(options: Any) -> int:
     from . import scene
-    from .answers import Output
+    from .answers import Output, units_of
     from .questions import QUESTIONS
     if options.command == "schema":
         from .scene.schema import text
@@ -356,7 +362,7 @@ def _ask(options: Any) -> int:
     if needed and needed not in loaded.analyses:
         raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about; the least is\n\n"
                     + least(needed, loaded))
-    output = Output(options.output, options.scene, loaded, options.command, options.quiet)
+    output = Output(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded))
     for one in loaded.remarks:
         output.note_text(f"line {one.line}: {one}")
     for pipes in loaded.divided:

@@ -17,6 +17,7 @@ from .scene import columns, table_file
 from .scene.columns import Column
 from .scene.survey import COLUMNS as SURVEY_COLUMNS
 from .sim import Sim
+from .unit_systems import Units
 
 COLUMNS = (
     Column("depth", "m", SURVEY_COLUMNS[0].names + ("bit depth", "bit md", "depth of bit", "depth bit")),
@@ -180,11 +181,12 @@ def compare(sim: Sim, string: Any, name: str, output: Output, series: dict[str, 
     told: dict[str, Any] = {}
     for word, one in series.items():
         found = fit(Model(sim, string, operations[KINDS[word]], block_weight, one), friction)
-        output.say(f"{name}, measured {_label(word)}: {_text(one, found, friction)}")
+        output.say(f"{name}, measured {_label(word)}: {_text(one, found, friction, output.units)}")
         told[word] = {"measurements": len(one.values), "friction": found.friction, "reason": found.reason or None,
                       "half_width_95": found.half_width, "scatter": found.scatter}
+        factor = output.units.factor("N m" if word == "torque" else "N")
         points = found.by_point or [math.nan] * len(one.values)
-        rows += [[depth, _label(word), value, computed, point]
+        rows += [[depth, _label(word), value * factor, computed * factor, point]
                  for depth, value, computed, point in zip(one.depths, one.values, found.computed, points)]
     output.summary.setdefault("measured", {})[name] = told
     output.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
@@ -195,15 +197,15 @@ def _label(word: str) -> str:
     return "torque while rotating" if word == "torque" else f"hook load, {word}"
 
 
-def _text(series: Series, found: Fit, friction: float) -> str:
+def _text(series: Series, found: Fit, friction: float, units: Units) -> str:
     unit, scale = ("N m", 1.0) if series.word == "torque" else ("kN", 1e-3)
     if found.friction is None:
         mean = sum(a - b for a, b in zip(series.values, found.computed)) / len(series.values)
-        return (f"friction not assessed, because {found.reason}; measured minus computed {scale * mean:.4g} {unit} on average at friction "
+        return (f"friction not assessed, because {found.reason}; measured minus computed {units.text(scale * mean, unit)} on average at friction "
                 f"{friction:.3g}")
     failed = sum(not math.isfinite(one) for one in found.by_point)
     interval = ("confidence not assessed, because one measurement has no scatter" if found.half_width is None else
                 f"95 % confidence {max(0.0, found.friction - found.half_width):.3g} .. {found.friction + found.half_width:.3g}")
     known = [one for one in found.by_point if math.isfinite(one)]
-    return (f"friction {found.friction:.4g} ({interval}) from {len(series.values)} measurements, scatter {scale * found.scatter:.3g} {unit}, each alone "
-            f"{min(known):.3g} .. {max(known):.3g}" + (f"; {failed} are explained by no coefficient" if failed else ""))
+    return (f"friction {found.friction:.4g} ({interval}) from {len(series.values)} measurements, scatter {units.text(scale * found.scatter, unit, '.3g')}, "
+            f"each alone {min(known):.3g} .. {max(known):.3g}" + (f"; {failed} are explained by no coefficient" if failed else ""))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ._optional import need
+from .unit_systems import SI, Units
 
 if TYPE_CHECKING:
     from .analysis import Modes, Response
@@ -36,55 +37,51 @@ def _style(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "linestyle": LINES[number % len(LINES)]}
 
 
-def _kilo(*rows: Any) -> tuple[float, str]:
-    """Factor and prefix of a unit: 1e-3 and "k" where values reach 1000."""
-    largest = max((abs(float(value)) for row in rows for value in row if value == value and abs(value) < math.inf), default=0.0)
-    return (1e-3, "k") if largest >= 1e3 else (1.0, "")
-
-
 def _legend(axes: Any) -> None:
     if len(axes.get_lines()) > 1:
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
-def profile(found: Profile, title: str = "") -> Any:
+def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
     """Axial force, torque, bending moment and wall force over measured depth (or along the string), depth downward."""
     has_hole = bool(found.depth.max() > 0.0)
     down = found.depth if has_hole else found.along
     figure, ((axial, torque, bending, wall),) = _axes(1, 4, (13, 6), sharey=True)
-    for axes, values, label in ((axial, found.axial_force, "axial force [{}N]\n(tension > 0)"),
-                                (torque, found.torque, "torque [{}N m]"),
-                                (bending, found.bending_moment, "bending moment [{}N m]")):
-        factor, prefix = _kilo(values)
+    length = units.factor("m")
+    down = length * down
+    for axes, values, si, label in ((axial, found.axial_force, "N", "axial force [{}]\n(tension > 0)"),
+                                    (torque, found.torque, "N m", "torque [{}]"),
+                                    (bending, found.bending_moment, "N m", "bending moment [{}]")):
+        factor, unit = units.axis(si, values)
         axes.plot(factor * values, down, **SINGLE)
         axes.axvline(0.0, color="#999999", linewidth=0.8)
-        axes.set_xlabel(label.format(prefix))
-    factor, prefix = _kilo(found.contact_force)
+        axes.set_xlabel(label.format(unit))
+    factor, unit = units.axis("N", found.contact_force)
     if len(found.contact_depth):
-        wall.barh(found.contact_depth, factor * found.contact_force, color=COLOURS[2],
+        wall.barh(length * found.contact_depth, factor * found.contact_force, color=COLOURS[2],
                   height=0.6 * max(float(down.max()), 1e-9) / len(found.contact_depth))
-    wall.set_xlabel(f"force on the wall [{prefix}N]\nper site")
-    axial.set_ylabel("measured depth [m]" if has_hole else "along the string [m]")
+    wall.set_xlabel(f"force on the wall [{unit}]\nper site")
+    axial.set_ylabel(units.head("measured depth [m]" if has_hole else "along the string [m]"))
     axial.invert_yaxis()
     figure.suptitle(title)
     return figure
 
 
-def string(found: Profile, hole_diameter: float | None = None, title: str = "") -> Any:
+def string(found: Profile, hole_diameter: float | None = None, title: str = "", units: Units = SI) -> Any:
     """The string in its hole: seen from the side and from above to one scale, and how far it lies off its described axis."""
     figure, ((side,), (above,), (off,)) = _axes(3, 1, (11, 9))
-    x, y, z = found.position.T
+    x, y, z = units.factor("m") * found.position.T
     side.plot(x, z, **SINGLE)
-    side.set(xlabel="x [m]", ylabel="height z [m]", title="from the side")
+    side.set(xlabel=units.head("x [m]"), ylabel=units.head("height z [m]"), title="from the side")
     above.plot(x, y, **SINGLE)
-    above.set(xlabel="x [m]", ylabel="y [m]", title="from above")
+    above.set(xlabel=units.head("x [m]"), ylabel=units.head("y [m]"), title="from above")
     for axes in (side, above):
         axes.set_aspect("equal", adjustable="datalim")
     for i, axis in enumerate("yz"):
-        off.plot(found.along, 1e3 * found.displacement[:, 1 + i], label=f"along {axis}", **_style(i))
+        off.plot(units.factor("m") * found.along, 1e3 * units.factor("mm") * found.displacement[:, 1 + i], label=f"along {axis}", **_style(i))
     if hole_diameter is not None:
-        off.plot([], [], " ", label=f"hole {1e3 * hole_diameter:g} mm")
-    off.set(xlabel="along the string [m]", ylabel="displacement [mm]", title="sideways, exaggerated")
+        off.plot([], [], " ", label=f"hole {units.text(1e3 * hole_diameter, 'mm', 'g')}")
+    off.set(xlabel=units.head("along the string [m]"), ylabel=units.head("displacement [mm]"), title="sideways, exaggerated")
     _legend(off)
     figure.suptitle(title)
     return figure
@@ -115,17 +112,18 @@ def _unit(name: str) -> str:
     return name[name.rindex("[") + 1:name.rindex("]")] if "[" in name else "-"
 
 
-def response(found: Response, names: Sequence[str] | None = None, title: str = "") -> Any:
+def response(found: Response, names: Sequence[str] | None = None, title: str = "", units: Units = SI) -> Any:
     """Amplitudes and phases of the combined outputs over frequency. names: of the outputs, with their units."""
     numpy = need("numpy")
     figure, ((size,), (phase,)) = _axes(2, 1, (11, 7), sharex=True)
     for i in range(found.shape[2]):
         values = found.transfer(output=i)
-        size.plot(found.frequencies, numpy.abs(values), label=names[i] if names else f"output {i}", **_style(i))
+        name, factor = (units.head(names[i]), units.factor_of(names[i])) if names else (f"output {i}", 1.0)
+        size.plot(found.frequencies, factor * numpy.abs(values), label=name, **_style(i))
         angle = numpy.angle(values, deg=True)
         phase.plot(found.frequencies, numpy.where(numpy.abs(numpy.diff(angle, append=angle[-1:])) > 180.0, numpy.nan, angle),
                    **_style(i))  # a phase that comes back at the other side draws no line across
-    size.set(yscale="log", ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else names[0])
+    size.set(yscale="log", ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else units.head(names[0]))
     phase.set(xlabel="frequency [Hz]", ylabel="phase [deg]", yticks=range(-180, 181, 90))
     _legend(size)
     figure.suptitle(title)
@@ -153,20 +151,21 @@ def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, titl
     return figure
 
 
-def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_weight: float = 0.0) -> Any:
+def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_weight: float = 0.0, units: Units = SI) -> Any:
     """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation.
     block_weight [N]: added to the hook loads."""
     figure, ((load, torque),) = _axes(1, 2, (11, 6), sharey=True)
-    for axes, field, label in ((load, "hook_load", "hook load [{}N]\n(> 0: the rig pulls)"),
-                               (torque, "torque", "torque at the rig [{}N m]")):
+    length = units.factor("m")
+    for axes, field, si, label in ((load, "hook_load", "N", "hook load [{}]\n(> 0: the rig pulls)"),
+                                   (torque, "torque", "N m", "torque at the rig [{}]")):
         more = block_weight if field == "hook_load" else 0.0
         columns = [[value + more for value in found.column(field, number)] for number in range(len(names))]
-        factor, prefix = _kilo(*columns)
+        factor, unit = units.axis(si, *columns)
         for number, (name, column) in enumerate(zip(names, columns)):
-            axes.plot([factor * value for value in column], found.column("depth", number), label=name, **_style(number))
-        axes.set_xlabel(label.format(prefix))
+            axes.plot([factor * value for value in column], [length * depth for depth in found.column("depth", number)], label=name, **_style(number))
+        axes.set_xlabel(label.format(unit))
     load.axvline(0.0, color="#999999", linewidth=0.8)
-    load.set_ylabel("measured depth of the bit [m]")
+    load.set_ylabel(units.head("measured depth of the bit [m]"))
     load.invert_yaxis()
     _legend(torque)
     figure.suptitle(title)
@@ -174,13 +173,14 @@ def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "", block_
 
 
 def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[float]], torques: dict[str, Sequence[float]],
-               title: str = "", measured: dict[str, Any] | None = None) -> Any:
+               title: str = "", measured: dict[str, Any] | None = None, units: Units = SI) -> Any:
     """Hook load [N] over the depth [m] of the bit, depth downward: a curve for each operation (colour) and friction (kind of line; "friction
     0.3"); beside it the torque [N m] while rotating. measured: (depths, values) by "pick-up", ..., "torque", drawn as points."""
     figure, ((load, torque),) = _axes(1, 2, (13, 7), sharey=True)
-    measured = measured or {}
+    depths = [units.factor("m") * depth for depth in depths]
+    measured = {word: ([units.factor("m") * depth for depth in places], values) for word, (places, values) in (measured or {}).items()}
     words, frictions = list(dict.fromkeys(word for word, _ in loads)), list(torques)
-    factor, prefix = _kilo(*loads.values(), *(values for word, (_, values) in measured.items() if word != "torque"))
+    factor, unit = units.axis("N", *loads.values(), *(values for word, (_, values) in measured.items() if word != "torque"))
     for (word, friction), column in loads.items():
         load.plot([factor * value for value in column], depths, label=f"{word}, {friction}", linewidth=1.2,
                   color=COLOURS[words.index(word)], linestyle=LINES[frictions.index(friction) % len(LINES)])
@@ -189,15 +189,15 @@ def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[fl
             load.plot([factor * value for value in measured[word][1]], measured[word][0], "osD"[number], markersize=4, fillstyle="none",
                       color=COLOURS[number], label=f"{word}, measured")
     load.axvline(0.0, color="#999999", linewidth=0.8)
-    load.set(xlabel=f"hook load [{prefix}N]\n(< 0: the rig thrusts)", ylabel="measured depth of the bit [m]")
-    factor, prefix = _kilo(*torques.values(), *(values for word, (_, values) in measured.items() if word == "torque"))
+    load.set(xlabel=f"hook load [{unit}]\n(< 0: the rig thrusts)", ylabel=units.head("measured depth of the bit [m]"))
+    factor, unit = units.axis("N m", *torques.values(), *(values for word, (_, values) in measured.items() if word == "torque"))
     for number, (friction, column) in enumerate(torques.items()):
         torque.plot([factor * value for value in column], depths, label=f"rotate, {friction}", linewidth=1.2,
                     color=COLOURS[2], linestyle=LINES[number % len(LINES)])
     if "torque" in measured:
         torque.plot([factor * value for value in measured["torque"][1]], measured["torque"][0], "D", markersize=4, fillstyle="none",
                     color=COLOURS[2], label="rotate, measured")
-    torque.set_xlabel(f"torque at the rig [{prefix}N m]")
+    torque.set_xlabel(f"torque at the rig [{unit}]")
     load.invert_yaxis()
     for axes in (load, torque):
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2 if axes is torque else 3, fontsize=8)
@@ -223,27 +223,29 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
     return figure
 
 
-def buckling(shape: Any, along: Any, factor: float, title: str = "") -> Any:
+def buckling(shape: Any, along: Any, factor: float, title: str = "", units: Units = SI) -> Any:
     """A buckling shape, shape (n, 6), over the string [m]."""
     figure, ((axes,),) = _axes(1, 1, (11, 4))
     for number, name in enumerate("xyz"):
-        axes.plot(along, shape[:, number], label=name, **_style(number))
-    axes.set(xlabel="along the string [m]", ylabel="shape [m], largest 1", title=f"critical factor {factor:.4g}")
+        axes.plot(along, units.factor("m") * shape[:, number], label=name, **_style(number))
+    axes.set(xlabel="along the string [m]", ylabel="shape [m], largest 1" if units.name == "si" else units.head("shape [m]"),
+             title=f"critical factor {factor:.4g}")
     _legend(axes)
     figure.suptitle(title)
     return figure
 
 
-def fatigue(found: StringFatigue, title: str = "") -> Any:
+def fatigue(found: StringFatigue, title: str = "", units: Units = SI) -> Any:
     """Damage along a string, and the cycles by stress range at its worst pipe."""
     figure, ((damage, cycles),) = _axes(1, 2, (11, 4.5))
     damage.plot(found.pipes, [one.damage for one in found.results], **SINGLE)
     damage.set(xlabel="pipe, counted from the rig end", ylabel="damage of this run [-]")
     ranges, counts = found.counter.histogram(found.worst)
-    known = [(stress / 1e6, count) for stress, count in zip(ranges, counts) if count > 0.0]
-    width = 1e-6 * (ranges[1] - ranges[0])
+    factor = units.factor("Pa") if units.name != "si" else 1e-6
+    known = [(factor * stress, count) for stress, count in zip(ranges, counts) if count > 0.0]
+    width = factor * (ranges[1] - ranges[0])
     cycles.bar([one for one, _ in known], [one for _, one in known], width=width, color=COLOURS[1])
-    cycles.set(xlabel="stress range [MPa]", ylabel=f"cycles at pipe {found.pipes[found.worst]}", yscale="log" if known else "linear")
+    cycles.set(xlabel=units.head("stress range [MPa]"), ylabel=f"cycles at pipe {found.pipes[found.worst]}", yscale="log" if known else "linear")
     figure.suptitle(title)
     return figure
 

@@ -15,6 +15,7 @@ from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, energy_error
 from .running import Bar
 from .sim import Sim
+from .unit_systems import SI, Units
 
 MOST_ROWS = 50_000_000
 NOTHING_EXCITES = ("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
@@ -26,8 +27,9 @@ def check(scene: Scene, output: Output, options: Any) -> int:
     """The parts of the scene."""
     with scene.new_sim() as sim:
         output.note(sim.status, "start")
-        report, text = sim.check(), sim.check_text()
-        understood, left_out = words.describe(scene, sim.momentum().mass), words.trivial(scene)
+        report, text = sim.check(), output.units.sentence(sim.check_text())
+        understood = [output.units.sentence(one) for one in words.describe(scene, sim.momentum().mass)]
+        left_out = words.trivial(scene)
     output.summary.update(model=record(scene.model.info()), check=record(report), understood=understood, left_out=left_out)
     text = "\n".join(["the scene:", *(f"  {one}" for one in understood), *(f"not assessed: {one}" for one in left_out), text.rstrip("\n")])
     output.say(text)
@@ -46,7 +48,7 @@ def to_rest(scene: Scene, sim: Sim, output: Output, linear: bool = False) -> Non
     output.note(report.status, "static")
     output.summary["static"] = {**record(report), "status_name": Status(report.status).name}
     output.say(f"static state: {report.iterations} iterations, residual {report.residual:.1e}, "
-               f"displacement up to {1e3 * report.lateral_move:.4g} mm")
+               f"displacement up to {output.units.text(1e3 * report.lateral_move, 'mm')}")
     if report.free_spins:
         output.say(f"free rotation: nothing resists the rotation of {report.free_spins} "
                    f"{'string' if report.free_spins == 1 else 'strings'} about the axis; the starting angle is kept")
@@ -54,12 +56,13 @@ def to_rest(scene: Scene, sim: Sim, output: Output, linear: bool = False) -> Non
 
 def profiles(scene: Scene, sim: Sim, output: Output, word: str) -> None:
     """Each string's profile as table and picture."""
+    units = output.units
     for name, pipes in scene.pipes.items():
         found = sim.profile(scene.names[name], pipes)
         per_contact = found.contact_force.sum()
-        output.say(f"{name}: axial force {found.axial_force.min():.4g} .. {found.axial_force.max():.4g} N, torque up to "
-                   f"{abs(found.torque).max():.4g} N m, bending up to {found.bending_moment.max():.4g} N m, on the wall "
-                   f"{per_contact:.4g} N")
+        output.say(f"{name}: axial force {units.number(found.axial_force.min(), 'N')} .. {units.text(found.axial_force.max(), 'N')}, torque up to "
+                   f"{units.text(abs(found.torque).max(), 'N m')}, bending up to {units.text(found.bending_moment.max(), 'N m')}, on the wall "
+                   f"{units.text(per_contact, 'N')}")
         output.summary.setdefault("strings", {})[name] = {
             "axial_force_N": [float(found.axial_force.min()), float(found.axial_force.max())],
             "torque_N_m": [float(found.torque.min()), float(found.torque.max())],
@@ -69,8 +72,8 @@ def profiles(scene: Scene, sim: Sim, output: Output, word: str) -> None:
                      "bending moment [N m]"]
             rows = zip(found.along, found.depth, *found.position.T, found.axial_force, found.torque, found.bending_moment)
             output.table(f"{word}_{file_name(name)}.csv", heads, ([float(one) for one in row] for row in rows))
-            output.picture(f"{word}_{file_name(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}"))
-            output.picture(f"{word}_{file_name(name)}_shape.png", lambda plots: plots.string(found, None, name))
+            output.picture(f"{word}_{file_name(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}", units))
+            output.picture(f"{word}_{file_name(name)}_shape.png", lambda plots: plots.string(found, None, name, units))
 
 
 def holes(scene: Scene, sim: Sim, output: Output) -> None:
@@ -174,17 +177,24 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
 def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any) -> None:
     note_bounces(sim, output)
     if recorder is not None and len(recorder):
-        table = recorder.table
+        table, units = recorder.table, output.units
         ranges = {name: [float(column.min()), float(column.max())]
                   for name, column in zip(recorder.columns[1:], table.T[1:])}
         output.summary["channels"] = ranges
-        for name, (low, high) in ranges.items():
-            output.say(f"{name}: {low:.5g} .. {high:.5g}")
-        output.table("run.csv", recorder.columns, table.tolist())
-        output.picture("run.png", lambda plots: plots.recording(recorder, scene.title))
+        heads = columns_of(scene, recorder, units)
+        for head, (low, high) in zip(heads[1:], ranges.values()):
+            output.say(f"{units.head(head)}: {low * units.factor_of(head):.5g} .. {high * units.factor_of(head):.5g}")
+        output.table("run.csv", heads, table.tolist())
+        output.picture("run.png", lambda plots: plots.history(table * [units.factor_of(head) for head in heads], [units.head(head) for head in heads],
+                                                              scene.title))
     profiles(scene, sim, output, "end")
     holes(scene, sim, output)
     output.summary["hash"] = f"{sim.hash():016x}"
+
+
+def columns_of(scene: Scene, recorder: Any, units: Units) -> list[str]:
+    """The heads of a recorder, with units in SI. In SI they are the names of the scene."""
+    return list(recorder.columns) if units.name == "si" else ["time [s]", *scene.channel_heads()]
 
 
 def stations_of(scene: Scene) -> list[tuple[str, list[Any], list[float]]]:
@@ -228,22 +238,35 @@ def response(scene: Scene, output: Output, options: Any) -> int:
     with scene.new_sim() as sim:
         to_rest(scene, sim, output, linear=True)
         found = sim.response(scene.inputs(), scene.outputs("response"), **scene.fields_of("response"))
-        names = scene.output_names("response")
+        names, units = scene.output_names("response"), output.units
         peaks: dict[str, dict[str, float | None]] = {}
         for index, name in enumerate(names):
             size = numpy.abs(found.transfer(output=index))
             at = int(size.argmax())
             if not size[at] > 0.0:
                 peaks[name] = {"amplitude": None, "frequency_Hz": None}
-                output.say(f"{name}: not assessed, because no input of [response] excites it: " + NOTHING_EXCITES)
+                output.say(f"{units.head(name)}: not assessed, because no input of [response] excites it: " + NOTHING_EXCITES)
                 continue
             peaks[name] = {"amplitude": float(size[at]), "frequency_Hz": float(found.frequencies[at])}
-            output.say(f"{name}: largest {size[at]:.4g} at {found.frequencies[at]:.4g} Hz")
+            output.say(f"{units.head(name)}: largest {size[at] * units.factor_of(name):.4g} at {found.frequencies[at]:.4g} Hz")
         output.summary["response"] = peaks
-        if output.folder is not None:
+        if output.folder is not None and units.name == "si":
             found.write_csv(output.path("response.csv"))
-        output.picture("response.png", lambda plots: plots.response(found, names, scene.title))
+        elif output.folder is not None:
+            _response_table(found, names, output)
+        output.picture("response.png", lambda plots: plots.response(found, names, scene.title, units))
     return output.finish()
+
+
+def _response_table(found: Any, names: list[str], output: Output) -> None:
+    """Amplitude and phase of each output for all inputs together; those for one input have units of the output over units of the input."""
+    numpy = need("numpy")
+    heads, columns = ["frequency [Hz]"], [found.frequencies]
+    for index, name in enumerate(names):
+        values = found.transfer(output=index)
+        heads += [f"amplitude of {name}", f"phase of {name[:name.rindex(' [')]} [rad]"]
+        columns += [numpy.abs(values), numpy.angle(values)]
+    output.table("response.csv", heads, ([float(one) for one in row] for row in zip(*columns)))
 
 
 def speeds(scene: Scene, output: Output, options: Any) -> int:
@@ -261,9 +284,9 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     limits = [one["limit"] for one in settings["output"]]
     places = scene.outputs("speeds")
     for band in bands:
-        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {names[band.output]}, severity "
+        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {output.units.head(names[band.output])}, severity "
                    f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
-                   + touches(scene, places[band.output], band.severity * limits[band.output]))
+                   + touches(scene, places[band.output], band.severity * limits[band.output], output.units))
     low, high = used.speed_low / RPM, used.speed_high / RPM
     if not max(severity) > 0.0:
         output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
@@ -278,13 +301,13 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     return output.finish()
 
 
-def touches(scene: Scene, place: Any, amplitude: float) -> str:
+def touches(scene: Scene, place: Any, amplitude: float, units: Units = SI) -> str:
     """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
     clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.OUTPUT_DISPLACEMENT else None
     if clearance is None or amplitude <= clearance:
         return ""
-    return (f"; the amplitude of {1e3 * amplitude:.3g} mm exceeds the radial clearance of {1e3 * clearance:.3g} mm: the string "
-            "touches the wall, beyond the range of the linear analysis")
+    return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "
+            f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear analysis")
 
 
 def clearance_at(scene: Scene, place: Any) -> float | None:

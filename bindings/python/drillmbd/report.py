@@ -16,14 +16,16 @@ from .fatigue import StringFatigue
 from .operating import BIT_FRICTION, Operating, operating, operations_of
 from .plots import COLOURS
 from .profile import Profile, values_of
-from .questions import LINEAR, NOTHING_EXCITES
+from .questions import LINEAR, NOTHING_EXCITES, columns_of
 from .report_figures import line, picture_in_space, rounded
 from .report_page import page
 from .scene import Scene
 from .sim import Sim
+from .unit_systems import Units
 from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, shown
 
 FRAMES, POINTS, DEPTHS = 60, 300, 40
+NAMES_OF = {"si": "SI", "field": "field units (ft, lbf, psi)", "mine": "mine units (m, kN, MPa)"}
 NEAR_BAND = 0.1  #: of the rotation: a critical band so near is "near"
 
 
@@ -31,12 +33,12 @@ class Study:
     """Content of the page. An analysis that fails becomes a tile with its reason; the others go on."""
 
     def __init__(self, scene: Scene, output: Output) -> None:
-        self.scene, self.output, self.title = scene, output, scene.title
+        self.scene, self.output, self.title, self.units = scene, output, scene.title, output.units
         self.string, self.pipes = next(iter(scene.pipes.items()))
         self.part, self.limits = scene.names[self.string], scene.limits
         self.plan: Operating = operating(scene)
         self.operations: dict[str, Profile] = {}
-        self.demands = {key: Demand(title, unit, self.limits.get(key)) for key, title, unit in (
+        self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units) for key, title, unit in (
             ("push", "Thrust at the rig", "N"), ("pull", "Pull at the rig", "N"), ("torque", "Torque at the rig", "N m"),
             ("yield_stress", "Von Mises stress", "Pa"))}
         self.stresses: list[tuple[float, str]] = []  # [Pa] of moments of the run
@@ -45,12 +47,12 @@ class Study:
         self.check, self.hash, self.headline = "", "", self._headline()
 
     def _headline(self) -> str:
-        plan = self.plan
+        plan, units = self.plan, self.units
         known = [text for value, text in (
-            (plan.rotation, f"rotation {(plan.rotation or 0.0) / RPM:.4g} rpm"), (plan.feed, f"feed {1e3 * (plan.feed or 0.0):.4g} mm/s"),
-            (plan.weight_on_bit, f"{(plan.weight_on_bit or 0.0) / 1e3:.4g} kN on the bit")) if value]
+            (plan.rotation, f"rotation {units.text((plan.rotation or 0.0) / RPM, 'rpm')}"), (plan.feed, f"feed {units.text(1e3 * (plan.feed or 0.0), 'mm/s')}"),
+            (plan.weight_on_bit, f"{units.text((plan.weight_on_bit or 0.0) / 1e3, 'kN')} on the bit")) if value]
         if plan.estimated:
-            known.append(f"bit torque {plan.torque_on_bit:.4g} N m, estimated from the bit load with a coefficient of sliding friction "
+            known.append(f"bit torque {units.text(plan.torque_on_bit, 'N m')}, estimated from the bit load with a coefficient of sliding friction "
                          f"of {BIT_FRICTION:g} (Pessier and Fear 1992)")
         return f"String {self.string}. " + ("Operation: " + ", ".join(known) if known else "The scene describes no operation") + "."
 
@@ -65,14 +67,14 @@ class Study:
         if "buckling" in self.scene.analyses:
             self._attempt("Buckling, nonlinear", (), self._buckling)
         with self.scene.new_sim() as sim:
-            self.check = sim.check_text()
+            self.check = self.units.sentence(sim.check_text())
         self.output.summary["verdicts"] = [vars(tile) for tile in self.tiles]
 
     def _attempt(self, what: str, demands: tuple[str, ...], analysis: Callable[[], None]) -> None:
         try:
             analysis()
         except (Error, ArithmeticError) as error:
-            reason = error.message if isinstance(error, Error) else str(error)
+            reason = self.units.sentence(error.message if isinstance(error, Error) else str(error))
             self.output.note_text(f"{what}: not computed. {reason}")
             for key in demands:
                 self.demands[key].failed.append(f"{what}: {reason}")
@@ -106,8 +108,8 @@ class Study:
         if not self.operations:
             return
         self.figures.append(("Axial force by operation", "Stiff string at rest, with friction as if it moved that way, without bit "
-                             "load. Tension is positive.", self._along("axial_force", 1e-3, "axial force [kN]", "push")))
-        self.figures.append(("Torque by operation", "", self._along("torque", 1.0, "torque [N m]", "torque")))
+                             "load. Tension is positive.", self._along("axial_force", "push")))
+        self.figures.append(("Torque by operation", "", self._along("torque", "torque")))
 
     def _operation(self, name: str, key: str, slip: dict[str, float]) -> None:
         with self.scene.new_sim() as sim:
@@ -124,25 +126,25 @@ class Study:
     # ---- Torque and drag --------------------------------------------------------------------------------------------
     def _torque_drag(self) -> None:
         """Hook load and torque by depth while the hole is drilled, with the bit load and rotation of the scene."""
-        plan, operations = self.plan, operations_of(self.plan)
+        plan, operations, units = self.plan, operations_of(self.plan), self.units
         with self.scene.new_sim() as sim:
             last = sim.torque_drag([enums.OPERATION_ROTATE], string=self.part).rows[0][0].depth
             first = last - float(values_of(sim, self.part, [enums.PROFILE_DISTANCE], count=2)[1, 0])
             depths = [first + (last - first) * (i + 1) / DEPTHS for i in range(DEPTHS)]
             found = sim.torque_drag(operations, depths=depths, string=self.part)
         names = [operation_name(kind) for kind in OPERATIONS]
-        load = f"{(plan.weight_on_bit or 0.0) / 1e3:.4g} kN on the bit while drilling and sliding"
+        load = f"{units.text((plan.weight_on_bit or 0.0) / 1e3, 'kN')} on the bit while drilling and sliding"
         self._soft_demands(names, found.rows[-1])
         self._confinement(names, found.rows[-1])
         for title, field, factor, label, limits in (
-                ("Hook load by depth of the bit", "hook_load", 1e-3, "hook load [kN], < 0: the rig thrusts", ("pull", "push")),
-                ("Torque by depth of the bit", "torque", 1.0, "torque at the rig [N m]", ("torque",))):
-            data = [line([factor * value for value in found.column(field, number)], depths, name, number)
+                ("Hook load by depth of the bit", "hook_load", _force(units), f"hook load [{units.unit('kN')}], < 0: the rig thrusts", ("pull", "push")),
+                ("Torque by depth of the bit", "torque", units.factor("N m"), units.head("torque at the rig [N m]"), ("torque",))):
+            data = [line([factor * value for value in found.column(field, number)], [units.factor("m") * depth for depth in depths], name, number)
                     for number, name in enumerate(names)]
             shapes = self._limit_lines({limit: -factor if limit == "push" else factor for limit in limits}, data)
             self.figures.append((title, f"Soft string in steady motion, {load}; dashed: limits of the rig.", {
                 "data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
-                    "title": {"text": "measured depth of the bit [m]"}, "autorange": "reversed"}}}))
+                    "title": {"text": units.head("measured depth of the bit [m]")}, "autorange": "reversed"}}}))
         self.output.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
                                               for name, row in zip(names, found.rows[-1])}
 
@@ -170,7 +172,7 @@ class Study:
                 verdict, text = NOT_ASSESSED, "the scene gives no bit load"
             else:
                 verdict = OVER if helical > 1.0 else NEAR if helical > NEAR_SHARE or sinusoidal > 1.0 else OK
-                text = f"{name}, at {depth:.4g} m; {100.0 * sinusoidal:.3g} % of the sinusoidal buckling load"
+                text = f"{name}, at {self.units.text(depth, 'm')}; {100.0 * sinusoidal:.3g} % of the sinusoidal buckling load"
             self.tiles.append(Tile("Buckling in the hole", f"{100.0 * helical:.3g} % of the helical buckling load", text, verdict))
 
     def _limit_lines(self, limits: dict[str, float], data: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -181,15 +183,17 @@ class Study:
                  "line": {"color": "#D55E00", "dash": "dash"}} for value in values if abs(value) < 2.0 * largest]
 
     def _depth(self, found: Profile) -> Any:
-        return found.depth if found.depth.max() > 0.0 else found.along
+        return self.units.factor("m") * (found.depth if found.depth.max() > 0.0 else found.along)
 
-    def _along(self, name: str, factor: float, label: str, limit: str) -> dict[str, Any]:
+    def _along(self, name: str, limit: str) -> dict[str, Any]:
+        units = self.units
+        factor, label = ((_force(units), units.head("axial force [kN]")) if limit == "push" else (units.factor("N m"), units.head("torque [N m]")))
         data = [line(factor * values, self._depth(found), operation, number)
                 for number, (operation, found) in enumerate(self.operations.items())
                 for values in [getattr(found, name) if limit == "push" else abs(found.torque)]]
         shapes = self._limit_lines({limit: -factor if limit == "push" else factor}, data)
         return {"data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
-            "title": {"text": "measured depth [m]"}, "autorange": "reversed"}}}
+            "title": {"text": units.head("measured depth [m]")}, "autorange": "reversed"}}}
 
     # ---- Linear analyses --------------------------------------------------------------------------------------------
     def _speeds(self) -> None:
@@ -263,7 +267,7 @@ class Study:
                     self.tiles.append(Tile("Run in time", "not assessed", "the scene has no [run] end", NOT_ASSESSED))
             finally:
                 self.hash = f"{sim.hash():016x}"
-                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.scene, shapes, times))
+                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.scene, shapes, times, self.units))
 
     def _in_time(self, sim: Sim, shapes: list[Any], times: list[float]) -> None:
         counters = count_fatigue(self.scene, sim)
@@ -294,15 +298,15 @@ class Study:
             self.tiles.append(Tile("Fatigue", f"{found.life / 3600.0:.3g} h", f"of this run until pipe {pipe} reaches its S-N curve",
                                    OVER if found.damage > 1.0 else NO_LIMIT))
         else:
-            self.tiles.append(Tile("Fatigue", "no damage", f"in this run; largest range {shown(found.largest_range, 'Pa')}, pipe {pipe}", OK))
+            self.tiles.append(Tile("Fatigue", "no damage", f"in this run; largest range {shown(found.largest_range, 'Pa', self.units)}, pipe {pipe}", OK))
         self.figures.append(("Fatigue along the string", "Damage of this run by the S-N curve of the scene; 1 is its end.", {
             "data": [line(counter.pipes, [one.damage for one in counter.results], "damage", 0)], "layout": {"xaxis": {"title": {
                 "text": "pipe, counted from the rig end"}}, "yaxis": {"title": {"text": "damage [-]"}, "exponentformat": "power"}}}))
         ranges, cycles = counter.counter.histogram(counter.worst)
-        known = [(1e-6 * stress, count) for stress, count in zip(ranges, cycles) if count > 0.0]
+        known = [(1e-6 * self.units.factor("MPa") * stress, count) for stress, count in zip(ranges, cycles) if count > 0.0]
         self.figures.append((f"Cycles of stress at pipe {pipe}", "Rainflow counting of the run; cycles that did not close count half.", {
             "data": [{"type": "bar", "x": rounded([one for one, _ in known]), "y": rounded([one for _, one in known]),
-                      "marker": {"color": COLOURS[1]}}], "layout": {"xaxis": {"title": {"text": "stress range [MPa]"}}, "yaxis": {
+                      "marker": {"color": COLOURS[1]}}], "layout": {"xaxis": {"title": {"text": self.units.head("stress range [MPa]")}}, "yaxis": {
                           "title": {"text": "cycles [-]"}, "type": "log"}}}))
 
     def _frames(self, sim: Sim, shapes: list[Any], times: list[float], counters: list[Any]) -> None:
@@ -322,9 +326,10 @@ class Study:
         note_bounces(sim, self.output)
         if recorder is not None and len(recorder):
             table = recorder.table
-            for number, name in enumerate(recorder.columns[1:]):
+            for number, head in enumerate(columns_of(self.scene, recorder, self.units)[1:]):
+                name, factor = self.units.head(head), self.units.factor_of(head)
                 self.figures.append((name.split(" [")[0], "In the run.", {
-                    "data": [line(table[:, 0], table[:, 1 + number], name, 0)],
+                    "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
                     "layout": {"xaxis": {"title": {"text": "time [s]"}}, "yaxis": {"title": {"text": name}}}}))
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
@@ -344,20 +349,33 @@ class Study:
         left_out = [] if features is None else [one.name for one in enums.Feature
                                                 if one.name and not one & features and one & (one - 1) == 0]
         found = [("pipes, elements, degrees of freedom", f"{info.pipes}, {info.elements}, {info.degrees_of_freedom}"),
-                 ("mass, length", f"{info.mass:.4g} kg, {info.length:.4g} m"), *_wall(calls)]
+                 ("mass, length", f"{self.units.text(info.mass, 'kg')}, {self.units.text(info.length, 'm')}"), *_wall(calls, self.units)]
         found += [("left out", ", ".join(str(one).lower() for one in left_out) or "nothing that the scene describes"),
                   ("not in this page", "connections, bit load in the stiff string, other friction factors"),
-                  ("library", f"{__version__}, hash of the last state {self.hash}"), ("Python", platform.python_version())]
+                  ("units", NAMES_OF[self.units.name]), ("library", f"{__version__}, hash of the last state {self.hash}"),
+                  ("Python", platform.python_version())]
         return found
 
 
-def _wall(calls: Any) -> list[tuple[str, str]]:
+def _wall(calls: Any, units: Units) -> list[tuple[str, str]]:
     if not any(name == "add_wall" for name, _ in calls):
         return []
     wall: Any = _structs.WallDef(**next((arguments[0] for name, arguments in calls if name == "add_wall"), {}))
     sections = any(name == "add_hole_sections" for name, _ in calls)
-    return [("wall", f"diameter {1e3 * wall.diameter:g} mm, stiffness {wall.stiffness:g} per metre, friction {wall.mu_static:g} at rest and "
+    return [("wall", f"diameter {units.text(1e3 * wall.diameter, 'mm', 'g')}, {_stiffness(wall, units)}friction {wall.mu_static:g} at rest and "
              f"{wall.mu_dynamic:g} sliding, " + ("other values in its sections" if sections else "the same along the hole"))]
+
+
+def _stiffness(wall: Any, units: Units) -> str:
+    """Left out where its unit, N/m^(n+1), has no equivalent."""
+    if units.name == "si":
+        return f"stiffness {wall.stiffness:g} per metre, "
+    return f"stiffness {units.text(wall.stiffness, 'N/m2')}, " if wall.exponent == 1.0 else ""
+
+
+def _force(units: Units) -> float:
+    """Factor from N to the unit of figures of forces."""
+    return 1e-3 * units.factor("kN")
 
 
 def _largest(values: Any) -> float | None:

@@ -8,6 +8,7 @@ from . import _structs
 from ._optional import need
 from .plots import COLOURS
 from .scene import Scene
+from .unit_systems import Units
 
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
@@ -23,15 +24,17 @@ def line(x: Any, y: Any, name: str, number: int) -> dict[str, Any]:
             "line": {"color": COLOURS[(1 + number) % len(COLOURS)], "dash": DASHES[number % len(DASHES)], "width": 2}}
 
 
-def picture_in_space(scene: Scene, shapes: list[Any], times: list[float]) -> dict[str, Any]:
+def picture_in_space(scene: Scene, shapes: list[Any], times: list[float], units: Units) -> dict[str, Any]:
     """The string over time, its displacement across the hole exaggerated or to scale, in a tube that is the hole."""
     numpy = need("numpy")
+    length_unit = units.factor("m")
+    shapes = [(length_unit * position, length_unit * moved) for position, moved in shapes]
     axis = shapes[0][0] - shapes[0][1]
     tangent = numpy.gradient(axis, axis=0)
     tangent = tangent / numpy.maximum(numpy.linalg.norm(tangent, axis=1, keepdims=True), 1e-300)
     length = float(numpy.linalg.norm(numpy.diff(axis, axis=0), axis=1).sum())
-    radius = _hole_radius(scene)
-    across = max([float(numpy.abs(moved).max()) for _, moved in shapes[:1]] + [1e-6])
+    radius = length_unit * _hole_radius(scene)
+    across = max([float(numpy.abs(moved).max()) for _, moved in shapes[:1]] + [1e-6 * length_unit])
     factor = max(1.0, float(f"{length / 30.0 / (radius or across):.1g}"))
 
     def drawn(shape: Any, scale: float) -> Any:
@@ -51,7 +54,7 @@ def picture_in_space(scene: Scene, shapes: list[Any], times: list[float]) -> dic
         {key: values for key, values in trace(drawn(shape, scale)).items() if key in "xyz" or key == "type"}
         for scale in (factor, 1.0)]} for shape, time in zip(shapes, times)] if len(shapes) > 1 else []
     layout: dict[str, Any] = {"scene": {"aspectmode": "data", "camera": {
-        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": f"{name} [m]"}}
+        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": f"{name} [{units.unit('m')}]"}}
                                                                 for name in "xyz"}}, "height": 560, "showlegend": True}
     tube = len(data) - 3
     layout["updatemenus"] = [_buttons([("drawn larger", "restyle", [{"visible": [True, False, True] + [True] * tube}]),

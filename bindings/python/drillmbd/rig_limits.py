@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .answers import Output, file_name
+from .unit_systems import Units
 from .verdict import shown
 
 QUANTITIES = (("push", "thrust", "N"), ("pull", "pull", "N"), ("torque", "torque", "N m"))  #: key of [limits], word, unit
@@ -72,7 +73,7 @@ def write(output: Output, name: str, depths: Sequence[float], table: Sequence[di
         output.summary.setdefault("rig_limits", {})[name] = None
         return
     first = reach(depths, table, given)
-    output.say(f"{name}, limits of the rig: {_text(depths, table, given, first)}")
+    output.say(f"{name}, limits of the rig: {_text(depths, table, given, first, output.units)}")
     for key, word, _ in QUANTITIES:
         if key not in given:
             output.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
@@ -87,16 +88,16 @@ def write(output: Output, name: str, depths: Sequence[float], table: Sequence[di
         "assessed_to_m": depths[-1], "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
 
 
-def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None) -> str:
+def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None, units: Units) -> str:
     if first is not None and first.depth <= depths[0]:
-        return f"exceeded at {depths[0]:.4g} m, the first depth: {_cause(first)}; choose smaller --depths to find the reach"
+        return f"exceeded at {units.text(depths[0], 'm')}, the first depth: {_cause(first)}; choose smaller --depths to find the reach"
     if first is not None:
-        return f"this rig reaches {first.depth:.4g} m: {_cause(first)}"
+        return f"this rig reaches {units.text(first.depth, 'm')}: {_cause(first)}"
     shares = {word: max(((loads[key].share(given[key]), depth, loads[key]) for depth, loads in zip(depths, table)), key=lambda one: one[0])
               for key, word, _ in QUANTITIES if key in given}
-    texts = [f"{word} {shown(load.value, 'N m' if word == 'torque' else 'N')}, {100.0 * share:.0f} % of the limit"
-             + (f" ({load.operation} at {depth:.4g} m)" if load.operation else "") for word, (share, depth, load) in shares.items()]
-    return f"not reached down to {depths[-1]:.4g} m: " + "; ".join(texts)
+    texts = [f"{word} {shown(load.value, 'N m' if word == 'torque' else 'N', units)}, {100.0 * share:.0f} % of the limit"
+             + (f" ({load.operation} at {units.text(depth, 'm')})" if load.operation else "") for word, (share, depth, load) in shares.items()]
+    return f"not reached down to {units.text(depths[-1], 'm')}: " + "; ".join(texts)
 
 
 def _cause(first: Reach) -> str:

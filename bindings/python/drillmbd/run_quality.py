@@ -70,12 +70,15 @@ class LastPart:
         output.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
         told: dict[str, Any] = {}
         changed: list[str] = []
+        units = output.units
+        heads = self.recorder.columns if units.name == "si" else ["", *self.scene.channel_heads()]
         for column, name in enumerate(self.recorder.columns[1:], 1):
             first, second = (float(abs(one.table[:, column]).max()) for one in (self.recorder, again))
             larger = max(first, second)
             change = (second - first) / larger if larger > 0.0 else 0.0
             told[name] = {"step": first, "half_step": second, "change": change}
-            output.say(f"  {name}: {first:.5g}, with half the step {second:.5g} ({100.0 * change:+.2g} %)")
+            head, factor = heads[column], units.factor_of(heads[column])
+            output.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} ({100.0 * change:+.2g} %)")
             if abs(change) > NOTABLE:
                 changed.append(name)
         output.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step, "channels": told}

@@ -75,6 +75,7 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
     more: dict[str, Any] = friction_option(options)
     string = scene.names[next(iter(scene.pipes))]
     told: dict[str, Any] = {}
+    units = output.units
     with scene.new_sim() as sim:
         for name, ask in (("pull", pull_at_bit), ("push", push_at_bit)):
             limit = limits[name]
@@ -84,11 +85,11 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
             force, row = ask(sim, string, limit, **more)
             if not force > 0.0:
                 told[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
-                output.say(f"{name} of {limit / 1e3:.4g} kN at the rig: nothing arrives, weight and friction take it all")
+                output.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction take it all")
                 continue
             told[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
-            output.say(f"{name} of {limit / 1e3:.4g} kN at the rig: {force / 1e3:.4g} kN at the far end, "
+            output.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far end, "
                        f"{row.helical_share:.2g} of helical buckling")
         torque = limits["torque"]
         if torque is None:
@@ -96,7 +97,7 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
         else:
             lost = _row(sim, string, enums.OPERATION_ROTATE, 0.0, **more).torque
             told["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
-            output.say(f"torque of {torque:.4g} N m at the rig: {max(0.0, torque - lost):.4g} N m at the far end")
+            output.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} at the far end")
     if options.stretch is not None:
         pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
         if not pull > 0.0 or not by > 0.0:
@@ -104,6 +105,6 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
         length = free_length(scene, string, pull, by)
         told["free_length_m"] = length
         output.say("free as far as the string goes: it would lengthen by less" if length is None
-                   else f"free down to {length:.4g} m from the rig end, friction left out")
+                   else f"free down to {units.text(length, 'm')} from the rig end, friction left out")
     output.summary["stuck"] = told
     return output.finish()

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from .answers import Output
+from .answers import Output, units_of
 from .errors import Error
 from .questions import QUESTIONS
 from .scene import CannotSave, Scene, SceneError
@@ -89,7 +89,8 @@ class Sweep:
         row: dict[str, Any] = {"case": number, **changes, "status": "ok", "message": ""}
         try:
             scene = load(changes)
-            output = Output(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True)
+            output = Output(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True,
+                            units_of(options, scene))
             QUESTIONS[self.question](scene, output, options)
             row.update(numbers_of(output.summary))
             row["message"] = "; ".join(output.summary["notes"])

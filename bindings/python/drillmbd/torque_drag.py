@@ -9,12 +9,13 @@ from typing import Any
 from . import broomstick, enums, measured, rig_limits
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
-from .answers import RPM, Output, file_name, friction_option, kilo, quantity
+from .answers import RPM, Output, file_name, friction_option, quantity
 from .errors import Error, Usage
 from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
 from .profile import values_of
 from .scene import Scene
 from .sim import Sim
+from .unit_systems import Units
 
 MOST_DEPTHS, MOST_FRICTIONS = 2 ** 20, 20
 FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items() if name not in ("struct_size", "reserved", "depth", "locked")}
@@ -48,7 +49,7 @@ class Curves:
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """All results of the soft string by depth and operation."""
-    settings = _settings(scene, options)
+    settings = _settings(scene, options, output.units)
     output.summary["block_weight_N"] = settings.block_weight
     output.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
                                            "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
@@ -75,28 +76,28 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
 
 
 # ---- Settings --------------------------------------------------------------------------------------------------------
-def _settings(scene: Scene, options: Any) -> Settings:
+def _settings(scene: Scene, options: Any, units: Units) -> Settings:
     plan, notes = operating(scene), []
     if options.weight_on_bit is not None:
         plan = with_weight(scene, plan, quantity(options.weight_on_bit, "N", "--weight-on-bit"))
-        notes.append(f"weight on bit {kilo(plan.weight_on_bit or 0.0)}N, as given")
+        notes.append(f"weight on bit {units.scaled(plan.weight_on_bit or 0.0, 'N')}, as given")
     elif plan.weight_on_bit:
-        notes.append(f"weight on bit {kilo(plan.weight_on_bit)}N, the largest load of the bit in the scene")
+        notes.append(f"weight on bit {units.scaled(plan.weight_on_bit, 'N')}, the largest load of the bit in the scene")
     else:
-        notes.append("weight on bit 0 N, because the scene gives the bit no load; give --weight-on-bit")
+        notes.append(f"weight on bit 0 {units.unit('N')}, because the scene gives the bit no load; give --weight-on-bit")
     if options.torque_on_bit is not None:
         plan.torque_on_bit, plan.estimated = quantity(options.torque_on_bit, "N*m", "--torque-on-bit"), False
-        notes.append(f"torque on bit {kilo(plan.torque_on_bit)}N m, as given")
+        notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, as given")
     elif plan.estimated:
-        notes.append(f"torque on bit {kilo(plan.torque_on_bit)}N m, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
+        notes.append(f"torque on bit {units.scaled(plan.torque_on_bit, 'N m')}, estimated: {BIT_FRICTION:g} x weight on bit x bit diameter / 3")
     elif plan.weight_on_bit:
-        notes.append("torque on bit 0 N m: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
+        notes.append(f"torque on bit 0 {units.unit('N m')}: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
     block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
     if block:
-        notes.append(f"hook loads include {kilo(block)}N of block and top drive")
+        notes.append(f"hook loads include {units.scaled(block, 'N')} of block and top drive")
     operations = operations_of(plan)
     drill = operations[enums.OPERATION_DRILL]
-    notes.append(f"drilling at {drill.rotary_speed / RPM:.4g} rpm and {1e3 * drill.axial_speed:.4g} mm/s"
+    notes.append(f"drilling at {units.text(drill.rotary_speed / RPM, 'rpm')} and {units.text(1e3 * drill.axial_speed, 'mm/s')}"
                  + ("" if plan.rotation and plan.feed else " (usual values where the scene gives none)"))
     return Settings(plan, operations, block, friction_option(options), _frictions(options.frictions), ["; ".join(notes)])
 
@@ -178,7 +179,7 @@ def _write_rows(sim: Sim, output: Output, curves: Curves, settings: Settings) ->
     found, told = curves.found, {}
     for kind, row in zip(WORDS, found.rows[-1]):
         neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
-        output.say(f"{curves.name}, {WORDS[kind]} at {row.depth:.4g} m: {_sentence(curves, row, neutral)}")
+        output.say(f"{curves.name}, {WORDS[kind]} at {output.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, output.units)}")
         told[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
                              **{_key(name): _or_none(value) for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
@@ -193,27 +194,28 @@ def _write_rows(sim: Sim, output: Output, curves: Curves, settings: Settings) ->
                  [[row.depth, word, row.locked, *_values(curves, row)]
                   for number, word in WORDS.items() for row in (rows[number] for rows in found.rows)])
     output.picture(f"torque_drag_{file_name(curves.name)}.png",
-                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight))
+                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight, output.units))
 
 
-def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None) -> str:
+def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: Units) -> str:
     if row.locked:
         return "locks up: no thrust at the rig moves the string"
     load = curves.hook_load(row)
-    parts = [f"hook load {load / 1e3:.4g} kN" if load >= 0.0 else f"thrust {-load / 1e3:.4g} kN", f"torque {row.torque:.4g} N m",
+    parts = [f"hook load {units.text(load / 1e3, 'kN')}" if load >= 0.0 else f"thrust {units.text(-load / 1e3, 'kN')}",
+             f"torque {units.text(row.torque, 'N m')}",
              f"{100.0 * row.transfer:.0f} % of a small increase of thrust arrives at the bit"]
     if row.lowest_force < 0.0:
-        parts.append(f"largest compression {-row.lowest_force / 1e3:.4g} kN at {row.lowest_at:.4g} m, "
-                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at {row.buckled_at:.4g} m"
+        parts.append(f"largest compression {units.text(-row.lowest_force / 1e3, 'kN')} at {units.text(row.lowest_at, 'm')}, "
+                     + (f"{100.0 * row.helical_share:.2g} % of the helical buckling load at {units.text(row.buckled_at, 'm')}"
                         if math.isfinite(row.helical_share) else "buckling not assessed, because a compressed part is not pressed to the wall"))
     if neutral is not None:
-        parts.append(f"neutral point at {neutral:.4g} m")
+        parts.append(f"neutral point at {units.text(neutral, 'm')}")
     if row.helix_length > 0.0:
-        parts.append(f"{row.helix_length:.4g} m of helix")
+        parts.append(f"{units.text(row.helix_length, 'm')} of helix")
     if math.isfinite(row.yield_share):
-        parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {row.yield_at:.4g} m")
-    stretch = f"{row.stretch:.3g} m" if abs(row.stretch) >= 1.0 else f"{1e3 * row.stretch:.3g} mm"
-    parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {row.wall_force / 1e3:.3g} kN")
+        parts.append(f"stress {100.0 * row.yield_share:.2g} % of the yield strength at {units.text(row.yield_at, 'm')}")
+    stretch = units.text(row.stretch, "m", ".3g") if abs(row.stretch) >= 1.0 else units.text(1e3 * row.stretch, "mm", ".3g")
+    parts.append(f"stretch {stretch}, wind-up {math.degrees(row.wind_up):.3g} deg, wall force {units.text(row.wall_force / 1e3, 'kN', '.3g')}")
     return ", ".join(parts)
 
 

@@ -3,17 +3,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .unit_systems import SI, Units
+
 OK, NEAR, OVER = "OK", "NEAR LIMIT", "OVER"
 NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED = "NO LIMIT GIVEN", "NOT ASSESSED", "NOT COMPUTED"
 NEAR_SHARE = 0.8  #: of a limit
 
 
-def shown(value: float, unit: str) -> str:
-    """A number in three digits with a prefix."""
-    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= factor:
-            return f"{value / factor:.3g} {prefix}{unit}"
-    return f"{value:.3g} {unit}"
+def shown(value: float, unit: str, units: Units = SI) -> str:
+    """A number in three digits with a prefix; in four in other units than SI."""
+    return units.scaled(value, unit, ".3g" if units.name == "si" else ".4g", "kMG")
 
 
 @dataclass
@@ -36,6 +35,7 @@ class Demand:
     limit: float | None
     found: list[tuple[float, str]] = field(default_factory=list)  #: value, analysis
     failed: list[str] = field(default_factory=list)               #: reasons of analyses without a result
+    units: Units = SI                                             #: of the texts
 
     def add(self, value: float, source: str) -> None:
         """The result of one analysis."""
@@ -55,7 +55,7 @@ class Demand:
         if self.failed:
             text += "; without " + "; ".join(self.failed)
         if not self.limit:
-            return Tile(self.title, shown(value, self.unit), text, NO_LIMIT)
+            return Tile(self.title, shown(value, self.unit, self.units), text, NO_LIMIT)
         share = value / self.limit
         verdict = OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.failed else OK
-        return Tile(self.title, shown(value, self.unit), f"{100.0 * share:.0f} % of {shown(self.limit, self.unit)}; {text}", verdict)
+        return Tile(self.title, shown(value, self.unit, self.units), f"{100.0 * share:.0f} % of {shown(self.limit, self.unit, self.units)}; {text}", verdict)

@@ -81,6 +81,8 @@ class _Asked:
         if options.failure is not None and options.failure not in sample.names:
             raise Usage(f"--failure {options.failure}: is none of the scene's: {', '.join(sample.names)}")
         self.output = Output(options.output, options.scene, scene, "probability", options.quiet)
+        if scene.output.get("units"):
+            self.output.note_text("[output] units is ignored: probability writes SI units")
         self.limit = sample.names.index(options.failure) if options.failure else 0
         self.scales = None if options.failure else [abs(one.limit) or 1.0 for one in scene.failures]
         self.of = options.failure or "any failure"

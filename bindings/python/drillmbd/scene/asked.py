@@ -11,6 +11,7 @@ from . import fields, units
 from .content import ANALYSES, Scene
 from .fields import DEFINITIONS, Field, fields_of
 from .lines import Path
+from .unit_names import UnitSystem
 
 if TYPE_CHECKING:
     from .load import Loader
@@ -19,7 +20,8 @@ RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
        "step": Field("step", "quantity", "s", about="length of a step; left out: chosen by the library"),
        "static": Field("static", "integer", about="true: starts from the static state of [static]")}
 OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
-          "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none")}
+          "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none"),
+          "units": Field("units", "enum", enum=UnitSystem, about="of texts, tables and pictures; files for ParaView and summary.json stay in SI")}
 
 LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
           "push": Field("push", "quantity", "N", about="of the rig"),
@@ -70,6 +72,7 @@ class Asked:
             self.loader.problems.add(path, None, "must have a quantity")
         if "quantity" in values and ("place" in values or "place" not in table):
             scene.channels.append((str(name), values.get("place"), values["quantity"]))
+            scene.channel_units.append(self.loader.channel_unit(values["quantity"], table.get("place")))
 
     def _analysis(self, kind: str) -> dict[str, Any]:
         table = self.loader.table((kind,))

@@ -30,9 +30,10 @@ class Scene:
     programme_units: dict[str, str] = field(default_factory=dict)
     sim: dict[str, Any] = field(default_factory=dict)      #: fields of SimOptions
     run: dict[str, Any] = field(default_factory=dict)      #: end [s], step [s], static
-    output: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s]
+    output: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s], units
     limits: dict[str, float] = field(default_factory=dict)  #: torque [N m], push [N], pull [N], yield_stress [Pa]
     channels: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
+    channel_units: list[str] = field(default_factory=list)  #: of each channel, SI
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
     variability: Variability | None = None  #: what varies
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
@@ -60,6 +61,11 @@ class Scene:
     def output_names(self, analysis: str) -> list[str]:
         """Names of the outputs with their units."""
         return [f"{one['name']} [{one['unit']}]" for one in self.analyses[analysis]["output"]]
+
+    def channel_heads(self) -> list[str]:
+        """Names of the channels with their units in SI, at the end; a unit in the name is left out."""
+        return [f"{name[:name.rindex('[')].rstrip() if name.endswith(']') and '[' in name else name} [{unit}]"
+                for (name, _, _), unit in zip(self.channels, self.channel_units)]
 
     def orders(self) -> list[Order]:
         """Of the speeds."""

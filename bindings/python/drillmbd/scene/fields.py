@@ -160,7 +160,7 @@ def _single(field: Field, value: Any, unit: str) -> Any:
     words = words_of(field.enum)
     if field.kind == "enum":
         if not isinstance(value, str) or value not in words:
-            raise ValueProblem("must be one of the words" + meant(str(value), words))
+            raise ValueProblem("must be one of the words" + (" " + ", ".join(words) if len(words) <= 3 else meant(str(value), words)))
         return words[value]
     return _flags(value, words)
 

@@ -20,7 +20,7 @@ TABLES: dict[str, tuple[str, str]] = {
     "programme.term": ("term", "kind h0 h1 x0 x1 table"), "ring": ("ring", ""), "body": ("body", "name mass"),
     "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"), "spring": ("spring", ""),
     "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress"), "run": ("", "end step static"),
-    "output": ("", "interval"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
+    "output": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
     "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
 
 _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
