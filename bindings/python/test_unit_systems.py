@@ -314,6 +314,11 @@ class OutputTest(FolderTest):
         self.assertIn('output.units = "fields": must be one of the words si, field, mine', self.ask("static", self.scene, status=2))
         self.assertEqual(unit_systems.NAMES, ("si", "field", "mine"))
 
+    def test_refused_depths_have_the_units_of_the_output(self):
+        for system, text in (("field", "--depths: 100 ft must be above 0 ft, where the string begins, and at most 29.5276 ft"),
+                             ("si", "--depths: 30.48 m must be above 0 m, where the string begins, and at most 9 m")):
+            self.assertIn(text, self.ask("torque-drag", self.scene, "--depths", "100 ft", "--units", system, "-q", status=2))
+
     def test_sweep_passes_units(self):
         out = self.folder / "sweep"
         self.ask("sweep", self.scene, "static", "--vary", "hole.mu_dynamic=0.2", "--output", out, "--", "--units", "field")

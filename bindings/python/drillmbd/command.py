@@ -367,7 +367,11 @@ def _ask(options: Any) -> int:
         output.note_text(f"line {one.line}: {one}")
     for pipes in loaded.divided:
         output.note_text(str(pipes))
-    return QUESTIONS[options.command](loaded, output, options)
+    try:
+        return QUESTIONS[options.command](loaded, output, options)
+    except Error as error:
+        error.message = output.units.sentence(error.message)
+        raise
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from .operating import BIT_FRICTION, Operating, operating, operations_of, with_w
 from .profile import values_of
 from .scene import Scene
 from .sim import Sim
-from .unit_systems import Units
+from .unit_systems import SI, Units
 
 MOST_DEPTHS, MOST_FRICTIONS = 2 ** 20, 20
 FIELDS = {name: unit for name, (unit, _) in TorqueDragRow.field_docs.items() if name not in ("struct_size", "reserved", "depth", "locked")}
@@ -63,7 +63,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     with scene.new_sim() as sim:
         for name in scene.pipes:
             string = scene.names[name]
-            depths = depths_of(sim, string, options.depths)
+            depths = depths_of(sim, string, options.depths, output.units)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
             curves = Curves(name, string, found, settings.block_weight)
             _write_rows(sim, output, curves, settings)
@@ -118,7 +118,7 @@ def _frictions(text: str | None) -> list[float]:
     return sorted(set(found))
 
 
-def depths_of(sim: Sim, string: Any, text: str) -> list[float]:
+def depths_of(sim: Sim, string: Any, text: str, units: Units = SI) -> list[float]:
     """[m] Depths of the bit: a number of them up to the described one, or a list."""
     first, last = _range(sim, string)
     if text.strip().lstrip("+-").isdigit():
@@ -128,7 +128,7 @@ def depths_of(sim: Sim, string: Any, text: str) -> list[float]:
         return [first + (last - first) * (i + 1) / count for i in range(count)]
     found = sorted({quantity(one.strip(), "m", "--depths") for one in text.split(",")})
     for depth in found:
-        _check_depth("--depths", depth, first, last)
+        _check_depth("--depths", depth, (first, last), units)
     return [min(depth, last) for depth in found]
 
 
@@ -138,10 +138,11 @@ def _range(sim: Sim, string: Any) -> tuple[float, float]:
     return last - float(values_of(sim, string, [enums.PROFILE_DISTANCE], count=2)[1, 0]), last
 
 
-def _check_depth(option: str, depth: float, first: float, last: float) -> None:
+def _check_depth(option: str, depth: float, ends: tuple[float, float], units: Units) -> None:
+    first, last = ends
     if not first < depth <= last + 1e-9 * abs(last):
-        raise Usage(f"{option}: {depth:g} m must be above {first:g} m, where the string begins, and at most {last:g} m, where it ends in "
-                    "the scene")
+        raise Usage(f"{option}: {units.text(depth, 'm', 'g')} must be above {units.text(first, 'm', 'g')}, where the string begins, and at most "
+                    f"{units.text(last, 'm', 'g')}, where it ends in the scene")
 
 
 def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
@@ -151,7 +152,7 @@ def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: S
     first, last = _range(sim, curves.string)
     for one in settings.series.values():
         for depth in one.depths:
-            _check_depth("--measured", depth, first, last)
+            _check_depth("--measured", depth, (first, last), output.units)
     friction = settings.more.get("friction")
     if friction is None:
         friction = broomstick.wall_friction(scene, first, last)
