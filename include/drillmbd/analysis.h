@@ -92,14 +92,14 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no
  * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the
  * ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and
- * some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL.
- * A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis
- * sum to 0; else DMB_ERR_SINGULAR.
- * Unstable equilibria that the search turned far to, or relaxed to, are left where a stable one is found beside.
- * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0);
- * DMB_NOTE_INCOMPLETE where the stability of an equilibrium at rest is not resolved (report->negative < 0; message
- * states the bound). Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION,
- * _CALLBACK; the state is then that before the call. O(number of elements) an iteration. */
+ * some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy ledger
+ * starts anew. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it
+ * (report->free_spins) where the torques about the axis sum to 0; else DMB_ERR_SINGULAR. Unstable equilibria that the
+ * search turned far to, or relaxed to, are left where a stable one is found beside. DMB_NOTE_UNSTABLE where the
+ * equilibrium at rest is one that the string would leave (report->negative > 0); DMB_NOTE_INCOMPLETE where the
+ * stability of an equilibrium at rest is not resolved (report->negative < 0; message states the bound). Errors:
+ * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
+ * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------

@@ -173,7 +173,7 @@ static double bend_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node);
     double q[4];
     dmb_quat_between(a->quaternion, a[1].quaternion, q);
-    return 2.0 * hypot(q[2], q[3]);
+    return 2.0 * sqrt(q[2] * q[2] + q[3] * q[3]);
 }
 
 bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element)

@@ -457,7 +457,7 @@ static void friction_of_bristles(void **state)
     assert_int_equal(dmb_model_add_string(s.model, &string, &s.string), DMB_OK);
     assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, NULL), DMB_OK);
     start(&s);
-    assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_OK);
+    assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_NOTE_INCOMPLETE); /* nothing holds it along the hole */
     s.input = dmb_input_default();
     s.input.place = dmb_station(s.string, 2, 1.0);
     s.input.component = DMB_Z;

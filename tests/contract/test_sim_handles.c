@@ -188,8 +188,11 @@ static uint32_t first_size_of(const named_call *of)
     static const struct {
         const char *name;
         uint32_t size;
-    } grown[] = {
-        {"dmb_query_contact", 120}, {"dmb_query_statistics", 72}, {"dmb_query_bit", 56}, {"dmb_query_drive", 56}};
+    } grown[] = {{"dmb_query_contact", 120},
+                 {"dmb_query_statistics", 72},
+                 {"dmb_query_bit", 56},
+                 {"dmb_query_drive", 56},
+                 {"dmb_query_energy", 128}};
     for (size_t i = 0; i < sizeof grown / sizeof *grown; i++)
         if (strcmp(of->name, grown[i].name) == 0) return grown[i].size;
     return of->struct_size;

@@ -55,7 +55,7 @@ static subject *subject_of(int which)
     saved_run(&s->scene, s->victim);
     s->victim->options.max_iterations = 2;
     s->victim->options.max_cuts = 0;
-    s->victim->options.step_min = 6e-5;
+    s->victim->options.step_min = 5e-5;
     MUST(dmb_sim_snapshot_size(s->victim, &s->size) == DMB_OK);
     s->sound = malloc(s->size);
     s->block = malloc(s->size);

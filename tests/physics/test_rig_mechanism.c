@@ -135,7 +135,7 @@ static void ring_under_small_load(void **state)
 static void ring_against_its_quarter(void **state)
 {
     (void)state;
-    const double push[3] = {50.0, 400.0, -800.0};
+    const double push[3] = {50.0, 100.0, -800.0};
     for (int k = 0; k < 3; k++) {
         ring r;
         rig q;
@@ -161,9 +161,23 @@ static void ring_against_its_quarter(void **state)
         check_relative("    clamp carries the load", clamp.reaction[2], push[k], 1e-10);
         check_below("    and nothing else", fabs(clamp.reaction[0]) + largest(3, clamp.reaction + 3), 1e-7);
         check_relative("    each half carries half", bottom.reaction[2], -0.5 * push[k], 1e-8);
+        assert_int_equal(ring_report.negative, 0);
         rig_close(&r.s);
         rig_close(&q);
     }
+}
+
+/* At 400 N the symmetric ring is unstable (2 negative eigenvalues): the ring sways and hangs below its clamp, where it
+ * is stable. */
+static void ring_sways_under_a_large_push(void **state)
+{
+    (void)state;
+    ring r;
+    open_ring(&r, 16, 400.0, NULL, NULL);
+    const dmb_static_report report = rest(&r.s);
+    assert_int_equal(report.negative, 0);
+    assert_true(pose_at(&r.s, dmb_station(r.half[0], 0, 1.0)).position[2] < -0.5);
+    rig_close(&r.s);
 }
 
 /* Let go from there with a load that goes to 0 within 10 ms. The gap in the ledger falls with the square of the step,
@@ -785,6 +799,7 @@ int main(void)
         cmocka_unit_test(ring_closes_unstressed),
         cmocka_unit_test(ring_under_small_load),
         cmocka_unit_test(ring_against_its_quarter),
+        cmocka_unit_test(ring_sways_under_a_large_push),
         cmocka_unit_test(ring_let_go),
         cmocka_unit_test(stiff_coupler_is_rigid),
         cmocka_unit_test(soft_coupler),
