@@ -157,7 +157,7 @@ void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const u
 /* Raises the diagonal of the block D that was appended last, whose first row is `at`. */
 static void raise_last(front *f, const dmb_block_raise *raise, const double *D, uint32_t at)
 {
-    double size[DMB_BLOCK_SIZE_MAX];
+    double size[DMB_BLOCK_SIZE_MAX] = {0.0};
     dmb_block_row_sizes((uint32_t)(f->rows - f->n), D, raise->arm_square,
                         raise->solved != NULL ? raise->solved + at : NULL, raise->floor, size);
     for (size_t i = f->n; i < f->rows; i++) {

@@ -17,7 +17,8 @@ from .fatigue import StringFatigue
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Sim
-from .unit_systems import NAMES, SI, Units
+from .unit_choice import NAMES
+from .unit_systems import SI, Units
 
 RPM = 2.0 * math.pi / 60.0
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from . import __version__
 from .errors import Error, Usage
-from .unit_systems import NAMES, UnknownUnit
+from .unit_choice import NAMES
 
 EXAMPLES = """examples:
   drillmbd check rig.toml                     is the scene complete? what does it consist of?
@@ -249,8 +249,6 @@ def _guarded(ask: Callable[[], int]) -> int:
         return _tell(2, f"drillmbd: {error}")
     except Error as error:
         return _tell(1, f"drillmbd: {_without_functions(error.message)}")
-    except UnknownUnit as error:
-        return _tell(2, f"drillmbd: {error}")
     except ArithmeticError as error:
         return _tell(1, f"drillmbd: {error}")
     except BrokenPipeError:

@@ -9,10 +9,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from .scene.unit_names import UnitSystem
+from .errors import Usage
 from .scene.units import factor_and_kind
-
-NAMES = tuple(one.name.lower() for one in UnitSystem)
+from .unit_choice import NAMES
 
 #: Unit in SI, in field units, in mine units; where there are two, the second one is for values of 1000 and more of the first one.
 TABLE: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -35,7 +34,7 @@ _IN_TEXT = re.compile(rf"(?<![\w./-])({_NUMBER})((?:\s*(?:\.\.|to|and|x)\s*{_NUM
                       r"(?![\w/^(-]|\s?m\b)")
 
 
-class UnknownUnit(ValueError):
+class UnknownUnit(Usage):
     """A quantity without an equivalent in the system."""
 
 

@@ -32,7 +32,7 @@ static int32_t probe(dmb_dip *dip, dmb_path *path, double arc, dmb_dip_point *po
 /* Between arcs low and high of the last point, which is in `least`. */
 static int32_t close_in(dmb_dip *dip, dmb_path *path, double low, double high, dmb_dip_point *least)
 {
-    dmb_dip_point inner[2];
+    dmb_dip_point inner[2] = {{0}};
     int32_t status = probe(dip, path, high - DMB_GOLDEN * (high - low), &inner[0]);
     if (status >= 0) status = probe(dip, path, low + DMB_GOLDEN * (high - low), &inner[1]);
     for (int k = 0; k < DMB_DIP_SECTIONS && status >= 0; k++) {

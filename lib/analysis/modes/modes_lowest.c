@@ -108,7 +108,7 @@ static int32_t close_bracket(dmb_mode_search *search, bracket *b)
     const int64_t wanted = wanted_of(search);
     for (int i = 0; i < DMB_BRACKET && b->beyond > wanted + DMB_BEYOND; i++) {
         const double width = b->high - b->low;
-        const double share = (double)(wanted - b->within + DMB_BEYOND / 2) / (double)(b->beyond - b->within);
+        const double share = ((double)(wanted - b->within) + 0.5 * DMB_BEYOND) / (double)(b->beyond - b->within);
         const double middle = b->low + width * (i % 2 == 0 ? fmin(0.5, share * share * share * share) : 0.5);
         if (!(width > DMB_COUNT_NOISE * search->noise) || !(middle > b->low)) break;
         const int64_t here = count_within(search, middle);

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from .. import enums
 from ..channels import Named
+from ..unit_choice import UnitSystem
 from . import fields, units
 from .content import ANALYSES, Scene
 from .fields import DEFINITIONS, Field, fields_of
 from .lines import Path
-from .unit_names import UnitSystem
 
 if TYPE_CHECKING:
     from .load import Loader

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 from decimal import Decimal
-from enum import IntEnum
 
 Powers = tuple[float, float, float, float]  # of m, kg, s, rad
 
@@ -107,13 +106,6 @@ USUAL = {"m": ("mm", "cm", "m", "in", "ft"), "N": ("N", "kN", "daN", "kgf", "tf"
          "rad": ("deg", "rad", "gon"), "s": ("ms", "s", "min", "h"), "Hz": ("Hz", "1/s", "1/min"),
          "rad/m": ("deg/30 m", "deg/100 ft", "rad/m"), "N/m": ("N/m", "kN/m", "N/mm", "lbf/in"), "Pa s": ("Pa s", "mPa s", "cP"),
          "m3": ("m3", "l", "gal", "bbl"), "m2": ("mm2", "cm2", "m2", "in2")}
-
-
-class UnitSystem(IntEnum):
-    """Units of the output: SI, those of oil wells, those of mines."""
-    SI = 0
-    FIELD = 1
-    MINE = 2
 
 
 @dataclass(frozen=True)
