@@ -124,7 +124,7 @@ class InstallTest(unittest.TestCase):
             self.assertEqual(shown.stderr, "")
             self.assertIn("--weight-on-bit FORCE", shown.stdout)
         source = prefix / "share" / "bash-completion" / "completions" / "drillmbd"
-        for words, wanted in ((["drillmbd", "tor"], "torque-drag"), (["drillmbd", "run", "x.toml", "--un"], "--until"),
+        for words, wanted in ((["drillmbd", "tor"], "torque-drag"), (["drillmbd", "run", "x.toml", "--unt"], "--until"),
                               (["drillmbd", "probability", "--engine", "da"], "dask")):
             ask = f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo "${{COMPREPLY[@]}}"'
             self.assertEqual(run("bash", "-c", ask).strip(), wanted)
