@@ -15,6 +15,7 @@ from .sample import FAILED, Result
 
 TRIES = 3  #: workers that a sample may kill before it counts as failed
 AHEAD = 4  #: tasks that wait for each worker
+SUBMISSIONS = 3  #: of a sample to a Dask cluster that loses it
 
 
 def lost(sample: Any, number: int, message: str) -> Result:
@@ -209,7 +210,8 @@ def mpi_end() -> None:
 
 # ---- Dask --------------------------------------------------------------------------------------------------------------
 def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Result]]:
-    """On a Dask cluster, or without an address on one of processes of this machine. Dask begins the samples of a dead worker again."""
+    """On a Dask cluster, or without an address on one of processes of this machine. Dask begins the samples of a dead worker again;
+    a sample that ends for another reason than its own, for example because the worker that held it was lost, is submitted again."""
     def run(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
         distributed = need("distributed")
         if address is None:
@@ -219,23 +221,29 @@ def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Res
             client = distributed.Client(address)
         with client:
             shared = client.scatter(sample, broadcast=True)
-            source, numbers = iter(tasks), dict[Any, int]()
+            source, running = iter(tasks), dict[Any, tuple[tuple[int, Any], int]]()  # task and its number of submissions
             coming = distributed.as_completed()
 
-            def give() -> None:
-                task = next(source, None)
-                if task is not None:
-                    future = client.submit(_call, shared, *task, pure=False)
-                    numbers[future.key] = task[0]
+            def give(task: tuple[int, Any] | None, times: int) -> None:
+                if task is not None:  # again: with the sample itself, because the shared one may be lost with its worker
+                    future = client.submit(_call, shared if times == 1 else sample, *task, pure=False)
+                    running[future.key] = (task, times)
                     coming.add(future)
             for _ in range(workers * AHEAD):
-                give()
+                give(next(source, None), 1)
             for future in coming:
-                number = numbers.pop(future.key)
-                found = future.result() if future.status == "finished" else \
-                    lost(sample, number, f"its worker died: {future.exception()}")
+                task, times = running.pop(future.key)
+                if future.status == "finished":
+                    found = future.result()
+                else:
+                    reason = None if future.status in ("cancelled", "lost") else future.exception()
+                    future.release()
+                    if times < SUBMISSIONS and not isinstance(reason, distributed.KilledWorker):
+                        give(task, times + 1)
+                        continue
+                    found = lost(sample, task[0], f"its worker died: {reason or future.status}")
                 future.release()
-                give()
+                give(next(source, None), 1)
                 yield found
     return run
 
