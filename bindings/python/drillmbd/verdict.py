@@ -38,9 +38,9 @@ class Demand:
     units: Units = SI                                             #: of the texts
 
     def add(self, value: float, source: str) -> None:
-        """The result of one analysis."""
+        """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing."""
         if value == value:
-            self.found.append((value, source))
+            self.found.append((max(value, 0.0), source))
 
     @property
     def value(self) -> float | None:
