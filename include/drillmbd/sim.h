@@ -78,8 +78,8 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
  * velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints,
- * rigid bodies are moved by any distance, then strings as rigid bodies within what their guides leave free, and only
- * then pipes are strained (assembly_energy). Errors (dmb_model_message says why):
+ * rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their guides leave
+ * free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why):
  * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be
  * closed, or only by more than assembly_energy); *sim is NULL then. The
  * sim holds the model until it is destroyed. O(number of elements). */

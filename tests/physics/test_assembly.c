@@ -1,5 +1,6 @@
 /* Joints closed at the start: rigid bodies move by any distance, strings move as rigid bodies, and elements are
  * strained only where the caller allows the energy. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,6 +88,111 @@ static void strings_move_as_rigid_bodies(void **state)
     check_close("rig end of a guided string [m]", pose_at(&s, dmb_station(rod, 0, 0.0)).position[0], 36.0, 1e-11);
     check_below("strain energy [J]", energy_of(&s).strain, 1e-12);
     rig_close(&s);
+}
+
+/* ---- Chains of strings ------------------------------------------------------------------------------------------- */
+
+/* Strings of two pipes, joined end to start by joints of any kind, described anywhere and turned by any angle up to
+ * half a turn and beyond: the first is clamped, the others and a body at the far end come to where joints hold them. */
+static void open_scattered(rig *s, uint64_t *seed, uint32_t strings, int at_default, int32_t free,
+                           const int32_t kinds[], uint32_t kind_count, dmb_id joints[])
+{
+    dmb_id before = {0, 0};
+    rig_open(s, 0.0, 0.0, -9.81);
+    for (uint32_t k = 0; k <= strings; k++) {
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = dmb_pipe_def_default();
+        dmb_body_def body = block_at(0.0, 0.0, 0.0);
+        (void)snprintf(def.name, sizeof def.name, "string %u", k);
+        def.follows_hole = 0;
+        def.start_free = k == 0 ? DMB_FREE_NONE : free;
+        for (int i = 0; i < 3 && k > 0 && !at_default; i++) {
+            body.position[i] = def.position[i] = draw_between(seed, -200.0, 200.0);
+            body.rotation[i] = def.rotation[i] = draw_between(seed, -2.0, 2.0);
+        }
+        dmb_place here;
+        dmb_id string = before;
+        if (k < strings) {
+            pipe.string = string = add_string(s, &def);
+            (void)add_pipes(s, &pipe, 2);
+            here = dmb_station(string, 0, 0.0);
+        } else {
+            here = dmb_station(add_body(s, &body), 0, 0.0);
+        }
+        if (k > 0) {
+            dmb_joint_def joint = joint_between(kinds[(k - 1) % kind_count], dmb_station(before, 1, 1.0), here);
+            joint.length = 0.7;
+            joints[k - 1] = add_joint(s, &joint);
+        }
+        before = string;
+    }
+}
+
+static void check_scattered(rig *s, uint32_t count, const dmb_id joints[])
+{
+    (void)rig_start(s, NULL);
+    check_below("strain energy [J]", energy_of(s).strain, 1e-10);
+    for (uint32_t k = 0; k < count; k++) {
+        dmb_joint_state state = dmb_joint_state_default();
+        must(s, dmb_query_joint(s->sim, joints[k], &state));
+        check_below("violation of a joint [m, -]", state.violation, 1e-11);
+    }
+}
+
+/* Fixed joints continue the first string: every part lies on its axis, unturned, two pipes of 1 m further on. */
+static void check_straight(const rig *s, uint32_t strings)
+{
+    for (uint32_t k = 0; k < strings; k++) {
+        dmb_id string;
+        char name[24];
+        const double want[3] = {2.0 * k + 2.0, 0.0, 0.0};
+        (void)snprintf(name, sizeof name, "string %u", k);
+        must_model(s, dmb_model_find(s->model, DMB_PART_STRING, name, &string));
+        const dmb_pose end = pose_at(s, dmb_station(string, 1, 1.0));
+        check_below("end of a string [m]", largest_difference(3, end.position, want), 1e-11);
+        check_below("    1 - cosines of its axes", 3.0 - end.rotation[0] - end.rotation[4] - end.rotation[8], 1e-13);
+    }
+}
+
+enum { MOST_STRINGS = 40 };
+
+/* Of 5 nodes and of 81, with and without a dense matrix of the constraints. */
+static void chains_of_strings_come_together(void **state)
+{
+    static const int32_t fixed[] = {DMB_JOINT_FIXED};
+    static const int32_t mixed[] = {DMB_JOINT_FIXED,     DMB_JOINT_REVOLUTE,  DMB_JOINT_SPHERICAL,
+                                    DMB_JOINT_PRISMATIC, DMB_JOINT_UNIVERSAL, DMB_JOINT_CYLINDRICAL,
+                                    DMB_JOINT_DISTANCE,  DMB_JOINT_PLANAR};
+    (void)state;
+    for (uint64_t k = 1; k <= 40; k++)
+        for (int kind = 0; kind < 2; kind++) {
+            uint64_t seed = 104729 * k;
+            const uint32_t strings = k % 4 == 0 ? MOST_STRINGS : 1 + (uint32_t)(k % 4);
+            dmb_id joints[MOST_STRINGS];
+            rig s;
+            open_scattered(&s, &seed, strings, k == 1, DMB_FREE_ALL, kind == 0 ? fixed : mixed, kind == 0 ? 1 : 8,
+                           joints);
+            check_scattered(&s, strings, joints);
+            if (kind == 0) check_straight(&s, strings);
+            rig_close(&s);
+        }
+}
+
+/* Strings that guides let slide and turn come together along their guides. */
+static void guided_strings_slide_together(void **state)
+{
+    static const int32_t fixed[] = {DMB_JOINT_FIXED};
+    static const uint32_t counts[] = {2, 3, 20};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        uint64_t seed = 1;
+        dmb_id joints[MOST_STRINGS];
+        rig s;
+        open_scattered(&s, &seed, counts[i], 1, DMB_FREE_CYLINDRICAL, fixed, 1, joints);
+        check_scattered(&s, counts[i], joints);
+        check_straight(&s, counts[i]);
+        rig_close(&s);
+    }
 }
 
 /* Two clamped strings whose ends are a gap apart: EA/L (gap/2)^2/2 in each of the two elements at the joint. */
@@ -189,9 +295,8 @@ static void scattered_fourbars_are_closed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_move_by_any_distance),
-        cmocka_unit_test(strings_move_as_rigid_bodies),
-        cmocka_unit_test(strain_needs_the_callers_leave),
+        cmocka_unit_test(bodies_move_by_any_distance),     cmocka_unit_test(strings_move_as_rigid_bodies),
+        cmocka_unit_test(chains_of_strings_come_together), cmocka_unit_test(strain_needs_the_callers_leave),
         cmocka_unit_test(scattered_fourbars_are_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -81,15 +81,18 @@ static void lateral_stiffness_of_a_cantilever(void **state)
 
 typedef struct pulled {
     double pull, torque; /* [N, N m] at the far end */
-    int jointed;         /* every pipe a string of its own, fixed joints between them */
+    int jointed;         /* every pipe a string of its own, fixed joints between them; 2: described side by side */
 } pulled;
 
-static dmb_id add_jointed(rig *s, dmb_string_def def, dmb_pipe_def pipe, uint32_t count)
+static dmb_id add_jointed(rig *s, dmb_string_def def, dmb_pipe_def pipe, uint32_t count, int side_by_side)
 {
     dmb_id before = {0, 0};
     for (uint32_t k = 0; k < count; k++) {
         if (k > 0) def.start_free = DMB_FREE_ALL;
-        def.start_depth = 3.0 * k;
+        if (side_by_side)
+            def.offset[0] = 3.0 * k;
+        else
+            def.start_depth = 3.0 * k;
         pipe.string = add_string(s, &def);
         const dmb_id string = add_pipes(s, &pipe, 1);
         if (k > 0)
@@ -114,7 +117,7 @@ static double unrest(const pulled *p)
     def.start_free = DMB_FREE_NONE;
     def.offset[1] = -0.0125;
     if (p->jointed) {
-        last = add_jointed(&s, def, pipe, 20);
+        last = add_jointed(&s, def, pipe, 20, p->jointed == 2);
     } else {
         pipe.string = add_string(&s, &def);
         last = add_pipes(&s, &pipe, 20);
@@ -135,8 +138,8 @@ static double unrest(const pulled *p)
 static void pulled_strings_stay_at_rest(void **state)
 {
     (void)state;
-    const pulled scene[] = {{60e3, 0.0, 0},  {60e3, 0.0, 1},   {100e3, 0.0, 0}, {180e3, 0.0, 0},
-                            {180e3, 0.0, 1}, {60e3, 500.0, 0}, {100e3, 1e3, 0}, {180e3, -1e3, 1}};
+    const pulled scene[] = {{60e3, 0.0, 0},   {60e3, 0.0, 1},  {100e3, 0.0, 0},  {180e3, 0.0, 0}, {180e3, 0.0, 1},
+                            {60e3, 500.0, 0}, {100e3, 1e3, 0}, {180e3, -1e3, 1}, {60e3, 0.0, 2},  {180e3, -1e3, 2}};
     for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {
         char what[96];
         (void)snprintf(what, sizeof what, "%g kN, %g N m%s: kinetic energy after 1 s [J]", 1e-3 * scene[i].pull,

@@ -1,7 +1,9 @@
-/* Joints closed at the start, in three attempts, each from where the one before ended (THEORY 8): rigid bodies move and
- * strings do not; strings move, too, but as rigid bodies within what their guides leave free; any node moves, which
- * strains elements. Each begins with Newton's iteration in the coordinates of a partition; where redundant equations
- * make that change its choice for ever, Levenberg and Marquardt's goes on, which takes all equations at once. */
+/* Joints closed at the start (THEORY 8). Rigid bodies move and strings do not; strings move, too, but as rigid bodies
+ * within what their guides leave free; any node moves, which strains elements. Each begins with Newton's iteration in
+ * the coordinates of a partition; where redundant equations make that change its choice for ever, Levenberg and
+ * Marquardt's goes on, which takes all equations at once. Before any element is strained, the same is tried from where
+ * joints place the parts one after the other (cluster_placement), which closes chains and trees over any distance and
+ * rotation. */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -135,25 +137,6 @@ static double part_of_move(const dmb_sim *sim, const dmb_cluster *cluster, doubl
 
 /* ---- Chains as rigid bodies -------------------------------------------------------------------------------------- */
 
-/* Node of a chain from which it is moved; DMB_NONE: it stays, as more than one of its nodes are held, or it is on the
- * axis of the hole. Held components of the node are 0 in `open`. */
-static uint32_t base_of(const dmb_scene *scene, const dmb_chain *chain, double open[6])
-{
-    uint32_t base = DMB_NONE, held = 0;
-    for (int c = 0; c < 6; c++) open[c] = 1.0;
-    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
-        const uint8_t *solved = scene->solved_row + scene->layout.row[i];
-        uint32_t here = 0;
-        if (scene->layout.size[i] != DMB_NODE_FULL) return DMB_NONE;
-        for (int c = 0; c < 6; c++) here += solved[c] == 0;
-        if (here == 0) continue;
-        if (++held > 1) return DMB_NONE;
-        base = i;
-        for (int c = 0; c < 6; c++) open[c] = solved[c] ? 1.0 : 0.0;
-    }
-    return base == DMB_NONE ? chain->first : base;
-}
-
 /* Twist of node i, in its axes, for unit component c of the twist of the base. */
 static void column_of(const dmb_sim *sim, uint32_t base, uint32_t i, uint32_t c, double column[6])
 {
@@ -195,24 +178,13 @@ static void fit_twist(const dmb_sim *sim, const dmb_chain *chain, uint32_t base,
 static void move_chain(dmb_sim *sim, const dmb_chain *chain, uint32_t base, const double z[6])
 {
     const dmb_scene *scene = sim->scene;
-    double before[9], after[9], turn[9], turned[4], u[3], u_after[3];
-    dmb_node_pose(scene, &sim->trial, base, before, u);
+    dmb_rigid_motion motion = {.node = base};
+    double before[9], after[9];
+    dmb_node_pose(scene, &sim->trial, base, before, motion.before);
     dmb_trial_move_node(sim, base, z);
-    dmb_node_pose(scene, &sim->trial, base, after, u_after);
-    dmb_mat3_mul_nt(after, before, turn);
-    dmb_quat_from_matrix(turn, turned);
-    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
-        double *ui = sim->trial.displacement + 3 * (size_t)i, *q = sim->trial.quaternion + 4 * (size_t)i, away[3],
-               to[3];
-        if (i == base) continue;
-        for (size_t k = 0; k < 3; k++)
-            away[k] = (scene->reference_position[3 * (size_t)i + k] - scene->reference_position[3 * (size_t)base + k]) +
-                      (ui[k] - u[k]);
-        dmb_mat3_vec(turn, away, to);
-        for (int k = 0; k < 3; k++) ui[k] += (u_after[k] - u[k]) + (to[k] - away[k]);
-        dmb_quat_mul(turned, q, q);
-        dmb_quat_normalize(q);
-    }
+    dmb_node_pose(scene, &sim->trial, base, after, motion.after);
+    dmb_mat3_mul_nt(after, before, motion.Q);
+    dmb_chain_follow(sim, chain, &motion);
 }
 
 /* Moves by row into `increment`; the largest violation is brought down by them. */
@@ -236,7 +208,7 @@ static void take_moves(dmb_sim *sim, int rigid)
         const dmb_chain *chain = scene->chains + c;
         double open[6], z[6];
         if (rigid && chain->count > 1) {
-            const uint32_t base = base_of(scene, chain, open);
+            const uint32_t base = dmb_chain_base(scene, chain, open);
             if (base == DMB_NONE || !chain->jointed) continue;
             fit_twist(sim, chain, base, open, sim->increment, z);
             move_chain(sim, chain, base, z);
@@ -301,17 +273,89 @@ static int has_elements(const dmb_scene *scene)
     return scene->element_count > 0;
 }
 
-/* From the most free to the least; sparse clusters are of many bodies, and all their nodes move at once. */
-static int32_t close_positions(dmb_evaluation *evaluation)
+/* [rad] of dmb_joint_flip for the trial, 0 where nothing points against what it is kept parallel to. */
+static double flip_of(const dmb_sim *sim, uint32_t joint)
+{
+    const int locked = sim->joint_state[joint] == DMB_JOINT_LOCKED;
+    dmb_relative relative;
+    double R[9];
+    if (sim->joint_state[joint] == DMB_JOINT_OPEN) return 0.0;
+    dmb_joint_motion_of(sim->scene, &sim->trial, joint, &relative, NULL);
+    dmb_mat3_copy(relative.R, R);
+    if (locked) dmb_mat3_mul_nt(relative.R, sim->joint_lock + 12 * (size_t)joint, R);
+    return dmb_joint_flip(locked ? DMB_JOINT_FIXED : sim->scene->joints[joint].kind, R);
+}
+
+static int any_flip(const dmb_sim *sim)
+{
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++)
+        if (flip_of(sim, j) != 0.0) return 1;
+    return 0;
+}
+
+int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint)
+{
+    const double angle = flip_of(sim, joint);
+    dmb_message owner;
+    if (angle == 0.0) return DMB_OK;
+    dmb_constraint_text(sim->scene, sim->scene->joints[joint].constraint, &owner);
+    dmb_message_set(&sim->message, "%s: turned over: axes that it keeps parallel are %g rad apart at time %g",
+                    owner.text, angle, sim->clock->time);
+    return DMB_ERR_GEOMETRY;
+}
+
+/* Where the moves start: the poses as described, those to which joints place rigid parts, or described ones once more,
+ * of which elements may be strained, too. */
+enum { FROM_DESCRIBED, FROM_PLACED, FROM_DESCRIBED_STRAINING, STARTS };
+
+/* In sparse clusters all nodes move at once, which strains elements unless nothing is left to close. */
+static int32_t close_sparse(dmb_evaluation *evaluation, int start, int *closed)
 {
     dmb_sim *sim = evaluation->sim;
     uint32_t row = 0;
+    int32_t status = dmb_clusters_gather(evaluation);
+    *closed = 0;
+    if (status < 0) return status;
+    dmb_clusters_choose(sim);
+    if (has_elements(sim->scene) && start != FROM_DESCRIBED_STRAINING && !is_closed(sim, &row)) return status;
+    status = attempt(evaluation, NODES_MOVE);
+    *closed = status >= 0 && is_closed(sim, &row);
+    return status;
+}
+
+static int32_t close_dense(dmb_evaluation *evaluation, int start, int *closed)
+{
+    dmb_sim *sim = evaluation->sim;
+    const int rigid = has_elements(sim->scene) && start != FROM_DESCRIBED_STRAINING;
+    uint32_t row = 0;
+    int32_t status = DMB_OK;
+    *closed = 0;
+    for (int movers = has_elements(sim->scene) ? BODIES_MOVE : NODES_MOVE;
+         movers <= (rigid ? CHAINS_MOVE : NODES_MOVE) && !*closed && status != DMB_ERR_CALLBACK; movers++) {
+        status = attempt(evaluation, movers);
+        *closed = status >= 0 && is_closed(sim, &row);
+    }
+    return status;
+}
+
+static int32_t close_from(dmb_evaluation *evaluation, int start, int *closed)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (start != FROM_DESCRIBED) dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    if (start == FROM_PLACED) dmb_place_by_joints(sim);
+    dmb_clusters_weigh(sim, 0);
+    return sim->scene->sparse_count ? close_sparse(evaluation, start, closed) : close_dense(evaluation, start, closed);
+}
+
+/* From the most free to the least. A closed joint that stands turned over is none, if another start closes it. */
+static int32_t close_positions(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
     int32_t status = DMB_OK;
     int closed = 0;
-    for (int movers = has_elements(sim->scene) && !sim->scene->sparse_count ? BODIES_MOVE : NODES_MOVE;
-         movers <= NODES_MOVE && !closed && status != DMB_ERR_CALLBACK; movers++) {
-        status = attempt(evaluation, movers);
-        closed = status >= 0 && is_closed(sim, &row);
+    for (int start = FROM_DESCRIBED; start < STARTS && status != DMB_ERR_CALLBACK; start++) {
+        status = close_from(evaluation, start, &closed);
+        if (closed && !any_flip(sim)) break;
     }
     dmb_clusters_weigh(sim, 0);
     if (closed) {
@@ -325,27 +369,10 @@ static int32_t close_positions(dmb_evaluation *evaluation)
                         sim->clock->time);
         return status;
     }
+    uint32_t row = DMB_NONE;
+    (void)dmb_clusters_violation(sim, 0, &row);
     if (row == DMB_NONE) row = 0;
     return refuse(sim, row, fabs(sim->constraint_value[row]), "its parts cannot be brought together");
-}
-
-int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint)
-{
-    const dmb_scene_joint *of = sim->scene->joints + joint;
-    const int locked = sim->joint_state[joint] == DMB_JOINT_LOCKED;
-    dmb_relative relative;
-    dmb_message owner;
-    double R[9];
-    if (sim->joint_state[joint] == DMB_JOINT_OPEN) return DMB_OK;
-    dmb_joint_motion_of(sim->scene, &sim->trial, joint, &relative, NULL);
-    dmb_mat3_copy(relative.R, R);
-    if (locked) dmb_mat3_mul_nt(relative.R, sim->joint_lock + 12 * (size_t)joint, R);
-    const double angle = dmb_joint_flip(locked ? DMB_JOINT_FIXED : of->kind, R);
-    if (angle == 0.0) return DMB_OK;
-    dmb_constraint_text(sim->scene, of->constraint, &owner);
-    dmb_message_set(&sim->message, "%s: turned over: axes that it keeps parallel are %g rad apart at time %g",
-                    owner.text, angle, sim->clock->time);
-    return DMB_ERR_GEOMETRY;
 }
 
 static int32_t refuse_flips(dmb_sim *sim)

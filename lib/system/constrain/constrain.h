@@ -230,12 +230,28 @@ void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text
 /* ---- Assembly: cluster_assembly.c -------------------------------------------------------------------------------- */
 
 /* Putting a scene together: shortest moves that satisfy all equations of position (Wehage, Haug 1982), of rigid bodies
- * first, then of strings as rigid bodies, then of all nodes. */
+ * first, then of strings as rigid bodies, from the described poses or from where joints place them, then of all nodes.
+ */
 
 /* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
  * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the
  * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_assembly */
 int32_t dmb_assemble(dmb_sim *sim);
+/* Node of a chain from which it is moved; DMB_NONE: it stays, as more than one of its nodes are held, or it is on the
+ * axis of the hole. Held components of the node are 0 in `open`. system/constrain/cluster_placement */
+uint32_t dmb_chain_base(const dmb_scene *scene, const dmb_chain *chain, double open[6]);
+/* Motion of a rigid body, world axes. */
+typedef struct dmb_rigid_motion {
+    double Q[9];                /* [-] rotation */
+    double before[3], after[3]; /* [m] displacement of the node */
+    uint32_t node;
+    uint32_t reserved;
+} dmb_rigid_motion;
+/* The other nodes of a chain follow a node that has moved so. */
+void dmb_chain_follow(dmb_sim *sim, const dmb_chain *chain, const dmb_rigid_motion *motion);
+/* Moves chains of the trial as rigid bodies, one after the other, to where joints hold them at those that were placed
+ * before. Joints that close loops may stay open. */
+void dmb_place_by_joints(dmb_sim *sim);
 /* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
  * there too. DMB_ERR_GEOMETRY with a message. */
 int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint);
