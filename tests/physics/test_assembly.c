@@ -296,8 +296,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_move_by_any_distance),     cmocka_unit_test(strings_move_as_rigid_bodies),
-        cmocka_unit_test(chains_of_strings_come_together), cmocka_unit_test(strain_needs_the_callers_leave),
-        cmocka_unit_test(scattered_fourbars_are_closed),
+        cmocka_unit_test(chains_of_strings_come_together), cmocka_unit_test(guided_strings_slide_together),
+        cmocka_unit_test(strain_needs_the_callers_leave),  cmocka_unit_test(scattered_fourbars_are_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
