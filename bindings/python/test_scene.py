@@ -14,7 +14,7 @@ import drillmbd as mbd
 
 try:
     from drillmbd import scene
-    from drillmbd.scene import fields, lines, schema, units
+    from drillmbd.scene import fields, lines, schema, source, units
 except ImportError as missing:
     raise unittest.SkipTest(f"not there: {missing.name}") from missing
 
@@ -507,6 +507,55 @@ class ShippedTest(unittest.TestCase):
             self.assertEqual(scene.saves(second), text)
             self.assertEqual(after_run(second), after_run(first))
 
+    def test_saved_files_keep_comments_and_units(self):
+        """Every comment of every shipped scene stays at the end of the line of its key, or before it; a value has its unit still."""
+        for path in [*SCENES, ROOT / "examples" / "failure_probability" / "rig.toml"]:
+            text = path.read_text(encoding="utf-8")
+            saved = scene.saves(scene.load(path))
+            lines = [line.strip() for line in saved.splitlines()]
+            known = 0
+            for key, comment, begins in source.scan(text):
+                if comment and begins and key[-1] not in source.REPLACED:
+                    known += 1
+                    head = key[-2] if isinstance(key[-1], int) else key[-1]
+                    self.assertTrue(any(comment in line and str(head) in line for line in lines), (path, key, comment))
+                elif comment:
+                    self.assertIn(comment, saved, path)
+            self.assertGreater(known, 0, path)
+            self.assertEqual(lines[0], text.splitlines()[0])
+        saved = scene.saves(scene.load(ROOT / "examples" / "scenes" / "drainage_300m.toml"))
+        for line in ('diameter = "96 mm"', 'h1 = "120 rpm"', 'torque = "3 kN m"', 'static = true', '[fatigue]  # an assumption',
+                     '# written out here: survey_file = "drainage_300m.csv"'):
+            self.assertIn(line, saved)
+
+    def test_saved_files_have_all_defaults(self):
+        """Each field of the library with a number as its default is in the file; another default of the library changes nothing then."""
+        text = scene.saves(scene.load(ROOT / "examples" / "scenes" / "reference_rig.toml"))
+        import tomllib
+        saved = tomllib.loads(text)
+        for struct, table in (("environment", saved["environment"]), ("hole", saved["hole"]), ("pipes", saved["string"][0]["pipes"][0]),
+                              ("bit", saved["bit"][0]), ("drive", saved["drive"][0]), ("sim", saved["sim"]), ("static", saved["static"]),
+                              ("modes", saved["modes"]), ("compile", saved["compile"])):
+            usual = fields.DEFINITIONS[struct]().describe(every=True)
+            for key, field in fields.fields_of(fields.DEFINITIONS[struct]).items():
+                if field.kind in ("quantity", "integer", "flags") and isinstance(usual[key], (int, float)) and 0 <= usual[key] < 1e30:
+                    self.assertIn(key, table, struct)
+        self.assertEqual(saved["run"]["static"], True)
+        self.assertEqual([line for line in text.splitlines() if "1e+30" in line], [])
+
+    def test_saved_after_a_change(self):
+        """Values that the command line replaces are written, not those of the file; the first line stays first, the last comment last."""
+        text = '# mine\n\n[hole]\n# wide\ndiameter = "94 mm" # bit\n[[string]]\npipes = {count = 2} # two\n# the end\n'
+        saved = scene.saves(scene.loads(text, changes={"hole.diameter": "100 mm", "string[0].pipes.length": "2 m"}))
+        self.assertTrue(saved.startswith("# mine\n"), saved)
+        self.assertIn('# wide\ndiameter = "0.1 m"  # bit\n', saved)
+        self.assertIn("[[string.pipes]]  # two\n", saved)
+        self.assertTrue(saved.endswith("# the end\n"), saved)
+        self.assertEqual(scene.saves(scene.loads(saved)), saved)
+        self.assertNotIn("#", scene.saves(scene.loads(text), False).replace("# defaults", ""))
+        sub = '[[sub]] # in between\nstring = "string-0"\nlength = "0.3 m"\nsection = {pipes = {length = "1 m"}}\n'
+        self.assertIn("# in between\n", scene.saves(scene.loads(text + sub)))
+
     def test_same_bits_as_the_c_program(self):
         compiler = shutil.which(os.environ.get("CC", "cc"))
         if compiler is None or not (BUILD / "libdrillmbd.so").exists():
@@ -872,7 +921,7 @@ limit = "5 N m"
                          [100.0, 2000.0])
         self.assertEqual(made.analyses["speeds"]["output"][0]["limit"], 5.0)
         saved = scene.saves(made)
-        self.assertIn('level = "100.0 N m"', saved)
+        self.assertIn('level = "100 N m"', saved)  # as the file has it
         self.assertTrue(scene.loads(saved).model.same_scene(made.model))
         for wrong in (self.SCENE.replace("100 N m", "100 N"), self.SCENE.replace("2 kN", "2 N m"), self.SCENE.replace("5 N m", "5 N")):
             with self.assertRaisesRegex(scene.SceneError, "has the unit"):

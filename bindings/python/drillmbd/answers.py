@@ -153,10 +153,7 @@ def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
     """Counters of each string where the scene has [fatigue]; levels of stress up to twice the largest known limit."""
     if "fatigue" not in scene.analyses:
         return {}
-    values = scene.fields_of("fatigue")
-    if "stress_range" not in values and "yield_stress" in scene.limits:
-        values["stress_range"] = 2.0 * values.get("concentration", 1.0) * scene.limits["yield_stress"]
-    return {name: sim.string_fatigue(scene.names[name], pipes, **values) for name, pipes in scene.pipes.items()}
+    return {name: sim.string_fatigue(scene.names[name], pipes, **scene.effective("fatigue")) for name, pipes in scene.pipes.items()}
 
 
 def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str, FatigueResult]:

@@ -43,7 +43,7 @@ def wall_friction(scene: Scene, first: float, last: float) -> float:
 def _scaled(scene: Scene, factor: float) -> Scene | None:
     """The scene with all friction coefficients of the wall times a factor; None if no section has its own, or if it cannot be written."""
     try:
-        text = saves(scene)
+        text = saves(scene, False)
     except CannotSave:
         return None
     hole = tomllib.loads(text).get("hole", {})

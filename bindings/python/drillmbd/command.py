@@ -31,7 +31,7 @@ EXAMPLES = """examples:
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
   drillmbd fmu rig.toml -o rig.fmu            a unit for co-simulation (FMI 3.0) with other programs
-  drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
+  drillmbd save rig.toml copy.toml            the scene with all defaults written out, its units and comments kept
   drillmbd new drainage --length "200 m" --dip "5 deg" --rod "73 mm" -o hole.toml   a commented scene to start from
   drillmbd keys string.pipes                  keys with unit, default and meaning
   drillmbd catalogue "5 in"                   drill pipe, rods, collars and rigs that scene files name
@@ -123,7 +123,7 @@ def parser() -> argparse.ArgumentParser:
     sweep.add_argument("--quiet", "-q", action="store_true")
     _add_probability(commands)
     _add_fmu(commands)
-    save = commands.add_parser("save", help="writes the scene back, in SI units")
+    save = commands.add_parser("save", help="writes the scene with all values that decide the result, comments and units kept")
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
     commands.add_parser("schema", help="prints the JSON schema of scene files")

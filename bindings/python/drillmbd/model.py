@@ -55,6 +55,8 @@ class Model(Handle):
         def bare(model: Model) -> Any:
             found: dict[str, list[Any]] = {}
             for name, arguments in model.calls:
+                if name in ("set_environment", "compile") and arguments == ({},):  # all at the defaults, as without the call
+                    continue
                 found.setdefault(name, []).append(map_ids(arguments, lambda part: (part.index, bool(part))))
             return found
         return bool(bare(self) == bare(other))

@@ -119,7 +119,7 @@ class SceneSample:
         """All that the results depend on, for the study file."""
         from ..scene import saves
         scene = self.draw.scene
-        known = {"scene": saves(scene)}
+        known = {"scene": saves(scene, False)}
         return {**known, **{f"function {name}": source_of(function) for name, function in sorted(self.own.items())}}
 
     def __call__(self, number: int, z: Any) -> Result:

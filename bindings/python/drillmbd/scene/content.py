@@ -10,13 +10,16 @@ from ..model import Model, map_ids
 from ..sim import Sim
 from .divide import Divided
 from .failure import Failure
+from .fields import DEFINITIONS
 from .problems import Problem
+from .source import Source
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
 PARTS = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
 NAMED = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
 SINGLE = ("environment", "hole")
+SLIPS = ("slip_axial", "slip_rotation")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
 
 
@@ -38,6 +41,8 @@ class Scene:
     variability: Variability | None = None  #: what varies
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
     remarks: list[Problem] = field(default_factory=list)   #: what was assumed of the values of the file
+    source: Source | None = None   #: the text of the file
+    inline: set[str] = field(default_factory=set)          #: programmes that the file gives as a value in the place of a name
     divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
     def new_sim(self) -> Sim:
@@ -48,6 +53,15 @@ class Scene:
         """The fields of the options of an analysis."""
         return {key: value for key, value in self.analyses.get(analysis, {}).items()
                 if key not in ("input", "output") and not (analysis == "speeds" and key == "order")}
+
+    def effective(self, analysis: str) -> dict[str, Any]:
+        """The table of an analysis with the values that it takes from other tables."""
+        values = dict(self.analyses.get(analysis, {}))
+        if analysis == "fatigue" and "stress_range" not in values and "yield_stress" in self.limits:
+            values["stress_range"] = 2.0 * values.get("concentration", 1.0) * self.limits["yield_stress"]
+        if analysis == "buckling":  # the equilibrium of [static] is one with this friction only
+            values = {**{key: value for key, value in self.analyses.get("static", {}).items() if key in SLIPS}, **values}
+        return values
 
     def inputs(self) -> list[Input]:
         """Of the response."""
@@ -78,11 +92,22 @@ class Scene:
 
     def same_as(self, other: Scene) -> bool:
         """Whether both say the same."""
+        def filled(struct: str, values: dict[str, Any]) -> dict[str, Any]:
+            """With the defaults that are numbers."""
+            usual = DEFINITIONS[struct]().describe(every=True)
+            return {**{key: value for key, value in usual.items() if isinstance(value, (int, float, list))}, **values}
+
         def asked(scene: Scene) -> Any:
             channels = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.channels]
-            analyses = map_ids(scene.analyses, lambda part: (part.index, bool(part)))
+            analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses or name in ("static", "modes")}
+            for name, key, struct in (("response", "input", "response input"), ("speeds", "order", "response input"), ("response", "output", "output"),
+                                      ("speeds", "output", "output")):
+                if name in analyses:
+                    kind = {"kind": int(INPUT_ECCENTRICITY)} if key == "order" else {}
+                    analyses[name][key] = [filled(struct, {**kind, **one}) for one in analyses[name][key]]
+            analyses = map_ids(analyses, lambda part: (part.index, bool(part)))
             failures = map_ids([vars(one) for one in scene.failures], lambda part: (part.index, bool(part)))
-            return (scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses, scene.limits,
+            return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.output, channels, scene.pipes, analyses, scene.limits,
                     scene.variability, failures)
         return asked(self) == asked(other) and self.model.same_scene(other.model)

@@ -21,7 +21,7 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
-UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
+UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment stands for several fields
 LEFT_OUT = {"struct_size", "survey_count", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
             "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
@@ -74,7 +74,7 @@ def _field(name: str, kind: Any, unit: str, about: str) -> Field:
     if kind is Place:
         return Field(name, "place", count=count, about=about)
     if kind is ctypes.c_double:
-        return Field(name, "quantity", unit or UNIT_OF.get(name, ""), count, about=about)
+        return Field(name, "quantity", UNIT_OF.get(name) or unit, count, about=about)
     enum = ENUM_OF.get(name) or (_enum_in(about) if kind is ctypes.c_int32 else None)
     if enum is not None:
         return Field(name, "flags" if issubclass(enum, IntFlag) else "enum", "", count, enum, about)

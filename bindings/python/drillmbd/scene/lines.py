@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import Any
 
 Path = tuple[Any, ...]  # keys, and numbers of tables in arrays
@@ -15,18 +16,19 @@ def _keys(dotted: str) -> list[str]:
             re.findall(r'''[A-Za-z0-9_-]+|"[^"]*"|'[^']*\'''', dotted)]
 
 
-def _depth_after(line: str, depth: int, quote: str) -> tuple[int, str]:
-    """Open brackets and the open quote (three signs) at the end of a line."""
-    i = 0
+def _depth_after(line: str, depth: int, quote: str) -> tuple[int, str, str]:
+    """Open brackets and the open quote (three signs) at the end of a line, and its comment."""
+    i, comment = 0, ""
     while i < len(line):
         if quote:
             end = line.find(quote, i)
             if end < 0:
-                return depth, quote if len(quote) == 3 else ""
+                return depth, quote if len(quote) == 3 else "", ""
             i, quote = end + len(quote), ""
             continue
         sign = line[i]
         if sign == "#":
+            comment = line[i:].rstrip()
             break
         if sign in "\"'":
             quote = sign * 3 if line.startswith(sign * 3, i) else sign
@@ -34,26 +36,38 @@ def _depth_after(line: str, depth: int, quote: str) -> tuple[int, str]:
             continue
         depth += (sign in "[{") - (sign in "]}")
         i += 1
-    return max(depth, 0), quote if len(quote) == 3 else ""
+    return max(depth, 0), quote if len(quote) == 3 else "", comment
+
+
+def scan(text: str) -> Iterator[tuple[Path, str, bool]]:
+    """For each line the path of the key or table that begins or goes on in it, its comment ("" if it has none), and whether the
+    key or table begins there. Keys in inline tables count as what they stand in."""
+    counts: dict[Path, int] = {}
+    table: Path = ()
+    key: Path = ()
+    depth, quote = 0, ""
+    for line in text.splitlines():
+        begins = False
+        rest = line
+        if depth == 0 and not quote:
+            header, found = _HEADER.match(line), _KEY.match(line)
+            key = ()
+            if header:
+                table = key = _table(_keys(header.group(2)), header.group(1) == "[[", counts)
+                yield key, header.group(3) or "", True
+                continue
+            if found:
+                key, begins, rest = table + tuple(_keys(found.group(1))), True, line[found.end():]
+        depth, quote, comment = _depth_after(rest, depth, quote)
+        yield key, comment, begins
 
 
 def find_lines(text: str) -> dict[Path, int]:
     """{path: line from 1}. Keys in inline tables have the line of what they stand in."""
     found: dict[Path, int] = {(): 1}
-    counts: dict[Path, int] = {}
-    table: Path = ()
-    depth, quote = 0, ""
-    for number, line in enumerate(text.splitlines(), 1):
-        if depth == 0 and not quote:
-            header, key = _HEADER.match(line), _KEY.match(line)
-            if header:
-                table = _table(_keys(header.group(2)), header.group(1) == "[[", counts)
-                found.setdefault(table, number)
-                continue
-            if key:
-                found.setdefault(table + tuple(_keys(key.group(1))), number)
-                line = line[key.end():]
-        depth, quote = _depth_after(line, depth, quote)
+    for number, (path, _, begins) in enumerate(scan(text), 1):
+        if begins:
+            found.setdefault(path, number)
     return found
 
 

@@ -21,6 +21,7 @@ from .divide import Divided, divide
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
 from .problems import Problem, Problems, SceneError, meant
+from .source import Source
 from .sub import Subs
 from .terms import PerRevolution
 
@@ -60,6 +61,8 @@ def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[st
     scene, divided = _scene_of(copy.deepcopy(content), problems, folder, name)
     if divide(scene, divided, content):
         scene, _ = _scene_of(content, problems, folder, name, divided)
+    assert scene.source is not None
+    scene.source.read(text)
     return scene
 
 
@@ -90,6 +93,8 @@ class Loader:
         self.pipes: dict[str, int] = {}                     # string -> number of its pipes
         self.units: dict[str, str] = {}                     # programme -> unit
         self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
+        self.paths: dict[tuple[str, str], Path] = {}        # (kind, name) -> its table
+        self.inline: set[str] = set()                       # programmes that are values in the place of names
         self.undivided: list[Divided] = []                  # pipes whose number of elements is not given
         self.subs = Subs(self)
 
@@ -108,7 +113,7 @@ class Loader:
         self._find_programme_units()
         self._describe()
         scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
-                      pipes=self.pipes, programme_units=self.units)
+                      pipes=self.pipes, programme_units=self.units, source=Source(self.paths), inline=self.inline)
         Asked(self).settings(scene)
         scene.variability = variability.Reader(self).variability()
         scene.failures = failure.Reader(self, scene.limits).failures()
@@ -161,6 +166,7 @@ class Loader:
                 self.problems.add(path + ("name",), name, f"names a {self.kinds[name]} already; every name once")
             else:
                 self.kinds[name] = kind
+                self.paths[kind, name] = path
 
     def put(self, name: str, kind: str, made: Id | None) -> None:
         """Notes the id of a part, if the name is its own."""
@@ -565,6 +571,7 @@ class Loader:
                 name = f"{key} of {'.'.join(map(str, path))}"
                 self.kinds[name], self.units[name], self.terms[name] = "programme", unit, [{"h0": constant}]
                 self.names[name] = self._add_programme(path + (key,), self.terms[name])
+                self.inline.add(name)
                 table[key] = name
 
     # ---- The end -------------------------------------------------------------------------------------------------------

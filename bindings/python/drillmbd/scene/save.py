@@ -1,5 +1,6 @@
-"""Writes a scene, or a model alone, as a scene file. Every number is written in SI with all its digits, so that reading
-it gives the same scene and the same run to the bit."""
+"""Writes a scene, or a model alone, as a scene file, so that reading it gives the same scene and the same run to the bit. Every
+value that decides the result is written, defaults too. Values keep the units in which the file has them; others are written in SI
+with all their digits. Comments stay beside their keys."""
 from __future__ import annotations
 
 import json
@@ -15,7 +16,15 @@ from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, NAMED, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
+from .lines import Path
+from .source import Source, decorated
 from .terms import PerRevolution
+
+DEFAULTS = "# defaults"
+#: Absent limits and delays are numbers of this size in the library; they are left out.
+NO_LIMIT = 1e30
+#: Fields of the terms of a programme by their kind.
+TERM_FIELDS = {enums.TERM_CONSTANT: ("kind", "h0"), enums.TERM_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.TERM_STEP5: ("kind", "x0", "x1", "h0", "h1")}
 
 
 class CannotSave(ValueError):
@@ -27,9 +36,26 @@ def save(scene: Scene | Model, path: Any) -> None:
     pathlib.Path(path).write_text(saves(scene), encoding="utf-8")
 
 
-def saves(scene: Scene | Model) -> str:
-    """The text of the file."""
-    return Writer(scene).text()
+def saves(scene: Scene | Model, as_written: bool = True) -> str:
+    """The text of the file. as_written: with the comments and units of the file that the scene was read from; else in SI without
+    comments, so that two scenes that say the same have the same text."""
+    return Writer(scene, scene.source if as_written and isinstance(scene, Scene) else None).text()
+
+
+def _is_default(value: Any) -> bool:
+    """Whether a default is a value, and no sign of one that is absent or as elsewhere: nothing, no part, no limit, a negative number."""
+    if value is None or value == "" or isinstance(value, (Id, Place)) or (isinstance(value, list) and any(isinstance(one, Id) for one in value)):
+        return False
+    numbers = value if isinstance(value, list) else [value]
+    if any(isinstance(one, float) and not abs(one) < NO_LIMIT for one in numbers):
+        return False
+    return not (isinstance(value, (int, float)) and value < 0)
+
+
+def defaults_of(struct: str, values: dict[str, Any]) -> dict[str, Any]:
+    """The fields of a table that are not given, with their defaults."""
+    usual = DEFINITIONS[struct]().describe(every=True)
+    return {key: usual[key] for key in fields_of(DEFINITIONS[struct]) if key not in values and key in usual and _is_default(usual[key])}
 
 
 def _value(value: Any) -> str:
@@ -48,10 +74,12 @@ def _value(value: Any) -> str:
 class Writer:
     """Gathers the lines. Parts of a model without names are named by kind and number."""
 
-    def __init__(self, scene: Scene | Model) -> None:
+    def __init__(self, scene: Scene | Model, source: Source | None = None) -> None:
+        self.source = source
         self.scene = scene if isinstance(scene, Scene) else None
         self.model = scene.model if isinstance(scene, Scene) else scene
-        self.lines: list[str] = []
+        self.lines: list[tuple[str, Path | None]] = []         # each with its place in the source
+        self.at: Path | None = ()                              # of the table that is being written
         self.names = {id.index: name for name, id in self.scene.names.items()} if self.scene else {}
         self.parts: dict[str, list[tuple[Id, Any]]] = {}       # kind -> (id, description) in order
         self.pipes: dict[int, list[tuple[int, dict[str, Any]]]] = {}  # string -> sections
@@ -59,6 +87,7 @@ class Writer:
         self.sections: list[dict[str, Any]] = []               # of the hole
         self.set_names: dict[int, str] = {}                    # given by Model.set_name
         self._sort()
+        self.inline = self._constants()                        # programme -> its value and unit, where a drive, bit or load states it
 
     # ---- From calls to parts ----------------------------------------------------------------------------------------
     def _sort(self) -> None:
@@ -107,51 +136,82 @@ class Writer:
             found.update({part[key].index: unit for _, part in self.parts.get(kind, []) if key in part})
         return found
 
+    def _constants(self) -> dict[int, tuple[float, str]]:
+        """Programmes that the file gives as a value in the place of a name."""
+        if self.scene is None:
+            return {}
+        known = self._units()
+        return {made.index: (float(terms[0].get("h0", 0.0)), known[made.index]) for made, terms in self.parts.get("programme", [])
+                if self.names[made.index] in self.scene.inline and made.index in known}
+
     # ---- From parts to lines ----------------------------------------------------------------------------------------
     def text(self) -> str:
         """The whole file."""
         self._key("title", self.scene.title if self.scene else "")
-        for name in ("environment", "hole"):
-            if name in self.single:
-                self._head(f"[{name}]")
-                self._hole(self.single[name]) if name == "hole" else self._table(name, self.single[name])
+        self._head("[environment]", ("environment",))
+        self._table("environment", self.single.get("environment", {}))
+        if "hole" in self.single:
+            self._head("[hole]", ("hole",))
+            self._hole(self.single["hole"])
         programme_units = self._units()
         for made, terms in self.parts.get("programme", []):
-            self._programme(self.names[made.index], terms, programme_units.get(made.index))
+            if made.index not in self.inline:
+                self._programme(self.names[made.index], terms, programme_units.get(made.index))
         for made, description in self.parts.get("string", []):
-            self._head("[[string]]", self._own_name("string", made, description))
+            self._part_head("string", made, description)
             self._table("string", description)
-            for count, pipes in self.pipes.get(made.index, []):
-                self._head("[[string.pipes]]")
+            path = self.at
+            for number, (count, pipes) in enumerate(self.pipes.get(made.index, [])):
+                self._head("[[string.pipes]]", None if path is None else path + ("pipes", number))
                 self._key("count", count)
                 self._table("pipes", {"elements": 1, "damping_time": 0.0, **pipes})  # a file without them means other values
         for kind in PARTS[1:]:
             for made, description in self.parts.get(kind, []):
-                self._part(kind, self._own_name(kind, made, description), description)
+                self._part(kind, made, description)
         self._settings()
-        return "\n".join(self.lines) + "\n"
+        lines = decorated(self.lines, self.source) if self.source else [line for text, _ in self.lines for line in text.split("\n")]
+        return "\n".join(lines) + "\n"
 
     def _own_name(self, kind: str, made: Id, description: dict[str, Any]) -> str | None:
         """One of kind and number is left out, so that the library has none for messages."""
         name = self.names[made.index]
         return None if "name" not in description and name == f"{kind}-{made.index & 0xFFFFFF}" else name
 
-    def _head(self, head: str, name: str | None = None) -> None:
-        self.lines += ["", head]
+    def _part_head(self, kind: str, made: Id, description: dict[str, Any]) -> None:
+        path = self.source.paths.get((kind, self.names[made.index])) if self.source else None
+        self._head(f"[[{kind}]]", path, self._own_name(kind, made, description))
+
+    def _head(self, head: str, path: Path | None, name: str | None = None) -> None:
+        self.at = path
+        self.lines.append(("\n" + head, path))
         if name is not None:
             self._key("name", name)
 
     def _key(self, key: str, value: Any) -> None:
-        self.lines.append(f"{key} = {_value(value)}")
+        path = None if self.at is None else self.at + (key,)
+        if self.source is not None:
+            value = self.source.spelling(path, value)
+        self.lines.append((f"{key} = {_value(value)}", path))
 
-    def _table(self, struct: str, values: dict[str, Any], unit_of: Any = None) -> None:
-        """The fields of a struct that are not at their defaults."""
+    def _table(self, struct: str, values: dict[str, Any], unit_of: Any = None, left_out: tuple[str, ...] = ()) -> None:
+        """The fields of a struct: those of the source in its order, the other given ones, then those at their defaults."""
         known = fields_of(DEFINITIONS[struct])
-        for key, value in values.items():
-            if key in known and not (key == "name" and struct in NAMED):
-                self._key(key, self._plain(known[key], value, unit_of(key) if unit_of else None))
+        order = self.source.order(self.at) if self.source else {}
+        every = {**values, **defaults_of(struct, values)}
+        given = sorted((key for key in every if key in values or key in order), key=lambda key: order.get(key, len(order)))
+        usual = [key for key in every if key not in given]
+        lines = [(key, self._plain(known[key], every[key], unit_of(key) if unit_of else None)) for key in (*given, *usual)
+                 if key in known and key not in left_out and not (key == "name" and struct in NAMED)]
+        told = False
+        for key, value in lines:
+            if key in usual and not told and not order.keys() & set(usual):
+                told = True
+                self.lines.append((DEFAULTS, None))
+            self._key(key, value)
 
     def _plain(self, field: Any, value: Any, unit: str | None) -> Any:
+        if field.kind == "id" and not field.count and value.index in self.inline:
+            return units.text(*self.inline[value.index])
         if field.kind == "id":
             return [self.names[one.index] for one in value] if field.count else self.names[value.index]
         if field.kind == "place":
@@ -166,24 +226,25 @@ class Writer:
     def _hole(self, values: dict[str, Any]) -> None:
         power = values.get("exponent", 1.0)
         special = {"stiffness": f"N/m^{power + 1.0:g}"}
-        self._table("hole", values, special.get)
-        if values.get("stations"):
-            self.lines.append("survey = [")
-            for depth, inclination, azimuth in values["stations"]:
-                row = [units.text(depth, "m"), units.text(inclination, "rad"), units.text(azimuth, "rad")]
-                self.lines.append(f"    {_value(row)},")
-            self.lines.append("]")
-        for section in self.sections:
-            self._head("[[hole.section]]")
+        stations = values.get("stations")
+        self._table("hole", values, special.get, ("direction",) if stations else ())
+        if stations:
+            rows: list[Any] = [[units.text(depth, "m"), units.text(inclination, "rad"), units.text(azimuth, "rad")]
+                               for depth, inclination, azimuth in stations]
+            rows = self.source.spelling(("hole", "survey"), rows) if self.source else rows
+            self.lines.append(("\n".join(["survey = [", *(f"    {_value(row)}," for row in rows), "]"]), ("hole", "survey")))
+        for number, section in enumerate(self.sections):
+            self._head("[[hole.section]]", ("hole", "section", number))
             self._table("section", section, special.get)
 
     def _programme(self, name: str, terms: list[dict[str, Any]], unit: str | None) -> None:
-        self._head("[[programme]]", name)
+        path = self.source.paths.get(("programme", name)) if self.source else None
+        self._head("[[programme]]", path, name)
         if unit is None:
             unit = self.scene.programme_units.get(name, "-") if self.scene else "-"
             self._key("unit", unit)
-        for term in terms:
-            self._head("[[programme.term]]")
+        for number, term in enumerate(terms):
+            self._head("[[programme.term]]", None if path is None else path + ("term", number))
             self._term(name, term, unit)
 
     def _term(self, name: str, term: dict[str, Any], unit: str) -> None:
@@ -195,12 +256,15 @@ class Writer:
             return
         if function is not None:
             raise CannotSave(f"programme {name}: a function of Python cannot be written to a file; use a table")
-        self._table("term", term, lambda key: unit if key in ("h0", "h1") else None)
         if term.get("table"):
             self._key("table", [[units.text(t, "s"), units.text(v, unit)] for t, v in term["table"]])
+            return
+        used = TERM_FIELDS.get(term.get("kind", enums.TERM_CONSTANT), ())
+        unused = tuple(key for key in defaults_of("term", term) if used and key not in used)
+        self._table("term", term, lambda key: unit if key in ("h0", "h1") else None, unused)
 
-    def _part(self, kind: str, name: str | None, description: dict[str, Any]) -> None:
-        self._head(f"[[{kind}]]", name)
+    def _part(self, kind: str, made: Id, description: dict[str, Any]) -> None:
+        self._part_head(kind, made, description)
         component = description.get("component", 0)
         if kind == "event":
             self._event(description)
@@ -231,7 +295,7 @@ class Writer:
         self._key("quantity", fields.write(known["quantity"], output.quantity))
         if output.place.part:
             self._key("place", self._place(output.place))
-        for key, value in description.items():
+        for key, value in {**description, **defaults_of("event", description)}.items():
             if key in known:
                 self._key(key, self._plain(known[key], value, unit if key == "level" else None))
 
@@ -248,58 +312,64 @@ class Writer:
 
     # ---- What is asked ----------------------------------------------------------------------------------------------
     def _settings(self) -> None:
-        compiled = self.single.get("compile")
-        if compiled:
-            self._head("[compile]")
-            self._table("compile", compiled)
+        self._head("[compile]", ("compile",))
+        self._table("compile", self.single.get("compile") or {})
         if self.scene is None:
             return
-        for name, values, known in (("sim", self.scene.sim, fields_of(DEFINITIONS["sim"])),
-                                    ("run", self.scene.run, RUN), ("output", self.scene.output, OUTPUT),
+        self._head("[sim]", ("sim",))
+        self._table("sim", self.scene.sim)
+        for name, values, known in (("run", {"static": 0, **self.scene.run}, RUN), ("output", self.scene.output, OUTPUT),
                                     ("limits", self.scene.limits, LIMITS)):
             if values:
-                self._head(f"[{name}]")
-                for key, value in values.items():
+                self._head(f"[{name}]", (name,))
+                order = self.source.order(self.at) if self.source else {}
+                for key, value in sorted(values.items(), key=lambda one: order.get(one[0], len(order))):
                     self._key(key, self._plain(known[key], value, None))
-        for channel, place, quantity in self.scene.channels:
-            self._head("[[channel]]", channel)
+        for number, (channel, place, quantity) in enumerate(self.scene.channels):
+            self._head("[[channel]]", ("channel", number), channel)
             self._key("quantity", fields.word_of(Named(quantity)))
             if place is not None:
                 self._key("place", self._place(place))
         for name in ANALYSES:
-            if name in self.scene.analyses:
-                self._analysis(name, self.scene.analyses[name])
+            if name in self.scene.analyses or name in ("static", "modes"):
+                self._analysis(name, self.scene.effective(name))
         self._chance(self.scene)
 
     def _chance(self, scene: Scene) -> None:
         """The tables of variability and failure."""
+        counts: dict[str, int] = {}
         for head, table in variability.tables_of(scene.variability) if scene.variability else ():
-            self._head(head)
+            path: Path = tuple(head.strip("[]").split("."))
+            if len(path) > 1:
+                path += (counts.setdefault(head, 0),)
+                counts[head] += 1
+            self._head(head, path)
             for key, value in table.items():
                 self._key(key, value)
-        for one in scene.failures:
-            self._head("[[failure]]")
+        for number, one in enumerate(scene.failures):
+            self._head("[[failure]]", ("failure", number))
             for key, value in failure.table_of(one).items():
                 self._key(key, value)
 
     def _analysis(self, name: str, values: dict[str, Any]) -> None:
-        assert self.scene is not None
-        self._head(f"[{name}]")
-        self._table(name, self.scene.fields_of(name), self._factor_unit(values))
-        for one in values.get("input", []):
-            self._head(f"[[{name}.input]]")
+        self._head(f"[{name}]", (name,))
+        own = {key: value for key, value in values.items() if key not in ("input", "output") and not (name == "speeds" and key == "order")}
+        self._table(name, own, self._factor_unit(values))
+        for number, one in enumerate(values.get("input", [])):
+            self._head(f"[[{name}.input]]", (name, "input", number))
             self._input(one)
         if name == "speeds":
-            for one in values["order"]:
-                self._head("[[speeds.order]]")
+            for number, one in enumerate(values["order"]):
+                self._head("[[speeds.order]]", (name, "order", number))
                 self._key("order", one["order"])
-                self._input({key: value for key, value in one.items() if key != "order"})
-        for one in values.get("output", []):
-            self._head(f"[[{name}.output]]", one["name"])
+                self._input({"kind": enums.INPUT_ECCENTRICITY, **{key: value for key, value in one.items() if key != "order"}})
+        for number, one in enumerate(values.get("output", [])):
+            self._head(f"[[{name}.output]]", (name, "output", number), one["name"])
+            left_out: tuple[str, ...] = ()
             if one.get("kind") == enums.OUTPUT_CHANNEL:
                 self._key("quantity", fields.word_of(Named(one["component"])))
-                one = {key: value for key, value in one.items() if key not in ("kind", "component")}
-            self._table("output", one)
+                left_out = ("kind", "component")
+            self._table("output", one, None, left_out)
             if "limit" in one:
                 self._key("limit", units.text(one["limit"], one["unit"]))
 
