@@ -1086,6 +1086,13 @@ public:
         done(dmb_analysis_torque_drag(handle_, options, operations.data(), operations.count(), rows.data()));
         return rows;
     }
+    // Pressures of the mud with the string's far end at a measured depth [m]; trip speed [m/s].
+    DRILLMBD_NODISCARD dmb_hydraulics hydraulics(double depth, double trip_speed = 0.0)
+    {
+        dmb_hydraulics answer = dmb_hydraulics_default();
+        done(dmb_analysis_hydraulics(handle_, depth, trip_speed, &answer));
+        return answer;
+    }
     DRILLMBD_NODISCARD drillmbd::sensitivity sensitivity(span<const dmb_parameter> parameters)
     {
         dmb_sensitivity *made = nullptr;

@@ -1,7 +1,8 @@
 /* libdrillmbd - torque and drag: what a string needs at the rig to be moved steadily in its hole, at any depth. The
  * soft string of Johancsik, Friesen, Dawson 1984 in three dimensions: weight, wall and axial force in balance, no
  * bending stiffness, full friction against the motion. For the stiff string ask dmb_analysis_static with slip_axial and
- * slip_rotation, and hold the two against each other. Fatigue of places during a run. */
+ * slip_rotation, and hold the two against each other. Pressures of
+ * circulation and tripping. Fatigue of places during a run. */
 #ifndef DRILLMBD_DRILLING_H
 #define DRILLMBD_DRILLING_H
 
@@ -101,6 +102,32 @@ enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
 DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options,
                                              const dmb_operation *operation, int32_t measured, double value,
                                              double *friction);
+
+/* ---- Hydraulics -------------------------------------------------------------------------------------------------- */
+typedef struct dmb_hydraulics {
+    uint32_t struct_size;
+    uint32_t reserved;
+    double depth;               /* [m] measured depth of the string's far end */
+    double vertical_depth;      /* [m] of it below the start of the string, along gravity; < 0 above it */
+    double bore_loss;           /* [Pa] down the string at the flow_rate, by friction */
+    double bit_loss;            /* [Pa] through nozzle_area */
+    double annulus_loss;        /* [Pa] up the annulus, by friction */
+    double pump_pressure;       /* [Pa] sum of the three and of the difference of the columns; motors are left out */
+    double circulating_density; /* [kg/m3] equivalent circulating density at the far end: fluid_density +
+                                   annulus_loss/(g vertical_depth); NaN where vertical_depth is not > 0 */
+    double trip_pressure; /* [Pa] below the closed string while it moves at the trip speed without circulation: more
+                             than at rest going in (surge), less coming out (swab) */
+    double surge_density; /* [kg/m3] equivalent density of fluid_density and trip_pressure going in; NaN likewise */
+    double swab_density;  /* [kg/m3] coming out; NaN likewise */
+    double reynolds;      /* [-] largest of bore, annulus and trip */
+} dmb_hydraulics;
+DMB_SIZED_STRUCT(dmb_hydraulics)
+/* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by
+ * at most its length: the string hangs together with its pipes counted from the far end, as for torque and drag. Steady
+ * flow: trip speeds [m/s], 0 .. 10, without acceleration and gel strength; Burkhardt's clinging constants (1961).
+ * Errors: DMB_ERR_UNSUPPORTED without a flow_rate or an input of it, DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE.
+ * Allocates nothing. O(length / 2 m). */
+DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer);
 
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------
  * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the

@@ -77,9 +77,11 @@ typedef struct dmb_environment_def {
     double flow_rate;  /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
                           annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
                           nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests */
-    double
-        consistency; /* [Pa s] K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0 */
-    double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity */
+    double consistency;   /* [Pa s] K of the mud (Pa s^n): shear stress = yield_stress + K (shear rate)^n (Herschel,
+                             Bulkley); > 0 with a flow_rate; default 0 */
+    double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): K is the viscosity, Newtonian without a yield_stress,
+                             Bingham's fluid with one */
+    double yield_stress;  /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
     double nozzle_area;   /* [m2] of the bit in all; 0 (default): the last pipe is open */
     double
         flow_eccentricity; /* [-] of the annulus that mud flows back in, everywhere: distance of the axes over half the

@@ -1,6 +1,7 @@
 #include "force/mud_flow.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "math/elementary.h"
 #include "math/quadrature.h"
@@ -23,6 +24,34 @@ static double eighth_power(double x)
     return x4 * x4;
 }
 
+/* ---- Roots ------------------------------------------------------------------------------------------------------- */
+
+/* A function that changes its sign once, from minus to plus. */
+typedef double (*rising)(double x, const void *context);
+
+/* Root between low and high to a relative width, by the rule of false position in the form of Illinois (Dowell, Jarratt
+ * 1971). */
+static double root_between(rising function, const void *context, double low, double high, double width)
+{
+    double at_low = function(low, context), at_high = function(high, context);
+    for (int i = 0; i < 100 && high - low > width * high; i++) {
+        const double next = (low * at_high - high * at_low) / (at_high - at_low);
+        if (!(next > low)) return low;
+        if (!(next < high)) return high;
+        const double at = function(next, context);
+        if (at > 0.0) {
+            high = next;
+            at_high = at;
+            at_low *= 0.5;
+        } else {
+            low = next;
+            at_low = at;
+            at_high *= 0.5;
+        }
+    }
+    return 0.5 * (low + high);
+}
+
 /* ---- Laminar and turbulent --------------------------------------------------------------------------------------- */
 
 /* (f_i/f_l)^12 */
@@ -43,14 +72,65 @@ static double reynolds_of(double density, double speed, double hydraulic_diamete
     return gradient > 0.0 ? 32.0 * density * speed * speed / (gradient * hydraulic_diameter) : 0.0;
 }
 
+/* ---- Yield stress ------------------------------------------------------------------------------------------------ */
+
+/* A pipe or a slot in which a fluid with a yield stress flows at a speed. */
+typedef struct duct {
+    const dmb_mud_flow *flow;
+    double width; /* [m] radius d/2 or gap H: the pressure gradient is 2 tau_w/width in both */
+    double speed; /* [m/s] mean */
+    bool slot;
+} duct;
+
+/* [m/s] Mean speed at a stress of the wall above the yield stress. */
+static double speed_at(const duct *d, double wall)
+{
+    const double n = d->flow->exponent, phi = d->flow->yield_stress / wall, free = 1.0 - phi;
+    if (!(free > 0.0)) return 0.0;
+    const double common = n * dmb_pow(wall / d->flow->consistency, 1.0 / n) * dmb_pow(free, 1.0 + 1.0 / n);
+    if (d->slot) return 0.5 * d->width * common / (2.0 * n + 1.0) * (1.0 + phi * n / (n + 1.0));
+    return d->width * common *
+           (free * free / (3.0 * n + 1.0) + 2.0 * phi * free / (2.0 * n + 1.0) + phi * phi / (n + 1.0));
+}
+
+/* By the n-th power, in which a fluid that only just yields is not steep. */
+static double excess_speed(double wall, const void *context)
+{
+    const duct *d = context;
+    return dmb_pow(speed_at(d, wall), d->flow->exponent) - dmb_pow(d->speed, d->flow->exponent);
+}
+
+/* [Pa] Stress of the wall at the duct's speed; without_yield: that of the power law. */
+static double wall_stress(const duct *d, double without_yield)
+{
+    const double low = fmax(d->flow->yield_stress, without_yield);
+    double high = without_yield + 2.0 * d->flow->yield_stress;
+    if (!(d->flow->yield_stress > 0.0)) return without_yield;
+    for (int i = 0; i < 60 && speed_at(d, high) < d->speed; i++) high *= 2.0;
+    return root_between(excess_speed, d, low, high, 1e-14);
+}
+
+/* [-] n' = d ln tau_w/d ln V. */
+static double local_exponent(const duct *d, double wall)
+{
+    const double yield = d->flow->yield_stress, n = d->flow->exponent;
+    if (!(yield > 0.0) || !(wall > yield)) return yield > 0.0 ? DMB_FLOW_EXPONENT_MIN : n;
+    const double rate = dmb_pow((wall - yield) / d->flow->consistency, 1.0 / n), scale = rate * d->width / d->speed;
+    return fmax(DMB_FLOW_EXPONENT_MIN, 1.0 / (d->slot ? 0.5 * scale - 2.0 : scale - 3.0));
+}
+
+/* ---- Pipe -------------------------------------------------------------------------------------------------------- */
+
 dmb_flow_loss dmb_bore_loss(const dmb_mud_flow *flow, double diameter)
 {
     const double n = flow->exponent, speed = 4.0 * flow->rate / (PI * diameter * diameter);
     if (!(flow->rate > 0.0)) return (dmb_flow_loss){.gradient = 0.0};
-    const double laminar =
-        4.0 * flow->consistency / diameter * dmb_pow((3.0 * n + 1.0) / (4.0 * n) * 8.0 * speed / diameter, n);
+    const duct pipe = {flow, 0.5 * diameter, speed, false};
+    const double wall =
+        wall_stress(&pipe, flow->consistency * dmb_pow((3.0 * n + 1.0) / (4.0 * n) * 8.0 * speed / diameter, n));
+    const double laminar = 4.0 / diameter * wall;
     dmb_flow_loss loss = {.reynolds = reynolds_of(flow->inside, speed, diameter, laminar)};
-    loss.gradient = laminar * dmb_pow(1.0 + turbulence(n, loss.reynolds), 1.0 / 12.0);
+    loss.gradient = laminar * dmb_pow(1.0 + turbulence(local_exponent(&pipe, wall), loss.reynolds), 1.0 / 12.0);
     return loss;
 }
 
@@ -73,35 +153,23 @@ static double speed_at_zero_shear(double lambda, double from, double m)
     return 2.0 * fabs(span) * sum / PANELS;
 }
 
+typedef struct zero_shear {
+    double ratio, power;
+} zero_shear;
+
 /* > 0: lambda is too large. */
-static double mismatch(double lambda, double ratio, double m)
+static double mismatch(double lambda, const void *context)
 {
-    return speed_at_zero_shear(lambda, ratio, m) - speed_at_zero_shear(lambda, 1.0, m);
+    const zero_shear *z = context;
+    return speed_at_zero_shear(lambda, z->ratio, z->power) - speed_at_zero_shear(lambda, 1.0, z->power);
 }
 
-/* By the rule of false position in the form of Illinois (Dowell, Jarratt 1971). */
+/* n -> 0 would have it in the middle, other fluids further inwards. */
 double dmb_annulus_zero_shear(double exponent, double ratio)
 {
+    const zero_shear z = {ratio, 1.0 / exponent};
     if (exponent >= 1.0) return sqrt((1.0 - ratio) * (1.0 + ratio) / (-2.0 * logarithm(ratio)));
-    const double m = 1.0 / exponent;
-    double low = sqrt(ratio), high = 0.5 * (1.0 + ratio), at_low, at_high; /* n -> 0 in the middle, else inwards */
-    at_low = mismatch(low, ratio, m);
-    at_high = mismatch(high, ratio, m);
-    for (int i = 0; i < 100 && high - low > 1e-15; i++) {
-        const double next = (low * at_high - high * at_low) / (at_high - at_low);
-        if (!(next > low && next < high)) break;
-        const double at = mismatch(next, ratio, m);
-        if (at > 0.0) {
-            high = next;
-            at_high = at;
-            at_low *= 0.5;
-        } else {
-            low = next;
-            at_low = at;
-            at_high *= 0.5;
-        }
-    }
-    return 0.5 * (low + high);
+    return root_between(mismatch, &z, sqrt(ratio), 0.5 * (1.0 + ratio), 1e-15);
 }
 
 static double laminar_gradient(const dmb_mud_flow *flow, double hole_radius, double ratio, double lambda)
@@ -149,18 +217,42 @@ dmb_annulus_shape dmb_annulus_shape_of(const dmb_mud_flow *flow, double ratio)
     return shape;
 }
 
+/* The laminar flow of an annulus with its yield stress. */
+typedef struct yielding {
+    double gradient; /* [Pa/m] */
+    double lambda;   /* [-] radius without shear over that of the hole */
+    double exponent; /* [-] local one */
+} yielding;
+
+/* From the gradient and lambda of the power law. */
+static yielding with_yield(const duct *slot, double gradient, double ratio, double lambda)
+{
+    const double n = slot->flow->exponent, H = slot->width;
+    yielding answer = {gradient, lambda, n};
+    if (!(slot->flow->yield_stress > 0.0)) return answer;
+    const double plain = slot->flow->consistency * dmb_pow((2.0 * n + 1.0) / n * 2.0 * slot->speed / H, n);
+    const double wall = wall_stress(slot, plain), phi = slot->flow->yield_stress / wall;
+    const double more = 0.5 * H * gradient / plain - 1.0;
+    answer.gradient = 2.0 * wall / H * (1.0 + more * (1.0 - phi) * (1.0 + 0.5 * phi));
+    answer.lambda = sqrt(ratio + (lambda * lambda - ratio) * (1.0 - phi) * (1.0 + 0.35 * phi));
+    answer.exponent = local_exponent(slot, wall);
+    return answer;
+}
+
 dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter,
                                   const dmb_annulus_shape *shape)
 {
-    const double R = 0.5 * hole_diameter, ratio = pipe_diameter / hole_diameter, n = flow->exponent;
+    const double R = 0.5 * hole_diameter, ratio = pipe_diameter / hole_diameter;
     const double gap = hole_diameter - pipe_diameter;
     if (!(flow->rate > 0.0)) return (dmb_flow_loss){.gradient = 0.0};
-    const double laminar = laminar_gradient(flow, R, ratio, shape->lambda);
     const double speed = 4.0 * flow->rate / (PI * gap * (hole_diameter + pipe_diameter));
-    dmb_flow_loss loss = {.reynolds = reynolds_of(flow->outside, speed, gap, laminar)};
-    const double more = turbulence(n, loss.reynolds), share = more / (1.0 + more), steep = dmb_pow(ratio, 0.343);
-    const double lambda = shape->lambda + share * ((steep + ratio) / (1.0 + steep) - shape->lambda);
-    loss.gradient = laminar * dmb_pow(1.0 + more, 1.0 / 12.0);
+    const duct slot = {flow, 0.5 * gap, speed, true};
+    const yielding laminar = with_yield(&slot, laminar_gradient(flow, R, ratio, shape->lambda), ratio, shape->lambda);
+    dmb_flow_loss loss = {.reynolds = reynolds_of(flow->outside, speed, gap, laminar.gradient)};
+    const double more = turbulence(laminar.exponent, loss.reynolds), share = more / (1.0 + more),
+                 steep = dmb_pow(ratio, 0.343);
+    const double lambda = laminar.lambda + share * ((steep + ratio) / (1.0 + steep) - laminar.lambda);
+    loss.gradient = laminar.gradient * dmb_pow(1.0 + more, 1.0 / 12.0);
     if (flow->eccentricity > 0.0) loss.gradient *= shape->laminar + share * (shape->turbulent - shape->laminar);
     loss.pull = PI * lambda * lambda * R * R * loss.gradient;
     if (flow->eccentricity > 0.0) loss.pull *= shape->pull;

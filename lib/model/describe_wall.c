@@ -182,11 +182,15 @@ static void check_flow(dmb_check *check, const dmb_environment_def *def)
     dmb_check_within(check, "flow_rate", def->flow_rate, 0.0, DMB_FLOW_MAX);
     dmb_check_zero_or_within(check, "consistency", def->consistency, DMB_CONSISTENCY_MIN, DMB_CONSISTENCY_MAX);
     dmb_check_within(check, "flow_exponent", def->flow_exponent, DMB_FLOW_EXPONENT_MIN, DMB_FLOW_EXPONENT_MAX);
+    dmb_check_within(check, "yield_stress", def->yield_stress, 0.0, DMB_YIELD_STRESS_MAX);
     dmb_check_zero_or_within(check, "nozzle_area", def->nozzle_area, DMB_AREA_MIN, DMB_FLOW_MAX);
     dmb_check_within(check, "flow_eccentricity", def->flow_eccentricity, 0.0, DMB_FLOW_ECCENTRICITY_MAX);
     if (check->status >= 0 && def->flow_eccentricity > 0.0)
         dmb_check_within(check, "flow_exponent", def->flow_exponent, DMB_FLOW_ECCENTRIC_EXPONENT,
                          DMB_FLOW_EXPONENT_MAX);
+    if (check->status >= 0 && def->flow_eccentricity > 0.0 && def->yield_stress > 0.0)
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "yield_stress", def->yield_stress,
+                       "0 with a flow_eccentricity, whose law is that of the power law");
     if (check->status >= 0 && def->flow_rate > 0.0 && !(def->consistency > 0.0))
         dmb_check_fail(check, DMB_ERR_VALUE, "consistency", def->consistency, "> 0 with a flow_rate");
     if (check->status >= 0 && def->flow_rate > 0.0 && !(def->fluid_density > 0.0))

@@ -35,7 +35,8 @@
 #define DMB_AREA_MIN 1e-12       /* [m2] of nozzles */
 #define DMB_CONSISTENCY_MIN 1e-9 /* [Pa s^n] */
 #define DMB_CONSISTENCY_MAX 1e9
-#define DMB_NUMBER_MIN 1e-6 /* [-] of ratios and factors that must be > 0 */
+#define DMB_YIELD_STRESS_MAX 1e6 /* [Pa] of mud */
+#define DMB_NUMBER_MIN 1e-6      /* [-] of ratios and factors that must be > 0 */
 #define DMB_NUMBER_MAX 1e6
 #define DMB_RATIO_MIN 1e-12 /* [-, m/rad, rad/m] of coupled coordinates */
 #define DMB_RATIO_MAX 1e12

@@ -228,6 +228,7 @@ static void take_flow(dmb_mesh *mesh)
     mesh->flow = (dmb_mud_flow){.rate = e->flow_rate,
                                 .consistency = e->consistency,
                                 .exponent = e->flow_exponent,
+                                .yield_stress = e->yield_stress,
                                 .eccentricity = e->flow_eccentricity,
                                 .nozzle_area = e->nozzle_area,
                                 .open = !(e->nozzle_area > 0.0),

@@ -261,7 +261,7 @@ static uint64_t add_flow(uint64_t h, const dmb_scene *s)
     h = dmb_fnv_numbers(h, s->flow_element, s->element_count);
     h = dmb_fnv_number(h, dmb_nozzle_thrust(&s->flow));
     if (s->has_flow_input) { /* at another rate these say what follows from it */
-        const double mud[] = {s->flow.consistency, s->flow.exponent, s->flow.eccentricity,
+        const double mud[] = {s->flow.consistency, s->flow.exponent, s->flow.yield_stress, s->flow.eccentricity,
                               s->flow.nozzle_area, s->flow.inside,   s->flow.outside};
         h = DMB_NUMBERS(h, mud);
         for (uint32_t i = 0; i < s->flow_count; ++i) {

@@ -88,13 +88,13 @@ typedef struct kind_of_def {
 #define FIELDS(array) array, sizeof array / sizeof array[0]
 
 static const field environment_fields[] = {
-    F(dmb_environment_def, reserved, COUNT, 1),        F(dmb_environment_def, gravity, REAL, 3),
-    F(dmb_environment_def, fluid_density, REAL, 1),    F(dmb_environment_def, lateral_damping, REAL, 1),
-    F(dmb_environment_def, axial_damping, REAL, 1),    F(dmb_environment_def, torsional_damping, REAL, 1),
-    F(dmb_environment_def, inner_density, REAL, 1),    F(dmb_environment_def, added_mass, REAL, 1),
-    F(dmb_environment_def, flow_rate, REAL, 1),        F(dmb_environment_def, consistency, REAL, 1),
-    F(dmb_environment_def, flow_exponent, REAL, 1),    F(dmb_environment_def, nozzle_area, REAL, 1),
-    F(dmb_environment_def, flow_eccentricity, REAL, 1)};
+    F(dmb_environment_def, reserved, COUNT, 1),     F(dmb_environment_def, gravity, REAL, 3),
+    F(dmb_environment_def, fluid_density, REAL, 1), F(dmb_environment_def, lateral_damping, REAL, 1),
+    F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1),
+    F(dmb_environment_def, inner_density, REAL, 1), F(dmb_environment_def, added_mass, REAL, 1),
+    F(dmb_environment_def, flow_rate, REAL, 1),     F(dmb_environment_def, consistency, REAL, 1),
+    F(dmb_environment_def, flow_exponent, REAL, 1), F(dmb_environment_def, yield_stress, REAL, 1),
+    F(dmb_environment_def, nozzle_area, REAL, 1),   F(dmb_environment_def, flow_eccentricity, REAL, 1)};
 static void fill_environment(const scene_under_test *s, any_def *def)
 {
     (void)s;

@@ -347,8 +347,11 @@ static void of_torque_and_drag(void **state)
     (void)state;
     dmb_operation operation = dmb_operation_default();
     dmb_torque_drag_row row = dmb_torque_drag_row_default();
+    dmb_hydraulics pressures = dmb_hydraulics_default();
     double depth[4], friction;
     MISSING(dmb_operation_usual(0, NULL));
+    MISSING(dmb_analysis_hydraulics(NULL, 1.0, 0.1, &pressures));
+    MISSING(dmb_analysis_hydraulics(s.r.sim, 1.0, 0.1, NULL));
     MISSING(dmb_analysis_torque_drag(NULL, NULL, &operation, 1, &row));
     MISSING(dmb_analysis_torque_drag(s.r.sim, NULL, NULL, 1, &row));
     MISSING(dmb_analysis_torque_drag(s.r.sim, NULL, &operation, 1, NULL));

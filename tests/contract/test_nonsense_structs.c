@@ -12,6 +12,8 @@ static struct {
     dmb_sim *sim;
     dmb_model *plain_model; /* one pipe in a hole, whose statics are found at once */
     dmb_sim *plain;
+    dmb_model *mud_model; /* the same with mud that flows */
+    dmb_sim *mud;
     dmb_channel channel;
     double table[8];
 } scene;
@@ -52,7 +54,7 @@ INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 INIT(hole_section)
-INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
+INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(hydraulics) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
 INIT(stuck_def) INIT(stuck_state) INIT(flow_state) INIT(motor) INIT(ring_def) INIT(sub_def) INIT(sub)
@@ -464,6 +466,11 @@ static int32_t call_torque_drag_row(void *p)
     return dmb_analysis_torque_drag(scene.plain, NULL, &still, 1, p);
 }
 
+static int32_t call_hydraulics(void *p)
+{
+    return dmb_analysis_hydraulics(scene.mud, 1.0, 0.1, p);
+}
+
 static int32_t fatigue_of(const dmb_fatigue_options *options, dmb_fatigue **fatigue)
 {
     const dmb_place place = middle();
@@ -634,6 +641,7 @@ static const entry entries[] = {
     ENTRY(operation, 0),
     ENTRY(torque_drag_options, 0),
     ENTRY(torque_drag_row, 1),
+    ENTRY(hydraulics, 1),
     ENTRY(fatigue_options, 0),
     ENTRY(fatigue_result, 1),
     ENTRY(parameter, 0),
@@ -677,18 +685,29 @@ enum { ENTRIES = sizeof entries / sizeof entries[0] };
 
 /* ---- Fixture ----------------------------------------------------------------------------------------------------- */
 
+static void make_pipe(const dmb_environment_def *environment, dmb_model **model, dmb_sim **sim)
+{
+    const dmb_wall_def wall = dmb_wall_def_default();
+    assert_int_equal(dmb_model_create(NULL, model), DMB_OK);
+    if (environment != NULL) assert_int_equal(dmb_model_set_environment(*model, environment), DMB_OK);
+    assert_int_equal(dmb_model_add_wall(*model, &wall, NULL), DMB_OK);
+    add_section(*model);
+    assert_int_equal(dmb_model_compile(*model, NULL), DMB_OK);
+    assert_int_equal(dmb_sim_create(*model, NULL, sim), DMB_OK);
+}
+
 static int set_up(void **state)
 {
+    dmb_environment_def mud = dmb_environment_def_default();
+    mud.fluid_density = 1000.0;
+    mud.flow_rate = 1e-3;
+    mud.consistency = 0.05;
     (void)state;
     memset(&scene, 0, sizeof scene);
     scene.model = whole_model(&scene.parts);
     scene.sim = whole_sim(scene.model, NULL);
-    assert_int_equal(dmb_model_create(NULL, &scene.plain_model), DMB_OK);
-    const dmb_wall_def wall = dmb_wall_def_default();
-    assert_int_equal(dmb_model_add_wall(scene.plain_model, &wall, NULL), DMB_OK);
-    add_section(scene.plain_model);
-    assert_int_equal(dmb_model_compile(scene.plain_model, NULL), DMB_OK);
-    assert_int_equal(dmb_sim_create(scene.plain_model, NULL, &scene.plain), DMB_OK);
+    make_pipe(NULL, &scene.plain_model, &scene.plain);
+    make_pipe(&mud, &scene.mud_model, &scene.mud);
     scene.channel.quantity = DMB_CHANNEL_ENERGY_ERROR;
     whole_run(scene.sim, 3, 1e-3);
     return 0;
@@ -699,6 +718,8 @@ static int tear_down(void **state)
     (void)state;
     dmb_sim_destroy(&scene.plain);
     dmb_model_destroy(&scene.plain_model);
+    dmb_sim_destroy(&scene.mud);
+    dmb_model_destroy(&scene.mud_model);
     dmb_sim_destroy(&scene.sim);
     dmb_model_destroy(&scene.model);
     return 0;

@@ -19,6 +19,7 @@ static inline void draw_more_environment(byte_source *s, dmb_environment_def *de
         def->flow_rate = draw_size(s, 1e-6, 1e-1);
         def->consistency = draw_size(s, 1e-4, 1.0);
         def->flow_exponent = draw_number(s, 0.2, 1.0);
+        def->yield_stress = draw_chance(s, 80) ? draw_size(s, 0.1, 20.0) : 0.0;
         def->nozzle_area = draw_chance(s, 128) ? draw_size(s, 1e-6, 1e-2) : 0.0;
         def->flow_eccentricity = draw_chance(s, 100) ? draw_number(s, 0.0, 0.95) : 0.0;
     }

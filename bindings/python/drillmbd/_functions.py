@@ -15,6 +15,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_analysis_check": (c_int32, c_void_p, POINTER(CheckReport),),
     "dmb_analysis_check_text": (c_int32, c_void_p, c_char_p, c_size_t, POINTER(c_size_t),),
     "dmb_analysis_friction_factor": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_int32, c_double, POINTER(c_double),),
+    "dmb_analysis_hydraulics": (c_int32, c_void_p, c_double, c_double, POINTER(Hydraulics),),
     "dmb_analysis_mesh": (c_int32, c_void_p, Id, POINTER(c_double), c_uint32,),
     "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
     "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
@@ -65,6 +66,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_has": (c_int32, c_int32,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
     "dmb_hole_section_init": (c_int32, POINTER(HoleSection), c_uint32,),
+    "dmb_hydraulics_init": (c_int32, POINTER(Hydraulics), c_uint32,),
     "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
     "dmb_input_info_init": (c_int32, POINTER(InputInfo), c_uint32,),
     "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
@@ -264,6 +266,8 @@ FUNCTION_DOCS = {
         "The same as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. NOTE_FULL if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone.",
     "dmb_analysis_friction_factor":
         "The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m] measured at the rig in one operation at the first of the depths. ERR_VALUE where none does: the message tells the range. About 60 times the work of a row.",
+    "dmb_analysis_hydraulics":
+        "Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by at most its length: the string hangs together with its pipes counted from the far end, as for torque and drag. Steady flow: trip speeds [m/s], 0 .. 10, without acceleration and gel strength; Burkhardt's clinging constants (1961). Errors: ERR_UNSUPPORTED without a flow_rate or an input of it, ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE. Allocates nothing. O(length / 2 m).",
     "dmb_analysis_mesh":
         "Estimated discretisation error of each pipe of a string that lies on the wall of its hole, for the choice of dmb_pipe_def.elements: bending stress q s^2/12 (r/EI) of an element between two points of contact, which the wall of a real hole supports all along, over the yield strength (yield_strength, else a strain of 0.003). q [N/m]: weight across the axis of the hole and tension by the weight below times the curvature of the hole; s [m]: spacing of the points of contact. The error falls with the square of the element's length. error [-], shape (capacity): by pipe from the rig end; 0 for rigid and axial-torsional pipes and without a wall that is met; values above 0.01 are warned of by dmb_analysis_check. capacity >= pipes of the string. Of a compiled model; changes nothing; any number of threads. Errors: ERR_NULL, _HANDLE, _ORDER (not compiled), _ID (no string of this model), _VALUE (capacity). O(elements).",
     "dmb_analysis_modes":

@@ -61,10 +61,11 @@ class EnvironmentDef(Sized):
     flow_rate: float
     consistency: float
     flow_exponent: float
+    yield_stress: float
     nozzle_area: float
     flow_eccentricity: float
     if TYPE_CHECKING:
-        def __init__(self, *, gravity: Iterable[float] = ..., fluid_density: SupportsFloat = ..., lateral_damping: SupportsFloat = ..., axial_damping: SupportsFloat = ..., torsional_damping: SupportsFloat = ..., inner_density: SupportsFloat = ..., added_mass: SupportsFloat = ..., flow_rate: SupportsFloat = ..., consistency: SupportsFloat = ..., flow_exponent: SupportsFloat = ..., nozzle_area: SupportsFloat = ..., flow_eccentricity: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, gravity: Iterable[float] = ..., fluid_density: SupportsFloat = ..., lateral_damping: SupportsFloat = ..., axial_damping: SupportsFloat = ..., torsional_damping: SupportsFloat = ..., inner_density: SupportsFloat = ..., added_mass: SupportsFloat = ..., flow_rate: SupportsFloat = ..., consistency: SupportsFloat = ..., flow_exponent: SupportsFloat = ..., yield_stress: SupportsFloat = ..., nozzle_area: SupportsFloat = ..., flow_eccentricity: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -78,6 +79,7 @@ class EnvironmentDef(Sized):
         ("flow_rate", c_double),
         ("consistency", c_double),
         ("flow_exponent", c_double),
+        ("yield_stress", c_double),
         ("nozzle_area", c_double),
         ("flow_eccentricity", c_double),
     ]
@@ -90,8 +92,9 @@ class EnvironmentDef(Sized):
         "inner_density": ("kg/m3", "of the mud inside pipes and tool joints, where fluid_density is that outside of them: weight and pressure by both; 0 .. ; -1 (default): as outside"),
         "added_mass": ("-", "of the mud outside pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings have that of what they displace beyond the pipe; bodies and bits have fields of their own. 0 (default): mud has no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
-        "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0"),
-        "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity"),
+        "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress = yield_stress + K (shear rate)^n (Herschel, Bulkley); > 0 with a flow_rate; default 0"),
+        "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): K is the viscosity, Newtonian without a yield_stress, Bingham's fluid with one"),
+        "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
         "flow_eccentricity": ("-", "of the annulus that mud flows back in, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it"),
     }
@@ -1419,6 +1422,53 @@ class TorqueDragRow(Sized):
         "stretch": ("m", "by the effective force, > 0 longer"),
         "wind_up": ("rad", "of the rig end against the bit"),
         "wall_force": ("N", "sum over the string"),
+    }
+
+
+class Hydraulics(Sized):
+    c_name, about = "dmb_hydraulics", "For dmb_analysis_hydraulics."
+    struct_size: int
+    reserved: int
+    depth: float
+    vertical_depth: float
+    bore_loss: float
+    bit_loss: float
+    annulus_loss: float
+    pump_pressure: float
+    circulating_density: float
+    trip_pressure: float
+    surge_density: float
+    swab_density: float
+    reynolds: float
+    if TYPE_CHECKING:
+        def __init__(self, *, depth: SupportsFloat = ..., vertical_depth: SupportsFloat = ..., bore_loss: SupportsFloat = ..., bit_loss: SupportsFloat = ..., annulus_loss: SupportsFloat = ..., pump_pressure: SupportsFloat = ..., circulating_density: SupportsFloat = ..., trip_pressure: SupportsFloat = ..., surge_density: SupportsFloat = ..., swab_density: SupportsFloat = ..., reynolds: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("depth", c_double),
+        ("vertical_depth", c_double),
+        ("bore_loss", c_double),
+        ("bit_loss", c_double),
+        ("annulus_loss", c_double),
+        ("pump_pressure", c_double),
+        ("circulating_density", c_double),
+        ("trip_pressure", c_double),
+        ("surge_density", c_double),
+        ("swab_density", c_double),
+        ("reynolds", c_double),
+    ]
+    field_docs = {
+        "depth": ("m", "measured depth of the string's far end"),
+        "vertical_depth": ("m", "of it below the start of the string, along gravity; < 0 above it"),
+        "bore_loss": ("Pa", "down the string at the flow_rate, by friction"),
+        "bit_loss": ("Pa", "through nozzle_area"),
+        "annulus_loss": ("Pa", "up the annulus, by friction"),
+        "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
+        "circulating_density": ("kg/m3", "equivalent circulating density at the far end: fluid_density + annulus_loss/(g vertical_depth); NaN where vertical_depth is not > 0"),
+        "trip_pressure": ("Pa", "below the closed string while it moves at the trip speed without circulation: more than at rest going in (surge), less coming out (swab)"),
+        "surge_density": ("kg/m3", "equivalent density of fluid_density and trip_pressure going in; NaN likewise"),
+        "swab_density": ("kg/m3", "coming out; NaN likewise"),
+        "reynolds": ("-", "largest of bore, annulus and trip"),
     }
 
 
@@ -3645,6 +3695,7 @@ STRUCTS["dmb_sub"] = Sub
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
+STRUCTS["dmb_hydraulics"] = Hydraulics
 STRUCTS["dmb_fatigue_options"] = FatigueOptions
 STRUCTS["dmb_fatigue_result"] = FatigueResult
 STRUCTS["dmb_spring_def"] = SpringDef
