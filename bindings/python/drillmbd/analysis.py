@@ -13,7 +13,7 @@ from ._library import lib as _lib
 from ._parts import Parts, index_of, is_closed
 from ._optional import need, numpy
 from ._progress import Teller
-from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
+from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Input, Mode, ModeShape, ModesInfo,
                        ModesOptions, Operation, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
@@ -186,6 +186,15 @@ class Analyses:
         self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
         found = Columns(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
         found.units = dict(zip(found, ("m", "N", "N m", "N/m")))
+        return found
+
+    @mirrors("dmb_analysis_hydraulics")
+    def hydraulics(self, depth: float, trip_speed: float = 0.0) -> Hydraulics:
+        """Pressures [Pa] of the mud with the string's far end at a measured depth [m], equivalent circulating density
+        [kg/m3], surge and swab of the closed string that moves at a trip speed [m/s]."""
+        found = Hydraulics.blank()
+        self._check(_lib.dmb_analysis_hydraulics(self._handle, real(depth, "hydraulics", "depth", unit="m"),
+                                                 real(trip_speed, "hydraulics", "trip_speed", unit="m/s"), byref(found)))
         return found
 
     @mirrors("dmb_analysis_friction_factor")

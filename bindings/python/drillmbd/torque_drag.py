@@ -6,7 +6,7 @@ from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import broomstick, enums, measured, rig_limits
+from . import broomstick, enums, hydraulics, measured, rig_limits
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
 from .answers import RPM, Output, file_name, friction_option, quantity
@@ -69,6 +69,8 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
             _write_rows(sim, output, curves, settings)
             loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
             rig_limits.write(output, name, found.column("depth"), loads, scene.limits)
+            trip_speed = abs(settings.operations[int(enums.OPERATION_PICK_UP)].axial_speed)
+            hydraulics.write(sim, output, name, found.column("depth"), trip_speed)
             _compare(scene, sim, output, curves, settings)
             broomstick.write(scene, sim, output, curves, settings)
             settings.series = {}

@@ -11,7 +11,7 @@ from .problems import meant
 
 # Tables in the order in which a scene is written, with the struct of their fields and the keys in common use.
 TABLES: dict[str, tuple[str, str]] = {
-    "environment": ("environment", "fluid_density gravity lateral_damping flow_rate"),
+    "environment": ("environment", "fluid_density gravity lateral_damping flow_rate viscometer"),
     "hole": ("hole", "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic stiffness"),
     "hole.section": ("section", "depth diameter mu_static mu_dynamic"), "string": ("string", "name start_depth"),
     "string.pipes": ("pipes", "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
@@ -24,6 +24,8 @@ TABLES: dict[str, tuple[str, str]] = {
     "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
 
 _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
+         "viscometer": ("", "", "readings in degrees of a Fann 35 viscometer by speed in rpm, as {600 = 52, 300 = 34}, for consistency, "
+                                "flow_exponent and yield_stress"),
          "rig": ("", "", "name of a catalogue, for torque, push and pull: drillmbd catalogue"),
          "count": ("", "1", "number of equal pipes, one after the other"), "name": ("", "", "for messages, and for other tables to refer to"),
          "survey": ("", "", 'rows of depth, inclination and azimuth, as [["0 m", "90 deg", "0 deg"], ...]'),

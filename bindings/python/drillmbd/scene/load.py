@@ -13,7 +13,7 @@ from .._keep import station
 from .._structs import Channel, Id, Motor, Place, Term
 from ..errors import Error
 from ..model import Model, motor_drive
-from . import catalogue, failure, fields, hole, units, variability
+from . import catalogue, failure, fields, hole, units, variability, viscometer
 from .asked import Asked
 from .changes import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
@@ -315,8 +315,10 @@ class Loader:
 
     def _describe(self) -> None:
         if "environment" in self.content:
-            values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]))
-            self.add(("environment",), self.model.set_environment, DEFINITIONS["environment"], values)
+            values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]), ("viscometer",))
+            mud = self._viscometer(("environment", "viscometer"), self.table(("environment",)))
+            if mud is not None:  # else the library would miss the constants that follow from it
+                self.add(("environment",), self.model.set_environment, DEFINITIONS["environment"], {**values, **mud})
         if "hole" in self.content:
             hole.describe(self)
         for number, (path, table) in enumerate(self.parts("programme")):
@@ -327,6 +329,23 @@ class Loader:
         for kind in PARTS[1:]:
             for number, (path, table) in enumerate(self.parts(kind)):
                 self._part(kind, path, self.name(kind, number, table), table)
+
+    def _viscometer(self, path: Path, environment: dict[str, Any]) -> dict[str, float] | None:
+        """The constants of the mud by the readings of a viscometer; None where they are refused."""
+        given = environment.get("viscometer")
+        if given is None:
+            return {}
+        for key in {"consistency", "flow_exponent", "yield_stress"} & set(environment):
+            self.problems.add(path[:1] + (key,), environment[key], "must be left out with viscometer, which gives it")
+        if not isinstance(given, dict) or not all(re.fullmatch(r"\d+", key) and type(one) in (int, float) for key, one in given.items()):
+            self.problems.add(path, given, "must be a table of readings in degrees by speed in rpm, as {600 = 52, 300 = 34}")
+            return None
+        try:
+            mud = viscometer.fit([(float(key), float(one)) for key, one in given.items()])
+        except ValueError as error:
+            self.problems.add(path, None, str(error))
+            return None
+        return {"yield_stress": mud.yield_stress, "consistency": mud.consistency, "flow_exponent": mud.flow_exponent}
 
     def _programme(self, path: Path, name: str, table: dict[str, Any]) -> None:
         for key in table:

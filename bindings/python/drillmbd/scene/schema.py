@@ -57,6 +57,10 @@ def _term() -> dict[str, Any]:
     return made
 
 
+_VISCOMETER = {"type": "object", "additionalProperties": {"type": "number"}, "description": "readings [degree] of a Fann 35 viscometer (R1, "
+               "B1, F1) by speed [rpm], as {600 = 52, 300 = 34}, in place of consistency, flow_exponent and yield_stress"}
+
+
 def schema() -> dict[str, Any]:
     """The schema as plain Python."""
     row = {"type": "array", "minItems": 3, "maxItems": 3, "items": _QUANTITY}
@@ -65,7 +69,8 @@ def schema() -> dict[str, Any]:
                     pipe={**_NAME, "description": "name of a catalogue, for the keys that are left out: drillmbd catalogue"})
     properties: dict[str, Any] = {
         "title": {"type": "string"},
-        "catalogue": {**_many(_NAME), "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
+        "catalogue": {**_many(_NAME), "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"},
+        "environment": _object(fields_of(DEFINITIONS["environment"]), viscometer=_VISCOMETER),
         "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT}, section=_many(_object(fields_of(DEFINITIONS["section"]))),
                         survey={"type": "array", "minItems": 2, "items": row},
                         survey_columns={"type": "array", "items": _NAME, "description": "heads of the columns of survey or of survey_file "
