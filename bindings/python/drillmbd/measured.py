@@ -181,19 +181,20 @@ def compare(sim: Sim, string: Any, name: str, output: Output, series: dict[str, 
     told: dict[str, Any] = {}
     for word, one in series.items():
         found = fit(Model(sim, string, operations[KINDS[word]], block_weight, one), friction)
-        output.say(f"{name}, measured {_label(word)}: {_text(one, found, friction, output.units)}")
+        output.say(f"{name}, measured {label(word)}: {_text(one, found, friction, output.units)}")
         told[word] = {"measurements": len(one.values), "friction": found.friction, "reason": found.reason or None,
                       "half_width_95": found.half_width, "scatter": found.scatter}
         factor = output.units.factor("N m" if word == "torque" else "N")
         points = found.by_point or [math.nan] * len(one.values)
-        rows += [[depth, _label(word), value * factor, computed * factor, point]
+        rows += [[depth, label(word), value * factor, computed * factor, point]
                  for depth, value, computed, point in zip(one.depths, one.values, found.computed, points)]
     output.summary.setdefault("measured", {})[name] = told
     output.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
                                                     "friction of this measurement [-]"], rows)
 
 
-def _label(word: str) -> str:
+def label(word: str) -> str:
+    """In words."""
     return "torque while rotating" if word == "torque" else f"hook load, {word}"
 
 

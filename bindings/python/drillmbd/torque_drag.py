@@ -6,7 +6,7 @@ from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import broomstick, enums, hydraulics, measured, rig_limits
+from . import broomstick, enums, hydraulics, measured, rig_limits, section_fit
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
 from .answers import RPM, Output, file_name, friction_option, quantity
@@ -160,8 +160,9 @@ def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: S
         friction = broomstick.wall_friction(scene, first, last)
     values = broomstick.wall_frictions(scene, first, last)
     if max(values) - min(values) > 1e-9:
-        output.say(f"{curves.name}, measured: one coefficient is fitted for all sections of the hole")
+        output.say(f"{curves.name}, measured: first one coefficient for all sections of the hole, then one for each section")
     measured.compare(sim, curves.string, curves.name, output, settings.series, settings.operations, settings.block_weight, friction)
+    section_fit.compare(scene, curves.name, output, settings.series, settings.operations, settings.block_weight)
 
 
 # ---- Rows ------------------------------------------------------------------------------------------------------------
