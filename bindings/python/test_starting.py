@@ -1,6 +1,7 @@
 """Tests of the commands that a scene begins with: new writes scenes that load, keys lists every key with unit and default."""
 import contextlib
 import io
+import math
 import pathlib
 import tempfile
 import unittest
@@ -35,6 +36,27 @@ class StartingTest(unittest.TestCase):
             status, _, told = said("new", "drainage", *words)
             self.assertEqual(status, 2)
             self.assertIn(part, told)
+
+    def test_new_from_a_survey(self):
+        with tempfile.TemporaryDirectory() as folder:
+            survey, target = pathlib.Path(folder, "dips.csv"), pathlib.Path(folder, "scenes", "hole.toml")
+            target.parent.mkdir()
+            survey.write_text("depth(m);dip(deg);azimuth(deg)\n0;5,0;92\n90;6,0;94,5\n180;3,2;96,4\n")
+            self.assertEqual(said("new", "drainage", "--survey", str(survey), "--rods", "73", "-o", str(target))[0], 0)
+            loaded = scene.load(target)
+            self.assertAlmostEqual(loaded.model.hole(180.0).position[2], 180.0 * math.sin(math.radians(5.05)), delta=0.5)  # it rises
+            with loaded.new_sim() as sim:
+                self.assertEqual(sim.torque_drag([0]).rows[0][0].depth, 180.0)
+            self.assertIn("must be left out with --survey", said("new", "drainage", "--survey", str(survey), "--dip", "3")[2])
+            survey.write_text("depth(m);dip(deg)\n0;5\n")
+            self.assertIn("--survey", said("new", "drainage", "--survey", str(survey))[2])
+            self.assertEqual(said("new", "drainage", "--survey", str(pathlib.Path(folder, "none.csv")))[0], 2)
+
+    def test_rods_by_their_outer_diameter(self):
+        for words, bore in ((("--rods", "73"), "59 mm"), (("--rods", "89 mm"), "75 mm"), (("--rod", "63.5"), "49.5 mm")):
+            text = said("new", "drainage", "--hole", "110", *words)[1]
+            self.assertIn(f'inner_diameter = "{bore}"        # the wall is an assumption', text)
+        self.assertNotIn("the wall is an assumption", said("new", "drainage", "--rod", "73", "--bore", "60")[1])
 
     def test_keys(self):
         self.assertLess(len(said("keys")[1]), 20000)

@@ -145,7 +145,9 @@ def _add_new(commands: Any) -> None:
     for name, (_, _, about) in OPTIONS["drainage"].items():
         defaults = ", ".join(f"{values[name][1]} ({kind})" for kind, values in OPTIONS.items())
         made.add_argument(f"--{name.replace('_', '-')}", metavar="VALUE", help=f"{about}; default {defaults}")
-    made.add_argument("--rods", metavar="NAME", help='of a catalogue or a size, as "phi 73 x 6.5" or "5 in 19.50 S135", instead of --rod and --bore')
+    made.add_argument("--rods", metavar="NAME", help='of a catalogue or a size, as "phi 73 x 6.5" or "5 in 19.50 S135", instead of --rod and --bore; '
+                      "an outer diameter alone as of --rod")
+    made.add_argument("--survey", metavar="FILE", help="of the hole, instead of --dip and --length: CSV, text with blanks, LAS 2.0, Excel")
     made.add_argument("--rig", metavar="NAME", help="of a catalogue, for [limits]: drillmbd catalogue")
 
 
@@ -153,7 +155,8 @@ def _new(options: Any) -> int:
     from .new_options import OPTIONS
     from .scene import new
     try:
-        text = new.text(options.kind, {name: getattr(options, name) for name in (*OPTIONS[options.kind], "rods", "rig") if getattr(options, name)})
+        given = {name: getattr(options, name) for name in (*OPTIONS[options.kind], "rods", "rig", "survey") if getattr(options, name)}
+        text = new.text(options.kind, given, os.path.dirname(options.output or "") or ".")
     except ValueError as error:
         raise Usage(str(error)) from None
     if options.output is None:

@@ -3,10 +3,13 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import pathlib
 from typing import Any
 
 from ..new_options import OPTIONS
-from . import catalogue, units
+from . import catalogue, survey, units
+from .problems import Problems
 
 _SCENE = """# {title}. Written by: drillmbd new {kind}
 # Check it with: drillmbd check FILE. Keys with unit, default and meaning: drillmbd keys
@@ -17,10 +20,7 @@ fluid_density = "{mud}"
 
 [hole]
 diameter = "{hole}"
-# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"
-# (dip from the horizontal, up positive; or inclination from the downward vertical; azimuth clockwise from north).
-dip = "{dip}"
-azimuth = "0 deg"
+{course}
 mu_static = 0.35               # friction against the wall, an assumption: fit it to measured loads
 mu_dynamic = 0.30
 
@@ -73,7 +73,20 @@ static = true
 
 [output]
 interval = "20 ms"
+
+# Speeds to avoid: eccentric pipes excite the string once a revolution; the amplitude in the middle of the string may be {clearance}.
+[speeds]
+[[speeds.order]]
+[[speeds.output]]
+component = "z"
+place = {{part = "rods", pipe = {middle}, fraction = 0.5}}
+limit = "{clearance}"
 """
+
+_STRAIGHT = """# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"
+# (dip from the horizontal, up positive; or inclination from the downward vertical; azimuth clockwise from north).
+dip = "{dip}"
+azimuth = "0 deg\""""
 
 _LIMITS = """# [limits]                     # of your rig and pipes, so that commands compare with them
 # torque = "4 kN m"
@@ -82,31 +95,72 @@ _LIMITS = """# [limits]                     # of your rig and pipes, so that com
 # yield_stress = "550 MPa\""""
 
 
-def text(kind: str, given: dict[str, str]) -> str:
-    """The scene. given: values with units, in place of the defaults, and names of a catalogue for "rods" and "rig". Raises ValueError
-    that names the option."""
+def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
+    """The scene. given: values with units, in place of the defaults, names of a catalogue for "rods" and "rig", and a file for "survey",
+    which a scene in the folder names. Raises ValueError that names the option."""
     values: dict[str, Any] = {}
     numbers: dict[str, float] = {}
+    asked, given = given, _with_rods(kind, given)
+    survey_lines, survey_length = _surveyed(given, folder)
     for name, (unit, default, about) in OPTIONS[kind].items():
+        default = survey_length if name == "length" and survey_length else default
         values[name] = given.get(name) or default
         try:
             numbers[name] = units.parse(_with_unit(values[name], name), unit)
         except units.UnitError as error:
             raise ValueError(f"--{name.replace('_', '-')} {values[name]}: {error}") from error
         values[name] = _with_unit(values[name], name).replace('"', " in").strip()
-    values.update(_named(given, values, numbers))
+    values["course"] = survey_lines or _STRAIGHT.format(dip=values["dip"])
+    values.update(_named(given, asked, values, numbers))
     if numbers["rod"] >= numbers["hole"] or numbers["bore"] >= numbers["rod"]:
         raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
     count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
     if not 1 <= count <= 2 ** 20:
         raise ValueError(f"--length {values['length']} must be at least one --rod-length, {values['rod_length']}")
+    values["middle"] = count // 2
+    values["clearance"] = f"{0.5e3 * (numbers['hole'] - numbers['rod']):.3g} mm"
     title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
     return _SCENE.format(title=title, kind=kind, count=count, **values)
 
 
-def _named(given: dict[str, str], values: dict[str, Any], numbers: dict[str, float]) -> dict[str, str]:
+def _with_rods(kind: str, given: dict[str, str]) -> dict[str, str]:
+    """Rods given by their outer diameter alone have the wall of the usual ones, which the scene calls an assumption."""
+    rods = given.get("rods", "")
+    try:
+        units.parse(_with_unit(rods, "rod"), "m")
+        given = {**{key: value for key, value in given.items() if key != "rods"}, "rod": rods}
+    except units.UnitError:
+        pass
+    if "rod" not in given or "bore" in given or "rods" in given:
+        return given
+    usual, bore = (units.parse(OPTIONS[kind][name][1], "m") for name in ("rod", "bore"))
+    try:
+        outer = units.parse(_with_unit(given["rod"], "rod"), "m")
+    except units.UnitError:
+        return given  # refused with all the values
+    return {**given, "bore": f"{1e3 * (outer - usual + bore):.4g} mm"}
+
+
+def _surveyed(given: dict[str, str], folder: str) -> tuple[str, str]:
+    """The lines of the hole's course, and its length; nothing without a survey."""
+    if not given.get("survey"):
+        return "", ""
+    name = given["survey"]
+    if given.get("dip"):
+        raise ValueError(f"--dip {given['dip']} must be left out with --survey, which gives the course of the hole")
+    problems = Problems({})
+    rows = survey.from_file(problems, ("survey",), name, pathlib.Path(), None)
+    if rows is None:
+        raise ValueError("\n".join(f"--survey {name}: {one.text}" for one in problems.found))
+    notes = "".join(f"# {one.text}\n" for one in problems.remarks)
+    lines = f"# {len(rows)} stations from {rows[0][0]:g} m to {rows[-1][0]:g} m\n{notes}"
+    return lines + f"survey_file = {json.dumps(os.path.relpath(name, folder), ensure_ascii=False)}", f"{rows[-1][0]:g} m"
+
+
+def _named(given: dict[str, str], asked: dict[str, str], values: dict[str, Any], numbers: dict[str, float]) -> dict[str, str]:
     """The lines of pipes and limits. numbers: diameters of rods by name are put there."""
-    lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"', "limits": _LIMITS}
+    lines = {"pipes": f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"        # the wall is an assumption'
+             if "bore" not in asked else f'outer_diameter = "{values["rod"]}"\ninner_diameter = "{values["bore"]}"', "limits": _LIMITS}
     if given.get("rods"):
         found = _found("rods", given["rods"])
         for name, key in (("rod", "outer_diameter"), ("bore", "inner_diameter")):
