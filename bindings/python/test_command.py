@@ -60,6 +60,11 @@ component = "z"
 limit = "0.01 um"
 """
 
+def drilled(scene):
+    """The scene with a load on the bit, of which the torque of the bit is estimated."""
+    return scene.replace('diameter = 0\n', 'diameter = "94 mm"\nload = "100 N"\n')
+
+
 COLUMN = """[environment]
 gravity = [0, 0, 0]
 [[string]]
@@ -446,7 +451,7 @@ class CommandTest(FolderTest):
             import plotly.offline  # noqa: F401
         except ImportError:
             self.skipTest("not there: plotly")
-        self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n'
+        self.scene = self.write("rig.toml", drilled(SCENE) + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n'
                                 '[fatigue]\ncurve_stress = "100 MPa"\nslope = 4\n')
         out, summary = self.answer("report")
         self.assertRegex(out, r"Thrust at the rig: .*, OVER \(\d+ % of 1 N")
@@ -477,11 +482,17 @@ class CommandTest(FolderTest):
             study.ask()
             return {tile.title: (tile.verdict, tile.text) for tile in study.tiles}
 
-        quick = SCENE.replace('end = "20 ms"', 'end = "2 ms"')
+        without_load = SCENE.replace('end = "20 ms"', 'end = "2 ms"')
+        quick = drilled(without_load)
         known = verdicts(quick + '[limits]\ntorque = "5 kN m"\npush = "100 kN"\n')
         self.assertEqual((known["Torque at the rig"][0], known["Thrust at the rig"][0]), ("OK", "OK"))
         self.assertEqual(known["Pull at the rig"][0], "NO LIMIT GIVEN")
         self.assertEqual(known["Fatigue"][0], "NOT ASSESSED")
+        unknown = verdicts(without_load + '[limits]\ntorque = "5 kN m"\npush = "100 kN"\npull = "100 kN"\nyield_stress = "400 MPa"\n')
+        for title in ("Torque at the rig", "Thrust at the rig", "Von Mises stress"):
+            self.assertEqual(unknown[title][0], "NOT ASSESSED", title)
+            self.assertIn("without the load on the bit", unknown[title][1])
+        self.assertEqual((unknown["Pull at the rig"][0], unknown["Buckling in the hole"][0]), ("OK", "NOT ASSESSED"))
         over = verdicts(quick + '[limits]\ntorque = "1 N m"\npush = "1 N"\n')
         self.assertEqual((over["Torque at the rig"][0], over["Thrust at the rig"][0]), ("OVER", "OVER"))
         for failing in ("_torque_drag", "_operations", "_run"):

@@ -14,6 +14,7 @@ from ._optional import need
 from ._structs import FatigueResult
 from .errors import Usage, status_text
 from .fatigue import StringFatigue
+from .language import ENGLISH, Foreign, Language, phrase
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Sim
@@ -26,9 +27,10 @@ RPM = 2.0 * math.pi / 60.0
 class Output:
     """The folder of the answer and the lines on the terminal."""
 
-    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool, units: Units = SI) -> None:
+    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool, units: Units = SI,
+                 language: Language = ENGLISH) -> None:
         self.folder = pathlib.Path(folder) if folder is not None else None
-        self.quiet, self.scene, self.units = quiet, scene, units
+        self.quiet, self.scene, self.units, self.language = quiet, scene, units, language
         self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
                                         "drillmbd": __version__, "units": units.name,  # of texts, tables and pictures
                                         "units_of_numbers": "si", "notes": [], "files": []}
@@ -46,17 +48,17 @@ class Output:
     def say(self, text: str) -> None:
         """A line on the terminal."""
         if not self.quiet:
-            print(text)
+            print(self.language(text))
 
     def note(self, status: int, of: str) -> None:
         """Tells the text of a status above 0."""
         if status > 0:
-            self.note_text(self.units.sentence(f"{of}: {status_text(status)}"))
+            self.note_text(self.units.sentence(phrase("{analysis}: {reason}", analysis=of, reason=Foreign(status_text(status)))))
 
     def note_text(self, text: str) -> None:
         """Something to know."""
         self.summary["notes"].append(text)
-        self.say(f"note: {text}")
+        self.say(phrase("note: {text}", text=text))
 
     def table(self, name: str, heads: list[str], rows: Iterable[Iterable[Any]]) -> None:
         """A CSV file. Heads and rows are in SI; they are written in the units of the output."""
@@ -86,7 +88,7 @@ class Output:
         self.summary["status"] = status
         if self.folder is not None:
             self.path("summary.json").write_text(json.dumps(finite(self.summary), indent=1) + "\n", encoding="utf-8")
-            self.say(f"{len(self.summary['files'])} files in {self.folder}")
+            self.say(phrase("{count} files in {folder}", count=len(self.summary["files"]), folder=str(self.folder)))
         return status
 
 
@@ -96,9 +98,9 @@ def note_bounces(sim: Any, output: Output) -> None:
     output.summary["run"]["bounces"] = bounces
     if bounces:
         output.note_text(
-            f"run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
-            " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
-            " the step and compare")
+            phrase("run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
+                   " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
+                   " the step and compare", bounces=bounces))
 
 
 def finite(value: Any) -> Any:
@@ -165,11 +167,12 @@ def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str
         output.summary.setdefault("fatigue", {})[name] = {
             "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
             "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
-        output.say(f"{name}: damage {found[index].damage:.3g} in {found[index].time:.4g} s at pipe {one.pipes[index]}, largest "
-                   f"range {output.units.text(found[index].largest_range / 1e6, 'MPa')}")
+        output.say(phrase("{string}: damage {damage:.3g} in {time:.4g} s at pipe {pipe}, largest range {range}", string=name, damage=found[index].damage,
+                          time=found[index].time, pipe=one.pipes[index], range=output.units.text(found[index].largest_range / 1e6, "MPa")))
         clipped = sum(result.clipped for result in found)
         if clipped:
-            output.note_text(f"fatigue of {name}: {clipped} stresses were beyond stress_range and count too little")
+            output.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too little", string=name,
+                                    clipped=clipped))
         heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
         output.table(f"fatigue_{file_name(name)}.csv", heads, (
             [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]

@@ -12,6 +12,7 @@ from typing import Any
 
 from . import __version__
 from .errors import Error, Usage
+from .language_choice import NAMES as LANGUAGES
 from .unit_choice import NAMES
 
 EXAMPLES = """examples:
@@ -111,6 +112,11 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--measured", metavar="FILE", help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
             command.add_argument("--block-weight", metavar="FORCE", help='of block and top drive, added to the hook loads')
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
+        if name == "report":
+            command.add_argument("--language", choices=LANGUAGES, default="en", help="of the page and of the lines on the terminal: English "
+                                 "(default) or Chinese; summary.json stays English")
+            command.add_argument("--probability", metavar="FOLDER", help="--output of a study of this scene by drillmbd probability: its "
+                                 "estimates become part of the page")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
@@ -332,6 +338,7 @@ def least(name: str, scene: Any) -> str:
 def _ask(options: Any) -> int:
     from . import scene
     from .answers import Output, units_of
+    from .language import Foreign, Language
     from .questions import QUESTIONS
     if options.command == "schema":
         from .scene.schema import text
@@ -363,11 +370,14 @@ def _ask(options: Any) -> int:
     if needed and needed not in loaded.analyses:
         raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about; the least is\n\n"
                     + least(needed, loaded))
-    output = Output(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded))
+    if getattr(options, "probability", None) and options.output and os.path.realpath(options.probability) == os.path.realpath(options.output):
+        raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; give another --output")
+    output = Output(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded),
+                    Language(getattr(options, "language", "en")))
     for one in loaded.remarks:
-        output.note_text(f"line {one.line}: {one}")
+        output.note_text(Foreign(f"line {one.line}: {one}"))
     for pipes in loaded.divided:
-        output.note_text(str(pipes))
+        output.note_text(pipes.text())
     try:
         return QUESTIONS[options.command](loaded, output, options)
     except Error as error:

@@ -85,9 +85,17 @@ def with_weight(scene: Scene, plan: Operating, weight: float) -> Operating:
     return found
 
 
+def has_rock_law(scene: Scene) -> bool:
+    """Whether a bit cuts rock: its load and torque come from the run."""
+    return any(name == "add_bit" and _law(arguments[0]) != enums.ROCK_NONE for name, arguments in scene.model.calls)
+
+
+def _law(bit: dict[str, Any]) -> Any:
+    return bit.get("rock_law", enums.ROCK_NONE)
+
+
 def _estimate(found: Operating, bit: dict[str, Any]) -> None:
-    law = bit.get("law", bit.get("rock", enums.ROCK_NONE))
     diameter = float(bit.get("diameter", _structs.BitDef().diameter))
-    if found.weight_on_bit and law == enums.ROCK_NONE and 0.0 < diameter < math.inf:
+    if found.weight_on_bit and _law(bit) == enums.ROCK_NONE and 0.0 < diameter < math.inf:
         found.torque_on_bit = BIT_FRICTION * found.weight_on_bit * diameter / 3.0
         found.estimated = True

@@ -10,6 +10,7 @@ from ._optional import need
 from .answers import RPM, Output, count_fatigue, file_name, note_bounces, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
+from .language import phrase
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, energy_error
@@ -18,9 +19,9 @@ from .sim import Sim
 from .unit_systems import SI, Units
 
 MOST_ROWS = 50_000_000
-NOTHING_EXCITES = ("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
-                   "excite the string by a drive, load or force")
-LINEAR = "The analysis is linear: it does not cover contacts that open or strike, nor stick-slip."
+NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
+                         "excite the string by a drive, load or force")
+LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
 
 
 def check(scene: Scene, output: Output, options: Any) -> int:

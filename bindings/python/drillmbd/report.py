@@ -2,84 +2,109 @@
 report_page."""
 from __future__ import annotations
 
+import datetime
 import math
-import platform
 from collections.abc import Callable
 from typing import Any
 
-from . import __version__, _structs, enums
+from . import __version__, enums
 from ._optional import need
-from .analysis import OPERATIONS, operation_name
-from .answers import RPM, Output, count_fatigue, finite, note_bounces, tell_fatigue
+from .analysis import OPERATIONS
+from .answers import Output, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
 from .fatigue import StringFatigue
-from .operating import BIT_FRICTION, Operating, operating, operations_of
+from .language import Foreign, Phrase, joined, phrase
+from .operating import Operating, has_rock_law, operating, operations_of
 from .plots import COLOURS
 from .profile import Profile, values_of
-from .questions import LINEAR, NOTHING_EXCITES, columns_of
-from .report_figures import line, picture_in_space, rounded
+from .questions import columns_of
+from .report_basis import Row, assumptions, headline, limits_at_the_rig
+from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded
+from .report_hole import HoleView, hole_view
+from .report_linear import Speeds, buckling_tile, speeds, speeds_figure, speeds_tile
 from .report_page import page
-from .scene import Scene
+from .report_probability import Probability, read_probability
+from .scene import Scene, words
 from .sim import Sim
 from .unit_systems import Units
 from .verdict import NEAR, NEAR_SHARE, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Demand, Tile, shown
 
 FRAMES, POINTS, DEPTHS = 60, 300, 40
-NAMES_OF = {"si": "SI", "field": "field units (ft, lbf, psi)", "mine": "mine units (m, kN, MPa)"}
-NEAR_BAND = 0.1  #: of the rotation: a critical band so near is "near"
+#: Operations in the order of OPERATIONS, with the names of the library.
+OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phrase("drill"), phrase("slide"), phrase("back-ream"))
 
 
 class Study:
     """Content of the page. An analysis that fails becomes a tile with its reason; the others go on."""
 
-    def __init__(self, scene: Scene, output: Output) -> None:
+    def __init__(self, scene: Scene, output: Output, probability: Probability | None = None) -> None:
         self.scene, self.output, self.title, self.units = scene, output, scene.title, output.units
         self.string, self.pipes = next(iter(scene.pipes.items()))
         self.part, self.limits = scene.names[self.string], scene.limits
         self.plan: Operating = operating(scene)
         self.operations: dict[str, Profile] = {}
         self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units) for key, title, unit in (
-            ("push", "Thrust at the rig", "N"), ("pull", "Pull at the rig", "N"), ("torque", "Torque at the rig", "N m"),
-            ("yield_stress", "Von Mises stress", "Pa"))}
+            ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"), ("torque", phrase("Torque at the rig"), "N m"),
+            ("yield_stress", phrase("Von Mises stress"), "Pa"))}
         self.stresses: list[tuple[float, str]] = []  # [Pa] of moments of the run
         self.tiles: list[Tile] = []
-        self.figures: list[tuple[str, str, dict[str, Any]]] = []  # title, text, plotly
-        self.check, self.hash, self.headline = "", "", self._headline()
-
-    def _headline(self) -> str:
-        plan, units = self.plan, self.units
-        known = [text for value, text in (
-            (plan.rotation, f"rotation {units.text((plan.rotation or 0.0) / RPM, 'rpm')}"), (plan.feed, f"feed {units.text(1e3 * (plan.feed or 0.0), 'mm/s')}"),
-            (plan.weight_on_bit, f"{units.text((plan.weight_on_bit or 0.0) / 1e3, 'kN')} on the bit")) if value]
-        if plan.estimated:
-            known.append(f"bit torque {units.text(plan.torque_on_bit, 'N m')}, estimated from the bit load with a coefficient of sliding friction "
-                         f"of {BIT_FRICTION:g} (Pessier and Fear 1992)")
-        return f"String {self.string}. " + ("Operation: " + ", ".join(known) if known else "The scene describes no operation") + "."
+        self.figures: list[Figure] = []
+        self.probability = probability
+        self.speeds: Speeds | None = None
+        self.rows: list[Row] = []                    # limits at the rig
+        self.hole: HoleView | None = None
+        self.space: InSpace | None = None            # as at the end of the run
+        self.check, self.hash, self.headline = "", "", headline(self.string, self.plan, self.units)
+        self.understood: list[str] = []
+        self.made = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
+                           file=output.summary["scene"])
 
     def ask(self) -> None:
         """All analyses in the order of the page."""
         everything = tuple(self.demands)
-        self._attempt("soft string", everything[:3], self._torque_drag)
-        self._attempt("stiff string", everything, self._operations)
-        self._attempt("run in time", everything, self._run)
-        self.tiles[:0] = [demand.tile() for demand in self.demands.values()]
-        self._attempt("Critical speeds", (), self._speeds)
+        self._attempt(phrase("soft string"), everything[:3], self._torque_drag)
+        self._attempt(phrase("stiff string"), everything, self._operations)
+        self._attempt(phrase("run in time"), everything, self._run)
+        self._missing_loads()
+        limits = {key: demand.tile() for key, demand in self.demands.items()}
+        self.tiles[:0] = list(limits.values())
+        self._attempt(phrase("Critical speeds"), (), self._speeds)
+        self.rows = limits_at_the_rig(self.demands, limits, self.speeds, self.tiles[-1].verdict, self.plan, self.units)
         if "buckling" in self.scene.analyses:
-            self._attempt("Buckling, nonlinear", (), self._buckling)
+            self._attempt(phrase("Buckling, nonlinear"), (), self._buckling)
         with self.scene.new_sim() as sim:
-            self.check = self.units.sentence(sim.check_text())
+            self.check = sim.check_text()
+            self.understood = [self.units.sentence(one) for one in words.describe(self.scene, sim.momentum().mass)]
+        if self.probability is not None:
+            self.tiles += self.probability.tiles(self.units)
+            self.figures += self.probability.figures()
         self.output.summary["verdicts"] = [vars(tile) for tile in self.tiles]
 
-    def _attempt(self, what: str, demands: tuple[str, ...], analysis: Callable[[], None]) -> None:
+    def _missing_loads(self) -> None:
+        """Loads of drilling that no analysis has: without them no verdict on thrust, torque and stress is OK."""
+        ran, cuts = "end" in self.scene.run, has_rock_law(self.scene)
+        if cuts and not ran:
+            for key in ("push", "torque", "yield_stress"):
+                self.demands[key].failed.append(phrase("the load and torque of the bit, which the rock law gives in a run only"))
+        elif not self.plan.weight_on_bit and not cuts:
+            for key in ("push", "torque", "yield_stress"):
+                self.demands[key].failed.append(phrase("the load on the bit, which the scene does not give"))
+        elif not self.plan.estimated and not cuts:
+            for key in ("torque", "yield_stress"):
+                self.demands[key].failed.append(phrase("the torque of the bit, which is not estimated without its diameter"))
+        elif not ran and not math.isfinite(self._yield_strength()):
+            self.demands["yield_stress"].failed.append(phrase("the load on the bit, because the scene has no [run] end"))
+
+    def _attempt(self, what: Phrase, demands: tuple[str, ...], analysis: Callable[[], None]) -> None:
         try:
             analysis()
         except (Error, ArithmeticError) as error:
-            reason = self.units.sentence(error.message if isinstance(error, Error) else str(error))
-            self.output.note_text(f"{what}: not computed. {reason}")
+            reason = self.units.sentence(_reason(error))
+            self.output.note_text(phrase("{analysis}: not computed. {reason}", analysis=what, reason=reason))
             for key in demands:
-                self.demands[key].failed.append(f"{what}: {reason}")
+                self.demands[key].failed.append(phrase("{analysis}: {reason}", analysis=what, reason=reason))
             if not demands:
-                self.tiles.append(Tile(what, "not computed", reason, NOT_COMPUTED))
+                self.tiles.append(Tile(what, phrase("not computed"), reason, NOT_COMPUTED))
 
     # ---- Statics ----------------------------------------------------------------------------------------------------
     def _static(self, sim: Sim, **slip: float) -> None:
@@ -92,32 +117,33 @@ class Study:
                 raise
             values["load_steps"] = 10  # friction around a string lets it climb
             status = sim.static(**values).status
-            self.output.note_text("static, " + ", ".join(slip) + ": found in ten load steps")
-        self.output.note(status, "static, " + (", ".join(slip) or "without friction"))
+            self.output.note_text(phrase("static state: found in ten load steps"))
+        self.output.note(status, phrase("static state"))
 
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01
         rotation = self.plan.rotation or 10.0
-        for name, key, slip in (("pushed in", "push", {"slip_axial": speed}), ("pulled out", "pull", {"slip_axial": -speed}),
-                                ("rotated", "torque", {"slip_rotation": rotation})):
-            self._attempt(f"stiff string, {name}", (key, "yield_stress"), lambda name=name, key=key, slip=slip:  # type: ignore[misc]
-                          self._operation(name, key, slip))
+        for name, key, slip in ((phrase("pushed in"), "push", {"slip_axial": speed}), (phrase("pulled out"), "pull", {"slip_axial": -speed}),
+                                (phrase("rotated"), "torque", {"slip_rotation": rotation})):
+            self._attempt(phrase("stiff string, {operation}", operation=name), (key, "yield_stress"),
+                          lambda name=name, key=key, slip=slip: self._operation(name, key, slip))  # type: ignore[misc]
         self.output.summary["operations"] = {name: {"axial_force_at_rig_N": found.axial_force[0],
                                                     "torque_at_rig_N_m": found.torque[0]}
                                              for name, found in self.operations.items()}
         if not self.operations:
             return
-        self.figures.append(("Axial force by operation", "Stiff string at rest, with friction as if it moved that way, without bit "
-                             "load. Tension is positive.", self._along("axial_force", "push")))
-        self.figures.append(("Torque by operation", "", self._along("torque", "torque")))
+        self.figures.append((phrase("Axial force by operation"), phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
+                             "time 0 s. Tension is positive."), self._along("axial_force", "push")))
+        self.figures.append((phrase("Torque by operation"), phrase("Stiff string at rest, with friction as if it moved that way, with the loads of "
+                             "time 0 s."), self._along("torque", "torque")))
 
-    def _operation(self, name: str, key: str, slip: dict[str, float]) -> None:
+    def _operation(self, name: Phrase, key: str, slip: dict[str, float]) -> None:
         with self.scene.new_sim() as sim:
             self._static(sim, **slip)
             found = self.operations[name] = sim.profile(self.part, self.pipes)
         axial = float(found.axial_force[0])
         at_rig = {"push": -axial, "pull": axial, "torque": abs(float(found.torque[0]))}[key]
-        source = f"stiff string, {name}, without bit load"
+        source = phrase("stiff string, {operation}, loads of time 0 s", operation=name)
         self.demands[key].add(at_rig, source)
         stress = _largest(found["von_mises"])
         if stress is not None:
@@ -132,48 +158,58 @@ class Study:
             first = last - float(values_of(sim, self.part, [enums.PROFILE_DISTANCE], count=2)[1, 0])
             depths = [first + (last - first) * (i + 1) / DEPTHS for i in range(DEPTHS)]
             found = sim.torque_drag(operations, depths=depths, string=self.part)
-        names = [operation_name(kind) for kind in OPERATIONS]
-        load = f"{units.text((plan.weight_on_bit or 0.0) / 1e3, 'kN')} on the bit while drilling and sliding"
-        self._soft_demands(names, found.rows[-1])
-        self._confinement(names, found.rows[-1])
+        load = phrase("{load} on the bit", load=units.text((plan.weight_on_bit or 0.0) / 1e3, "kN"))
+        self._soft_demands(found.rows[-1])
+        self._confinement(found.rows[-1])
         for title, field, factor, label, limits in (
-                ("Hook load by depth of the bit", "hook_load", _force(units), f"hook load [{units.unit('kN')}], < 0: the rig thrusts", ("pull", "push")),
-                ("Torque by depth of the bit", "torque", units.factor("N m"), units.head("torque at the rig [N m]"), ("torque",))):
+                (phrase("Hook load by depth of the bit"), "hook_load", _force(units), phrase("hook load [{unit}], < 0: the rig thrusts", unit=units.unit("kN")),
+                 ("pull", "push")),
+                (phrase("Torque by depth of the bit"), "torque", units.factor("N m"), phrase("torque at the rig [{unit}]", unit=units.unit("N m")),
+                 ("torque",))):
             data = [line([factor * value for value in found.column(field, number)], [units.factor("m") * depth for depth in depths], name, number)
-                    for number, name in enumerate(names)]
+                    for number, name in enumerate(OPERATION_NAMES)]
             shapes = self._limit_lines({limit: -factor if limit == "push" else factor for limit in limits}, data)
-            self.figures.append((title, f"Soft string in steady motion, {load}; dashed: limits of the rig.", {
+            self.figures.append((title, phrase("Soft string in steady motion, {load} while drilling and sliding; dashed: limits of the rig.", load=load), {
                 "data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
-                    "title": {"text": units.head("measured depth of the bit [m]")}, "autorange": "reversed"}}}))
+                    "title": {"text": phrase("measured depth of the bit [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}))
         self.output.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
-                                              for name, row in zip(names, found.rows[-1])}
+                                              for name, row in zip(OPERATION_NAMES, found.rows[-1])}
 
-    def _soft_demands(self, names: list[str], rows: Any) -> None:
-        for name, row in zip(names, rows):
-            source = f"soft string, {name}"
+    def _soft_demands(self, rows: Any) -> None:
+        strength = self._yield_strength()
+        for name, row in zip(OPERATION_NAMES, rows):
+            source = phrase("soft string, {operation}", operation=name)
             if row.locked:
-                self.demands["push"].failed.append(f"{source}: the string locks up, no thrust moves the bit")
+                for key in ("push", "torque", "yield_stress"):
+                    self.demands[key].failed.append(phrase("{source}: the string locks up, no thrust moves the bit", source=source))
                 continue
             self.demands["pull" if row.hook_load > 0.0 else "push"].add(abs(row.hook_load), source)
             self.demands["torque"].add(row.torque, source)
+            self.demands["yield_stress"].add(strength * row.yield_share, source)
 
-    def _confinement(self, names: list[str], rows: Any) -> None:
+    def _yield_strength(self) -> float:
+        """[Pa] of all pipes; NaN where they differ or one has none: then no stress follows from the share."""
+        given = {pipes.get("yield_strength", 0.0) for name, arguments in self.scene.model.calls if name == "add_pipes" for pipes in arguments[1:2]}
+        return given.pop() if len(given) == 1 and min(given) > 0.0 else math.nan
+
+    def _confinement(self, rows: Any) -> None:
         """Largest share of the buckling loads of a pipe confined by its hole, in all operations."""
-        free = [(row.helical_share, row.sinusoidal_share, row.buckled_at, name) for name, row in zip(names, rows) if not row.locked]
+        title = phrase("Buckling in the hole")
+        free = [(row.helical_share, row.sinusoidal_share, row.buckled_at, number) for number, row in enumerate(rows) if not row.locked]
         if len(free) < len(rows):
-            locked = ", ".join(name for name, row in zip(names, rows) if row.locked)
-            self.tiles.append(Tile("Buckling in the hole", "locks up", f"no thrust at the rig moves the bit: {locked}", OVER))
+            locked = joined(", ", [name for name, row in zip(OPERATION_NAMES, rows) if row.locked])
+            self.tiles.append(Tile(title, phrase("locks up"), phrase("no thrust at the rig moves the bit: {operations}", operations=locked), OVER))
         elif not all(math.isfinite(share) for share, *_ in free):
-            self.tiles.append(Tile("Buckling in the hole", "not assessed", "the shares of the buckling loads are not defined for this string",
-                                   NOT_ASSESSED))
+            self.tiles.append(Tile(title, phrase("not assessed"), phrase("the shares of the buckling loads are not defined for this string"), NOT_ASSESSED))
         else:
-            helical, sinusoidal, depth, name = max(free)
-            if self.plan.weight_on_bit is None:
-                verdict, text = NOT_ASSESSED, "the scene gives no bit load"
+            helical, sinusoidal, depth, number = max(free)
+            if not self.plan.weight_on_bit:
+                verdict, text = NOT_ASSESSED, phrase("the scene gives no bit load")
             else:
                 verdict = OVER if helical > 1.0 else NEAR if helical > NEAR_SHARE or sinusoidal > 1.0 else OK
-                text = f"{name}, at {self.units.text(depth, 'm')}; {100.0 * sinusoidal:.3g} % of the sinusoidal buckling load"
-            self.tiles.append(Tile("Buckling in the hole", f"{100.0 * helical:.3g} % of the helical buckling load", text, verdict))
+                text = phrase("{operation}, at {depth}; {share:.3g} % of the sinusoidal buckling load", operation=OPERATION_NAMES[number],
+                              depth=self.units.text(depth, "m"), share=100.0 * sinusoidal)
+            self.tiles.append(Tile(title, phrase("{share:.3g} % of the helical buckling load", share=100.0 * helical), text, verdict))
 
     def _limit_lines(self, limits: dict[str, float], data: list[dict[str, Any]]) -> list[dict[str, Any]]:
         """Upright lines at limits of the rig, each times its factor; those far off would hide the curves."""
@@ -187,69 +223,30 @@ class Study:
 
     def _along(self, name: str, limit: str) -> dict[str, Any]:
         units = self.units
-        factor, label = ((_force(units), units.head("axial force [kN]")) if limit == "push" else (units.factor("N m"), units.head("torque [N m]")))
+        factor, label = ((_force(units), phrase("axial force [{unit}]", unit=units.unit("kN"))) if limit == "push" else
+                         (units.factor("N m"), phrase("torque [{unit}]", unit=units.unit("N m"))))
         data = [line(factor * values, self._depth(found), operation, number)
                 for number, (operation, found) in enumerate(self.operations.items())
                 for values in [getattr(found, name) if limit == "push" else abs(found.torque)]]
         shapes = self._limit_lines({limit: -factor if limit == "push" else factor}, data)
         return {"data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
-            "title": {"text": units.head("measured depth [m]")}, "autorange": "reversed"}}}
+            "title": {"text": phrase("measured depth [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}
 
     # ---- Linear analyses --------------------------------------------------------------------------------------------
     def _speeds(self) -> None:
-        title = "Critical speeds"
         if "speeds" not in self.scene.analyses:
-            self.tiles.append(Tile(title, "not assessed", "the scene has no [speeds] table", NOT_ASSESSED))
+            self.tiles.append(Tile(phrase("Critical speeds"), phrase("not assessed"), phrase("the scene has no [speeds] table"), NOT_ASSESSED))
             return
-        values, settings = self.scene.fields_of("speeds"), self.scene.analyses["speeds"]
-        with self.scene.new_sim() as sim:
-            self._static(sim)
-            bands, severity = sim.speeds(self.scene.orders(), self.scene.outputs("speeds"),
-                                         [one["limit"] for one in settings["output"]], **values)
-        used: Any = _structs.SpeedsOptions(**values)
-        grid = [(used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1)) / RPM
-                for i in range(used.points)]
-        self.output.summary["speeds_rpm"] = [[band.low / RPM, band.high / RPM] for band in bands]
-        self.tiles.append(self._speeds_tile(title, bands, severity, grid))
-        shapes = [{"type": "rect", "x0": band.low / RPM, "x1": band.high / RPM, "yref": "paper", "y0": 0, "y1": 1,
-                   "fillcolor": "#E69F00", "opacity": 0.35, "line": {"width": 0}} for band in bands]
-        if max(severity) > 0.0:
-            self.figures.append(("Severity by rotary speed", "Severity 1 is the limit of an amplitude; shaded speeds are to be avoided. "
-                                 + LINEAR, {"data": [line(grid, severity, "severity", 0)], "layout": {
-                                     "shapes": shapes, "xaxis": {"title": {"text": "rotary speed [rpm]"}},
-                                     "yaxis": {"title": {"text": "severity [-]"}, "type": "log"}}}))
-
-    def _speeds_tile(self, title: str, bands: Any, severity: Any, grid: list[float]) -> Tile:
-        if not max(severity) > 0.0:
-            return Tile(title, "not assessed", NOTHING_EXCITES, NOT_ASSESSED)
-        told = ", ".join(f"{band.low / RPM:.0f} to {band.high / RPM:.0f}" for band in bands[:4])
-        value = f"avoid {told} rpm" if bands else "none found"
-        text = f"between {grid[0]:.0f} and {grid[-1]:.0f} rpm, severity at most {max(severity):.3g}. {LINEAR}"
-        planned = self.plan.rotation
-        if planned is None:
-            return Tile(title, value, "the scene gives no rotation to compare with; " + text, NOT_ASSESSED)
-        rpm = planned / RPM
-        if not grid[0] <= rpm <= grid[-1]:
-            return Tile(title, value, f"the rotation of {rpm:.4g} rpm is outside the range of [speeds]; " + text, NOT_ASSESSED)
-        inside = any(band.low <= planned <= band.high for band in bands)
-        near = any(band.low * (1.0 - NEAR_BAND) <= planned <= band.high * (1.0 + NEAR_BAND) for band in bands)
-        return Tile(title, value, f"rotation {rpm:.4g} rpm; " + text, OVER if inside else NEAR if near else OK)
+        self.speeds = found = speeds(self.scene, self._static)
+        for note in found.notes():
+            self.output.note_text(note)
+        self.output.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi] for band in found.bands]
+        self.tiles.append(speeds_tile(found, self.plan))
+        if found.assessed:
+            self.figures.append(speeds_figure(found))
 
     def _buckling(self) -> None:
-        with self.scene.new_sim() as sim:
-            self._static(sim)
-            with sim.buckling(**self.scene.fields_of("buckling")) as found:
-                self.output.note(found.status, "buckling")
-                factor = found.factors[0] if found.factors else None
-                confirmed = found.info.confirmed > 0
-        self.output.summary["buckling_factor"] = factor
-        if factor is None:
-            tile = Tile("Buckling, nonlinear", "none found", "no critical factor within the searched range", NOT_ASSESSED)
-        else:
-            told = "confirmed on the equilibrium path" if confirmed else "extrapolated, not confirmed"
-            tile = Tile("Buckling, nonlinear", f"factor {factor:.4g}", f"lowest critical factor of the loads in [buckling]; {told}",
-                        OVER if factor < 1.0 else NEAR if factor < 1.0 / NEAR_SHARE else OK if confirmed else NOT_ASSESSED)
-        self.tiles.append(tile)
+        self.tiles.append(buckling_tile(self.scene, self._static, self.output))
 
     # ---- In time ----------------------------------------------------------------------------------------------------
     def _run(self) -> None:
@@ -257,17 +254,19 @@ class Study:
             if self.scene.run.get("static", 0) or "end" not in self.scene.run:
                 self._static(sim, **{key: value for key, value in self.scene.fields_of("static").items()
                                      if key.startswith("slip")})
+            self.hole = hole_view(self.scene, sim.profile(self.part, self.pipes), self.units)
             shapes, times = [self._shape(sim)], [sim.time]
-            self.figures.insert(0, ("The string in its hole", "Displacement across the hole is enlarged so that the hole can be seen; the "
-                                    "button draws it to scale. Drag to rotate, play or slide through the run.", {}))
+            self.figures.insert(0, (phrase("The string in its hole"), phrase("Displacement across the hole is enlarged so that the hole can be seen; the "
+                                    "button draws it to scale. Drag to rotate, play or slide through the run."), {}))
             try:
                 if "end" in self.scene.run:
                     self._in_time(sim, shapes, times)
                 else:
-                    self.tiles.append(Tile("Run in time", "not assessed", "the scene has no [run] end", NOT_ASSESSED))
+                    self.tiles.append(Tile(phrase("Run in time"), phrase("not assessed"), phrase("the scene has no [run] end"), NOT_ASSESSED))
             finally:
                 self.hash = f"{sim.hash():016x}"
-                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.scene, shapes, times, self.units))
+                self.space = in_space(self.scene, shapes, self.units)
+                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.space, times, self.units))
 
     def _in_time(self, sim: Sim, shapes: list[Any], times: list[float]) -> None:
         counters = count_fatigue(self.scene, sim)
@@ -277,7 +276,7 @@ class Study:
         finally:
             if sim.statistics().steps:
                 load, torque = window.result(0), window.result(1)
-                source = f"run of {sim.time:.4g} s"
+                source = phrase("run of {time:.4g} s", time=sim.time)
                 self.demands["push"].add(-load.minimum, source)
                 self.demands["pull"].add(load.maximum, source)
                 self.demands["yield_stress"].found += [max(self.stresses)] if self.stresses else []
@@ -287,27 +286,32 @@ class Study:
         self._fatigue(counters)
 
     def _fatigue(self, counters: dict[str, StringFatigue]) -> None:
+        title = phrase("Fatigue")
         if not counters:
-            self.tiles.append(Tile("Fatigue", "not assessed", "the scene has no [fatigue] table", NOT_ASSESSED))
+            self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"), NOT_ASSESSED))
             return
         found, counter = tell_fatigue(counters, self.output)[self.string], counters[self.string]
         pipe = counter.pipes[counter.worst]
         if found.largest_range <= 0.0:
-            self.tiles.append(Tile("Fatigue", "not assessed", "no stress cycle in this run", NOT_ASSESSED))
+            self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
         elif math.isfinite(found.life):
-            self.tiles.append(Tile("Fatigue", f"{found.life / 3600.0:.3g} h", f"of this run until pipe {pipe} reaches its S-N curve",
-                                   OVER if found.damage > 1.0 else NO_LIMIT))
+            self.tiles.append(Tile(title, f"{found.life / 3600.0:.0f} h" if found.life > 3.6e5 else f"{found.life / 3600.0:.3g} h", phrase(
+                "life if this run went on and on, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve", pipe=pipe),
+                OVER if found.damage > 1.0 else NO_LIMIT))
         else:
-            self.tiles.append(Tile("Fatigue", "no damage", f"in this run; largest range {shown(found.largest_range, 'Pa', self.units)}, pipe {pipe}", OK))
-        self.figures.append(("Fatigue along the string", "Damage of this run by the S-N curve of the scene; 1 is its end.", {
-            "data": [line(counter.pipes, [one.damage for one in counter.results], "damage", 0)], "layout": {"xaxis": {"title": {
-                "text": "pipe, counted from the rig end"}}, "yaxis": {"title": {"text": "damage [-]"}, "exponentformat": "power"}}}))
+            text = phrase("in this run; largest range {range}, pipe {pipe}", range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
+            clipped = any(one.clipped for one in counter.results)
+            self.tiles.append(Tile(title, phrase("no damage"), text, NOT_ASSESSED if clipped else OK))
+        self.figures.append((phrase("Fatigue along the string"), phrase("Damage of this run by the S-N curve of the scene; 1 is its end."), {
+            "data": [line(counter.pipes, [one.damage for one in counter.results], phrase("damage"), 0)], "layout": {"xaxis": {"title": {
+                "text": phrase("pipe, counted from 0 at the rig end")}}, "yaxis": {"title": {"text": phrase("damage [-]")}, "exponentformat": "power"}}}))
         ranges, cycles = counter.counter.histogram(counter.worst)
         known = [(1e-6 * self.units.factor("MPa") * stress, count) for stress, count in zip(ranges, cycles) if count > 0.0]
-        self.figures.append((f"Cycles of stress at pipe {pipe}", "Rainflow counting of the run; cycles that did not close count half.", {
+        self.figures.append((phrase("Cycles of stress at pipe {pipe}", pipe=pipe), phrase("Rainflow counting of the run; cycles that did not close count half."), {
             "data": [{"type": "bar", "x": rounded([one for one, _ in known]), "y": rounded([one for _, one in known]),
-                      "marker": {"color": COLOURS[1]}}], "layout": {"xaxis": {"title": {"text": self.units.head("stress range [MPa]")}}, "yaxis": {
-                          "title": {"text": "cycles [-]"}, "type": "log"}}}))
+                      "marker": {"color": COLOURS[1]}}], "layout": {
+                          "xaxis": {"title": {"text": phrase("stress range [{unit}]", unit=self.units.unit("MPa"))}},
+                          "yaxis": {"title": {"text": phrase("cycles [-]")}, "rangemode": "tozero"}}}))
 
     def _frames(self, sim: Sim, shapes: list[Any], times: list[float], counters: list[Any]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")
@@ -321,56 +325,36 @@ class Study:
                 shapes.append(self._shape(sim))
                 times.append(sim.time)
         except KeyboardInterrupt:
-            self.output.note_text(f"the run was stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
+            self.output.note_text(phrase("the run was stopped by Ctrl-C at {time:g} s of {end:g} s", time=sim.time, end=end))
+            for demand in self.demands.values():
+                demand.failed.append(phrase("the rest of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
         self.output.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
         note_bounces(sim, self.output)
         if recorder is not None and len(recorder):
             table = recorder.table
             for number, head in enumerate(columns_of(self.scene, recorder, self.units)[1:]):
                 name, factor = self.units.head(head), self.units.factor_of(head)
-                self.figures.append((name.split(" [")[0], "In the run.", {
+                self.figures.append((name.split(" [")[0], phrase("In the run."), {
                     "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
-                    "layout": {"xaxis": {"title": {"text": "time [s]"}}, "yaxis": {"title": {"text": name}}}}))
+                    "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": {"title": {"text": name}}}}))
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
         found = sim.profile(self.part, self.pipes, 1)
         stress = _largest(found["von_mises"]) if sim.statistics().steps else None
         if stress is not None:
-            self.stresses.append((stress, f"run, at {sim.time:.3g} s (largest of {FRAMES} moments)"))
+            self.stresses.append((stress, phrase("run, at {time:.3g} s (largest of {moments} moments)", time=sim.time, moments=FRAMES)))
         keep = slice(None, None, max(1, len(found.along) // POINTS))
         return found.position[keep], found.displacement[keep]
 
-    # ---- Assumptions ------------------------------------------------------------------------------------------------
     def assumptions(self) -> list[tuple[str, str]]:
         """The basis of the answers."""
-        scene, info = self.scene, self.scene.model.info()
-        calls = scene.model.calls
-        features = next((arguments[0].get("features") for name, arguments in calls if name == "compile"), None)
-        left_out = [] if features is None else [one.name for one in enums.Feature
-                                                if one.name and not one & features and one & (one - 1) == 0]
-        found = [("pipes, elements, degrees of freedom", f"{info.pipes}, {info.elements}, {info.degrees_of_freedom}"),
-                 ("mass, length", f"{self.units.text(info.mass, 'kg')}, {self.units.text(info.length, 'm')}"), *_wall(calls, self.units)]
-        found += [("left out", ", ".join(str(one).lower() for one in left_out) or "nothing that the scene describes"),
-                  ("not in this page", "connections, bit load in the stiff string, other friction factors"),
-                  ("units", NAMES_OF[self.units.name]), ("library", f"{__version__}, hash of the last state {self.hash}"),
-                  ("Python", platform.python_version())]
-        return found
+        return assumptions(self.scene, self.units, self.hash)
 
 
-def _wall(calls: Any, units: Units) -> list[tuple[str, str]]:
-    if not any(name == "add_wall" for name, _ in calls):
-        return []
-    wall: Any = _structs.WallDef(**next((arguments[0] for name, arguments in calls if name == "add_wall"), {}))
-    sections = any(name == "add_hole_sections" for name, _ in calls)
-    return [("wall", f"diameter {units.text(1e3 * wall.diameter, 'mm', 'g')}, {_stiffness(wall, units)}friction {wall.mu_static:g} at rest and "
-             f"{wall.mu_dynamic:g} sliding, " + ("other values in its sections" if sections else "the same along the hole"))]
-
-
-def _stiffness(wall: Any, units: Units) -> str:
-    """Left out where its unit, N/m^(n+1), has no equivalent."""
-    if units.name == "si":
-        return f"stiffness {wall.stiffness:g} per metre, "
-    return f"stiffness {units.text(wall.stiffness, 'N/m2')}, " if wall.exponent == 1.0 else ""
+def _reason(error: Exception) -> str:
+    """The sentence of an analysis without a result."""
+    said = error.message if isinstance(error, Error) else error.args[0] if error.args else ""
+    return said if isinstance(said, Phrase) else Foreign(said)
 
 
 def _force(units: Units) -> float:
@@ -390,10 +374,10 @@ def report(scene: Scene, output: Output, options: Any) -> int:
     if not scene.pipes:
         raise Usage("report is about a string, the scene has none")
     need("plotly.offline")
-    study = Study(scene, output)
+    study = Study(scene, output, read_probability(options.probability, scene) if options.probability else None)
     study.ask()
     for tile in study.tiles:
-        output.say(str(tile))
+        output.say(tile.line())
     output.path("report.html").write_text(page(study), encoding="utf-8")
     output.summary["hash"] = study.hash
     return output.finish()

@@ -2,14 +2,17 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Dict, Tuple
 
 from . import _structs
 from ._optional import need
+from .language import Phrase, phrase
 from .plots import COLOURS
 from .scene import Scene
 from .unit_systems import Units
 
+Figure = Tuple[str, str, Dict[str, Any]]  # title, text, plotly
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
@@ -24,8 +27,24 @@ def line(x: Any, y: Any, name: str, number: int) -> dict[str, Any]:
             "line": {"color": COLOURS[(1 + number) % len(COLOURS)], "dash": DASHES[number % len(DASHES)], "width": 2}}
 
 
-def picture_in_space(scene: Scene, shapes: list[Any], times: list[float], units: Units) -> dict[str, Any]:
-    """The string over time, its displacement across the hole exaggerated or to scale, in a tube that is the hole."""
+@dataclass
+class InSpace:
+    """The string in its hole, in the units of the output: axis of the hole, and shapes of the string as (position, displacement)."""
+    axis: Any
+    tangent: Any
+    shapes: list[tuple[Any, Any]]
+    radius: float   #: of the hole, 0 without one
+    factor: float   #: by which displacements across the hole are drawn larger
+
+    def drawn(self, shape: int, factor: float) -> Any:
+        """A shape of the string with its displacement across the hole `factor` times larger."""
+        moved = self.shapes[shape][1]
+        along = (moved * self.tangent).sum(axis=1, keepdims=True) * self.tangent
+        return self.axis + along + factor * (moved - along)
+
+
+def in_space(scene: Scene, shapes: list[Any], units: Units) -> InSpace:
+    """The factor makes the hole a thirtieth of its length wide."""
     numpy = need("numpy")
     length_unit = units.factor("m")
     shapes = [(length_unit * position, length_unit * moved) for position, moved in shapes]
@@ -35,41 +54,45 @@ def picture_in_space(scene: Scene, shapes: list[Any], times: list[float], units:
     length = float(numpy.linalg.norm(numpy.diff(axis, axis=0), axis=1).sum())
     radius = length_unit * _hole_radius(scene)
     across = max([float(numpy.abs(moved).max()) for _, moved in shapes[:1]] + [1e-6 * length_unit])
-    factor = max(1.0, float(f"{length / 30.0 / (radius or across):.1g}"))
+    return InSpace(axis, tangent, shapes, radius, max(1.0, float(f"{length / 30.0 / (radius or across):.1g}")))
 
-    def drawn(shape: Any, scale: float) -> Any:
-        along = (shape[1] * tangent).sum(axis=1, keepdims=True) * tangent
-        return axis + along + scale * (shape[1] - along)
+
+def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[str, Any]:
+    """The string over time, its displacement across the hole exaggerated or to scale, in a tube that is the hole."""
+    factor, axis = space.factor, space.axis
 
     def trace(points: Any, **more: Any) -> dict[str, Any]:
         return {"type": "scatter3d", "mode": "lines", "x": rounded(points[:, 0]), "y": rounded(points[:, 1]),
                 "z": rounded(points[:, 2]), **more}
 
-    data = [trace(drawn(shapes[0], factor), name=f"string, across {factor:g} times", line={"color": "#0072B2", "width": 6}),
-            trace(drawn(shapes[0], 1.0), name="string, to scale", line={"color": "#000000", "width": 4}, visible=False),
-            trace(axis, name="axis of the hole", line={"color": "#D55E00", "width": 2, "dash": "dash"})]
-    if radius:
-        data.append(_tube(axis, tangent, factor * radius, f"hole, {factor:g} times"))
+    data = [trace(space.drawn(0, factor), name=phrase("string, across {factor:g} times", factor=factor), line={"color": "#0072B2", "width": 6}),
+            trace(space.drawn(0, 1.0), name=phrase("string, to scale"), line={"color": "#000000", "width": 4}, visible=False),
+            trace(axis, name=phrase("axis of the hole"), line={"color": "#D55E00", "width": 2, "dash": "dash"})]
+    if space.radius:
+        data.append(_tube(axis, space.tangent, factor * space.radius, phrase("hole, {factor:g} times", factor=factor)))
     frames = [{"name": f"{time:.4g}", "traces": [0, 1], "data": [
-        {key: values for key, values in trace(drawn(shape, scale)).items() if key in "xyz" or key == "type"}
-        for scale in (factor, 1.0)]} for shape, time in zip(shapes, times)] if len(shapes) > 1 else []
+        {key: values for key, values in trace(space.drawn(number, scale)).items() if key in "xyz" or key == "type"}
+        for scale in (factor, 1.0)]} for number, time in enumerate(times)] if len(times) > 1 else []
+    axes = {"x": phrase("north [{unit}]", unit=units.unit("m")), "y": phrase("west [{unit}]", unit=units.unit("m")),
+            "z": phrase("height [{unit}]", unit=units.unit("m"))}
     layout: dict[str, Any] = {"scene": {"aspectmode": "data", "camera": {
-        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": f"{name} [{units.unit('m')}]"}}
-                                                                for name in "xyz"}}, "height": 560, "showlegend": True}
+        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 11},
+                                                                       "nticks": 6} for name, title in axes.items()}},
+                              "height": 560, "showlegend": True, "margin": {"l": 0, "r": 0, "t": 50, "b": 20}, "legend": {"y": -0.32, "yanchor": "top"}}
     tube = len(data) - 3
-    layout["updatemenus"] = [_buttons([("drawn larger", "restyle", [{"visible": [True, False, True] + [True] * tube}]),
-                                       ("to scale", "restyle", [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
+    layout["updatemenus"] = [_buttons([(phrase("drawn larger"), "restyle", [{"visible": [True, False, True] + [True] * tube}]),
+                                       (phrase("to scale"), "restyle", [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
     if frames:
         playing = {"frame": {"duration": 100}, "fromcurrent": True}
-        layout["updatemenus"].append(_buttons([("play", "animate", [None, playing]),
-                                               ("stop", "animate", [[None], {"mode": "immediate"}])], 0.5))
+        layout["updatemenus"].append(_buttons([(phrase("play"), "animate", [None, playing]),
+                                               (phrase("stop"), "animate", [[None], {"mode": "immediate"}])], 0.62))
         at_once = {"mode": "immediate", "frame": {"duration": 0}}
-        layout["sliders"] = [{"currentvalue": {"prefix": "time [s]: "}, "steps": [
+        layout["sliders"] = [{"currentvalue": {"prefix": phrase("time [s]: ")}, "x": 0.02, "len": 0.96, "steps": [
             {"label": one["name"], "method": "animate", "args": [[one["name"]], at_once]} for one in frames]}]
     return {"data": data, "layout": layout, "frames": frames}
 
 
-def _buttons(buttons: list[tuple[str, str, list[Any]]], x: float) -> dict[str, Any]:
+def _buttons(buttons: list[tuple[Phrase, str, list[Any]]], x: float) -> dict[str, Any]:
     return {"type": "buttons", "direction": "left", "x": x, "xanchor": "left", "y": 1.12,
             "buttons": [{"label": label, "method": method, "args": args} for label, method, args in buttons]}
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import Usage
+from .language import Foreign, Listed, Phrase
 from .scene.units import factor_and_kind
 from .unit_choice import NAMES
 
@@ -110,7 +111,14 @@ class Units:
                 return found[0]
             rest = re.sub(_NUMBER, lambda one: self.number(float(one[0]), unit, ".5g"), found[2])
             return f"{self.number(float(found[1]), unit, '.5g')}{rest} {self.unit(unit)}"
-        return text if self.name == "si" else _IN_TEXT.sub(converted, text)
+        if self.name == "si":
+            return text
+        if isinstance(text, Phrase):
+            return Phrase(text.template, text.values, self)
+        if isinstance(text, Listed):
+            return Listed(text.separator, [self.sentence(part) for part in text.parts])
+        found = _IN_TEXT.sub(converted, text)
+        return Foreign(found) if isinstance(text, Foreign) else found
 
 
 SI = Units()

@@ -3,10 +3,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .language import joined, phrase
 from .unit_systems import SI, Units
 
-OK, NEAR, OVER = "OK", "NEAR LIMIT", "OVER"
-NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED = "NO LIMIT GIVEN", "NOT ASSESSED", "NOT COMPUTED"
+OK, NEAR, OVER = phrase("OK"), phrase("NEAR LIMIT"), phrase("OVER")
+NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED = phrase("NO LIMIT GIVEN"), phrase("NOT ASSESSED"), phrase("NOT COMPUTED")
 NEAR_SHARE = 0.8  #: of a limit
 
 
@@ -23,8 +24,12 @@ class Tile:
     text: str
     verdict: str
 
+    def line(self) -> str:
+        """The tile in one line."""
+        return phrase("{title}: {value}, {verdict} ({text})", title=self.title, value=self.value, verdict=self.verdict, text=self.text)
+
     def __str__(self) -> str:
-        return f"{self.title}: {self.value}, {self.verdict} ({self.text})"
+        return self.line()
 
 
 @dataclass
@@ -34,7 +39,7 @@ class Demand:
     unit: str
     limit: float | None
     found: list[tuple[float, str]] = field(default_factory=list)  #: value, analysis
-    failed: list[str] = field(default_factory=list)               #: reasons of analyses without a result
+    failed: list[str] = field(default_factory=list)               #: analyses without a result, loads that none has
     units: Units = SI                                             #: of the texts
 
     def add(self, value: float, source: str) -> None:
@@ -46,16 +51,24 @@ class Demand:
     def value(self) -> float | None:
         return max(self.found)[0] if self.found else None
 
+    @property
+    def share(self) -> float | None:
+        """Of the limit; None without a value or a limit."""
+        return self.value / self.limit if self.value is not None and self.limit else None
+
     def tile(self) -> Tile:
-        """Value, limit and share, and which analysis gave the largest value. With a failed analysis the verdict is never OK."""
+        """Value, limit and share, and which analysis gave the largest value. With a failed analysis, or a load that no analysis has, the
+        verdict is never OK."""
         if not self.found:
-            return Tile(self.title, "not computed", "; ".join(self.failed) or "no analysis gave a value", NOT_COMPUTED)
+            reasons: str = joined("; ", self.failed) if self.failed else phrase("no analysis gave a value")
+            return Tile(self.title, phrase("not computed"), reasons, NOT_COMPUTED)
         value, source = max(self.found)
-        text = f"largest of {len(self.found)} analyses: {source}" if len(self.found) > 1 else source
+        text: str = phrase("largest of {count} analyses: {source}", count=len(self.found), source=source) if len(self.found) > 1 else source
         if self.failed:
-            text += "; without " + "; ".join(self.failed)
-        if not self.limit:
+            text = phrase("{text}; without {reasons}", text=text, reasons=joined("; ", self.failed))
+        share = self.share
+        if share is None or self.limit is None:
             return Tile(self.title, shown(value, self.unit, self.units), text, NO_LIMIT)
-        share = value / self.limit
         verdict = OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.failed else OK
-        return Tile(self.title, shown(value, self.unit, self.units), f"{100.0 * share:.0f} % of {shown(self.limit, self.unit, self.units)}; {text}", verdict)
+        return Tile(self.title, shown(value, self.unit, self.units), phrase("{share:.0f} % of {limit}; {text}", share=100.0 * share, limit=shown(
+            self.limit, self.unit, self.units), text=text), verdict)

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..language import Phrase, phrase
 from .lines import Path
 
 if TYPE_CHECKING:
@@ -25,10 +26,15 @@ class Divided:
     error: float = 0.0  #: estimated error of one element a pipe, over the yield strength
 
     def __str__(self) -> str:
+        return self.text()
+
+    def text(self) -> Phrase:
+        """The division and its reason."""
         last = self.first + self.count - 1
-        pipes = f"pipe {self.first}" if self.count == 1 else f"pipes {self.first} to {last}"
-        return (f"{self.string}, {pipes}: divided into {self.elements} elements each, because one element would have an estimated "
-                f"error of {100.0 * self.error:.2g} % of the yield strength in the bending stress; set elements to choose another number")
+        pipes = phrase("pipe {first}", first=self.first) if self.count == 1 else phrase("pipes {first} to {last}", first=self.first, last=last)
+        return phrase("{string}, {pipes}: divided into {elements} elements each, because one element would have an estimated error of {error:.2g} % of "
+                      "the yield strength in the bending stress; set elements to choose another number", string=self.string, pipes=pipes,
+                      elements=self.elements, error=100.0 * self.error)
 
 
 def divide(scene: Scene, pipes: list[Divided], content: dict[str, Any]) -> bool:

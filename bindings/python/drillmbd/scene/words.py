@@ -7,6 +7,7 @@ from typing import Any
 
 from .. import enums
 from .._structs import Term
+from ..language import Phrase, joined, phrase
 from .content import Scene
 from .fields import DEFINITIONS
 from .survey import dogleg
@@ -15,16 +16,18 @@ _STEPS = (enums.TERM_STEP, enums.TERM_STEP5)
 
 
 def describe(scene: Scene, mass: float) -> list[str]:
-    """Sentences without a stop. mass [kg]: of all that is suspended."""
+    """Phrases without a stop. mass [kg]: of all that is suspended."""
     calls = _calls(scene)
     gravity = math.hypot(*DEFINITIONS["environment"](**calls.get("set_environment", [({},)])[0][0]).gravity)
-    found = _hole(scene, calls) + _pipes(scene, calls)
+    found: list[str] = [*_hole(scene, calls), *_pipes(scene, calls)]
     if mass > 0.0 and gravity > 0.0:
-        found.append(f"weight {mass * gravity / 1e3:.3g} kN in air")
+        found.append(phrase("weight {weight:.3g} kN in air", weight=mass * gravity / 1e3))
     found += _bits(scene, calls) + _operation(calls)
     step = scene.run.get("step")
     if "end" in scene.run:
-        found.append(f"run of {scene.run['end']:g} s, " + (f"time step {1e3 * step:.3g} ms" if step else "time step chosen by the library"))
+        end = scene.run["end"]
+        found.append(phrase("run of {end:g} s, time step {step:.3g} ms", end=end, step=1e3 * step) if step else
+                     phrase("run of {end:g} s, time step chosen by the library", end=end))
     return found
 
 
@@ -35,13 +38,13 @@ def trivial(scene: Scene) -> list[str]:
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
     if not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
             spin for component, spin in _speeds(calls) if component == enums.RX):
-        found.append("no rotation: torque, whirl and critical speeds are not excited")
+        found.append(phrase("no rotation: torque, whirl and critical speeds are not excited"))
     if pipes and not any(one.eccentricity or one.eccentricity_spread for one in pipes):
-        found.append("no eccentricity of the pipes: rotation excites no lateral vibration; set eccentricity in [[string.pipes]]")
+        found.append(phrase("no eccentricity of the pipes: rotation excites no lateral vibration; set eccentricity in [[string.pipes]]"))
     if calls.get("add_bit") and not any(_bit_load(calls, one) for one, in calls["add_bit"]):
-        found.append("no load on the bit: buckling and bit torque are not assessed; set load in [[bit]]")
+        found.append(phrase("no load on the bit: buckling and bit torque are not assessed; set load in [[bit]]"))
     if pipes and not any(one.damping_time for one in pipes):
-        found.append("no material damping of the pipes: vibrations do not decay by themselves; set damping_time in [[string.pipes]]")
+        found.append(phrase("no material damping of the pipes: vibrations do not decay by themselves; set damping_time in [[string.pipes]]"))
     return found
 
 
@@ -55,54 +58,61 @@ def _calls(scene: Scene) -> dict[str, list[tuple[Any, ...]]]:
 # ---- The hole --------------------------------------------------------------------------------------------------------
 def _hole(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
     if "add_wall" not in calls:
-        return ["no hole"]
+        return [phrase("no hole")]
     stations = calls["add_wall"][0][0].get("stations") or []
     top = stations[0][0] if stations else 0.0
-    found = [f"collar at {_direction(scene.model.hole(top))}"]
+    found: list[str] = [phrase("collar at {direction}", direction=_direction(scene.model.hole(top)))]
     if not stations:
-        return found + ["straight hole"]
-    found += [f"surveyed length {stations[-1][0] - top:.4g} m", _end(scene.model.hole(top), scene.model.hole(stations[-1][0]))]
+        return found + [phrase("straight hole")]
+    found += [phrase("surveyed length {length:.4g} m", length=stations[-1][0] - top), _end(scene.model.hole(top), scene.model.hole(stations[-1][0]))]
     sharpest = max((dogleg(a, b), a[0], b[0]) for a, b in zip(stations, stations[1:]))
-    found.append(f"largest dogleg {math.degrees(sharpest[0]) * 30.0:.2g} deg/30 m between {sharpest[1]:g} m and {sharpest[2]:g} m"
-                 if sharpest[0] > 1e-9 else "no dogleg")
+    found.append(phrase("largest dogleg {dogleg:.2g} deg/30 m between {begin:g} m and {end:g} m", dogleg=math.degrees(sharpest[0]) * 30.0,
+                        begin=sharpest[1], end=sharpest[2]) if sharpest[0] > 1e-9 else phrase("no dogleg"))
     return found
 
 
-def _direction(point: Any) -> str:
+def _direction(point: Any) -> Phrase:
     """By dip where it is flatter than 45 deg, else by inclination."""
-    dip = math.degrees(point.inclination) - 90.0
-    azimuth = f"azimuth {math.degrees(point.azimuth) % 360.0:.4g} deg"
+    dip, azimuth = math.degrees(point.inclination) - 90.0, math.degrees(point.azimuth) % 360.0
     if abs(dip) > 45.0:
-        way = "down" if dip < 0.0 else "up"
-        steep = f"inclination {dip + 90.0:.3g} deg from the downward vertical ({way})"
-        return steep if 90.0 - abs(dip) < 1e-3 else f"{steep}, {azimuth}"
-    return f"dip {dip:+.1f} deg ({'level' if abs(dip) < 0.05 else 'rises' if dip > 0.0 else 'falls'}), {azimuth}"
+        way = phrase("down") if dip < 0.0 else phrase("up")
+        if 90.0 - abs(dip) < 1e-3:
+            return phrase("inclination {inclination:.3g} deg from the downward vertical ({way})", inclination=dip + 90.0, way=way)
+        return phrase("inclination {inclination:.3g} deg from the downward vertical ({way}), azimuth {azimuth:.4g} deg", inclination=dip + 90.0,
+                      way=way, azimuth=azimuth)
+    way = phrase("level") if abs(dip) < 0.05 else phrase("rises") if dip > 0.0 else phrase("falls")
+    return phrase("dip {dip:+.1f} deg ({way}), azimuth {azimuth:.4g} deg", dip=dip, way=way, azimuth=azimuth)
 
 
-def _end(top: Any, end: Any) -> str:
+def _end(top: Any, end: Any) -> Phrase:
     """The place of the end, seen from the collar along its azimuth."""
     east, north, up = -(end.position[1] - top.position[1]), end.position[0] - top.position[0], end.position[2] - top.position[2]
-    height = f"{abs(up):.1f} m {'above' if up >= 0.0 else 'below'}"
+    height = phrase("{height:.1f} m above", height=up) if up >= 0.0 else phrase("{height:.1f} m below", height=-up)
     if abs(math.degrees(top.inclination) - 90.0) > 45.0:
         away = math.hypot(east, north)
-        towards = f" towards azimuth {math.degrees(math.atan2(east, north)) % 360.0:.3g} deg" if away > 0.05 else ""
-        return f"ends {height} the collar and {away:.1f} m away{towards}"
+        if away <= 0.05:
+            return phrase("ends {height} the collar and {away:.1f} m away", height=height, away=away)
+        return phrase("ends {height} the collar and {away:.1f} m away towards azimuth {azimuth:.3g} deg", height=height, away=away,
+                      azimuth=math.degrees(math.atan2(east, north)) % 360.0)
     right = east * math.cos(top.azimuth) - north * math.sin(top.azimuth)
-    return f"ends {height} and {abs(right):.1f} m {'right' if right >= 0.0 else 'left'} of the collar line"
+    aside = phrase("{distance:.1f} m right", distance=right) if right >= 0.0 else phrase("{distance:.1f} m left", distance=-right)
+    return phrase("ends {height} and {aside} of the collar line", height=height, aside=aside)
 
 
 # ---- String, bit, operation ------------------------------------------------------------------------------------------
-def _pipes(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
-    found, ends = [], dict[int, float]()
+def _pipes(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[Phrase]:
+    found, ends = list[Phrase](), dict[int, float]()
     for count, one in calls.get("add_pipes", []):
         pipe = DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"})
         wall = 0.5e3 * (pipe.outer_diameter - pipe.inner_diameter)
-        bore = f"{1e3 * pipe.outer_diameter:.4g} x {wall:.3g} mm" if pipe.inner_diameter else f"{1e3 * pipe.outer_diameter:.4g} mm solid"
-        found.append(f"{count} pipe{'s' if count > 1 else ''} of {pipe.length:.4g} m, {bore}")
+        outer = 1e3 * pipe.outer_diameter
+        bore = phrase("{outer:.4g} x {wall:.3g} mm", outer=outer, wall=wall) if pipe.inner_diameter else phrase("{outer:.4g} mm solid", outer=outer)
+        found.append(phrase("{count} pipes of {length:.4g} m, {bore}", count=count, length=pipe.length, bore=bore) if count > 1 else
+                     phrase("1 pipe of {length:.4g} m, {bore}", length=pipe.length, bore=bore))
         key = one["string"].index if "string" in one else -1
         ends[key] = ends.get(key, 0.0) + count * pipe.length
-    if found:
-        found[-1] += f", reach {max(ends.values()):.5g} m" if len(ends) == 1 else ""
+    if found and len(ends) == 1:
+        found[-1] = phrase("{pipes}, reach {reach:.5g} m", pipes=found[-1], reach=max(ends.values()))
     return found
 
 
@@ -112,15 +122,16 @@ def _bits(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
     for one, in calls.get("add_bit", []):
         gauge = DEFINITIONS["bit"](**{key: value for key, value in one.items() if key == "diameter"}).diameter
         if gauge:
-            found.append(f"bit {1e3 * gauge:.4g} mm" + (f" in a {1e3 * hole:.4g} mm hole" if hole else ""))
+            found.append(phrase("bit {gauge:.4g} mm in a {hole:.4g} mm hole", gauge=1e3 * gauge, hole=1e3 * hole) if hole else
+                         phrase("bit {gauge:.4g} mm", gauge=1e3 * gauge))
     return found
 
 
 def _operation(calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
-    found = [f"rotation {speed * 30.0 / math.pi:.4g} rpm" if component == enums.RX else f"feed {1e3 * speed:.4g} mm/s"
-             for component, speed in _speeds(calls) if component in (enums.RX, enums.X)]
-    found += [f"{_bit_load(calls, one) / 1e3:.4g} kN on the bit" for one, in calls.get("add_bit", []) if _bit_load(calls, one)]
-    return [", ".join(found)] if found else ["no operation: nothing is driven"]
+    found = [phrase("rotation {speed:.4g} rpm", speed=speed * 30.0 / math.pi) if component == enums.RX else
+             phrase("feed {speed:.4g} mm/s", speed=1e3 * speed) for component, speed in _speeds(calls) if component in (enums.RX, enums.X)]
+    found += [phrase("{load:.4g} kN on the bit", load=_bit_load(calls, one) / 1e3) for one, in calls.get("add_bit", []) if _bit_load(calls, one)]
+    return [joined(", ", found) if found else phrase("no operation: nothing is driven")]
 
 
 def _speeds(calls: dict[str, list[tuple[Any, ...]]]) -> list[tuple[int, float]]:

@@ -1,0 +1,135 @@
+"""Tiles and figures of the report that come from linear analyses: speeds to avoid, buckling."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from . import _structs
+from .answers import RPM, Output
+from .language import joined, phrase
+from .operating import Operating
+from .questions import LINEAR, NOTHING_EXCITES
+from .report_figures import Figure, line
+from .scene import Scene
+from .sim import Sim
+from .verdict import NEAR, NEAR_SHARE, NOT_ASSESSED, OK, OVER, Tile
+
+NEAR_BAND = 0.1  #: of the rotation: a critical band so near is "near"
+SAME = 1e-3      #: of a speed: closer ones are equal
+TO_TELL = 4      #: bands in a tile
+
+
+@dataclass
+class Speeds:
+    """Bands of rotary speed to avoid and the largest severity, over a grid [rad/s]."""
+    bands: Any
+    severity: Sequence[float]
+    grid: list[float]
+
+    @property
+    def assessed(self) -> bool:
+        """False where nothing excites the string."""
+        return max(self.severity) > 0.0
+
+    def avoid(self) -> str:
+        """The bands in words."""
+        found = [self._band(band) for band in self.bands[:TO_TELL]]
+        if len(self.bands) > TO_TELL:
+            found.append(phrase("{count} more bands", count=len(self.bands) - TO_TELL))
+        return joined(", ", found)
+
+    def notes(self) -> list[str]:
+        """Parts that the analysis leaves out."""
+        report = self.bands.report
+        told: list[str] = []
+        if report.silent_orders:
+            told.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
+        if report.undamped:
+            told.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
+        if report.truncated:
+            told.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
+        return told
+
+    def _band(self, band: Any) -> str:
+        """A band that reaches an end of the range may go on beyond it."""
+        low, high = band.low / RPM, band.high / RPM
+        if band.high >= self.grid[-1] * (1.0 - SAME):
+            return phrase("{low:.0f} rpm and more", low=low)
+        at_low = band.low <= self.grid[0] * (1.0 + SAME)
+        return phrase("{high:.0f} rpm and less", high=high) if at_low else phrase("{low:.0f} to {high:.0f} rpm", low=low, high=high)
+
+    def allowed(self) -> list[tuple[float, float]]:
+        """[rpm] The ranges that were assessed and are in no band, in whole revolutions inside."""
+        found, begin = [], self.grid[0]
+        for band in sorted(self.bands, key=lambda one: float(one.low)):
+            if band.low > begin:
+                found.append((begin, band.low))
+            begin = max(begin, band.high)
+        found.append((begin, self.grid[-1]))
+        whole = [(math.ceil(low / RPM - 1e-6), math.floor(high / RPM + 1e-6)) for low, high in found]
+        return [(low, high) for low, high in whole if high > low]
+
+
+def speeds(scene: Scene, to_rest: Callable[[Sim], None]) -> Speeds:
+    """The speeds of [speeds], about the equilibrium at rest."""
+    values, settings = scene.fields_of("speeds"), scene.analyses["speeds"]
+    with scene.new_sim() as sim:
+        to_rest(sim)
+        bands, severity = sim.speeds(scene.orders(), scene.outputs("speeds"), [one["limit"] for one in settings["output"]], **values)
+    used: Any = _structs.SpeedsOptions(**values)
+    return Speeds(bands, severity, [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)])
+
+
+def speeds_tile(found: Speeds, plan: Operating) -> Tile:
+    """The verdict on the rotation of the scene. Never OK without excitation, for a rotation outside the range, or with orders that excite
+    nothing."""
+    title = phrase("Critical speeds")
+    if not found.assessed:
+        return Tile(title, phrase("not assessed"), NOTHING_EXCITES, NOT_ASSESSED)
+    low, high = found.grid[0] / RPM, found.grid[-1] / RPM
+    value = phrase("avoid {bands}", bands=found.avoid()) if found.bands else phrase("none found")
+    text = phrase("assessed between {low:.0f} and {high:.0f} rpm, severity at most {severity:.3g}. {linear}", low=low, high=high,
+                  severity=max(found.severity), linear=LINEAR)
+    planned = plan.rotation
+    if planned is None:
+        return Tile(title, value, phrase("the scene gives no rotation to compare with; {text}", text=text), NOT_ASSESSED)
+    rpm = planned / RPM
+    if not found.grid[0] <= planned <= found.grid[-1]:
+        return Tile(title, value, phrase("the rotation of {rpm:.4g} rpm is outside the range of [speeds]; {text}", rpm=rpm, text=text), NOT_ASSESSED)
+    inside = any(band.low <= planned <= band.high for band in found.bands)
+    near = any(band.low * (1.0 - NEAR_BAND) <= planned <= band.high * (1.0 + NEAR_BAND) for band in found.bands)
+    told = phrase("rotation {rpm:.4g} rpm; {text}", rpm=rpm, text=text)
+    silent = int(found.bands.report.silent_orders)
+    if silent:
+        told = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=told)
+    return Tile(title, value, told, OVER if inside else NEAR if near else NOT_ASSESSED if silent else OK)
+
+
+def speeds_figure(found: Speeds) -> Figure:
+    """Severity over rotary speed, bands shaded."""
+    shapes = [{"type": "rect", "x0": band.low / RPM, "x1": band.high / RPM, "yref": "paper", "y0": 0, "y1": 1,
+               "fillcolor": "#E69F00", "opacity": 0.35, "line": {"width": 0}} for band in found.bands]
+    return (phrase("Severity by rotary speed"), phrase("Severity 1 is the limit of an amplitude; shaded speeds are to be avoided. {linear}", linear=LINEAR), {
+        "data": [line([one / RPM for one in found.grid], found.severity, phrase("severity"), 0)], "layout": {
+            "shapes": shapes, "xaxis": {"title": {"text": phrase("rotary speed [rpm]")}},
+            "yaxis": {"title": {"text": phrase("severity [-]")}, "type": "log"}}})
+
+
+def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], output: Output) -> Tile:
+    """The lowest critical factor of [buckling]; never OK where none was found, or it was not confirmed."""
+    with scene.new_sim() as sim:
+        to_rest(sim)
+        with sim.buckling(**scene.fields_of("buckling")) as found:
+            output.note(found.status, phrase("buckling"))
+            factor = found.factors[0] if found.factors else None
+            confirmed = found.info.confirmed > 0
+    output.summary["buckling_factor"] = factor
+    title = phrase("Buckling, nonlinear")
+    if factor is None:
+        return Tile(title, phrase("none found"), phrase("no critical factor within the searched range"), NOT_ASSESSED)
+    text = (phrase("lowest critical factor of the loads in [buckling]; confirmed on the equilibrium path") if confirmed else
+            phrase("lowest critical factor of the loads in [buckling]; extrapolated, not confirmed"))
+    return Tile(title, phrase("factor {factor:.4g}", factor=factor), text,
+                OVER if factor < 1.0 else NEAR if factor < 1.0 / NEAR_SHARE else OK if confirmed else NOT_ASSESSED)

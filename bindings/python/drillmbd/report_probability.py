@@ -1,0 +1,137 @@
+"""The estimates of a study (drillmbd probability) in the report: probability, interval and margins of each failure."""
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+import pathlib
+from dataclasses import dataclass, field
+from typing import Any
+
+from .errors import Usage
+from .language import Phrase, phrase
+from .report_figures import Figure, line
+from .scene import Scene, saves
+from .scene.failure import KINDS
+from .unit_systems import Units
+from .verdict import NO_LIMIT, NOT_COMPUTED, Tile, shown
+
+ANY = "any failure"  #: as a study names it
+
+
+@dataclass
+class Outcome:
+    """One failure of a study."""
+    name: str
+    estimate: dict[str, Any]       #: as summary.json has it
+    unit: str = ""                 #: of limit and margins
+    limit: float = math.nan
+    margins: list[float] = field(default_factory=list)  #: of all samples that have one, rising
+
+    @property
+    def title(self) -> Phrase:
+        """Of tile and row."""
+        return phrase("Probability: any failure") if self.name == ANY else phrase("Probability: {failure}", failure=self.name)
+
+    @property
+    def value(self) -> Phrase:
+        """The probability; its upper bound where no sample failed, because 0 is not what such a study shows."""
+        if self.estimate["probability"] is None:
+            return phrase("not computed")
+        if not self.estimate["probability"] > 0.0:
+            return phrase("at most {high}", high=percent(self.estimate["high"]))
+        return phrase("{probability}", probability=percent(self.estimate["probability"]))
+
+    @property
+    def interval(self) -> Phrase:
+        """With its confidence and the counts behind it."""
+        one = self.estimate
+        return phrase("{confidence:g} % interval {low} to {high}; {failures} of {samples} samples fail, {lost} have no result", low=percent(one["low"]),
+                      high=percent(one["high"]), confidence=100.0 * one["confidence"], failures=one["failures"], samples=one["samples"], lost=one["lost"])
+
+    def margin_text(self, units: Units) -> str:
+        """The median and the smallest margin, and the limit they are counted from; a negative margin is a failure."""
+        if not self.margins:
+            return phrase("margins: not kept by this study")
+        middle, least = self.margins[len(self.margins) // 2], self.margins[0]
+        if not math.isfinite(self.limit):
+            return phrase("margin over its limit: median {median:.3g}, smallest {least:.3g}", median=middle, least=least)
+        return phrase("limit {limit}; margin: median {median}, smallest {least}", limit=shown(self.limit, self.unit, units),
+                      median=shown(middle, self.unit, units), least=shown(least, self.unit, units))
+
+
+@dataclass
+class Probability:
+    """A study of the scene."""
+    folder: str
+    outcomes: list[Outcome]
+
+    def tiles(self, units: Units) -> list[Tile]:
+        """One for each failure. A scene gives no probability that may be, so that none is OK."""
+        return [Tile(one.title, one.value, phrase("{interval}; {margin}", interval=one.interval, margin=one.margin_text(units)),
+                     NOT_COMPUTED if one.estimate["probability"] is None else NO_LIMIT) for one in self.outcomes]
+
+    def figures(self) -> list[Figure]:
+        """The share of samples over margin by limit, of failures whose limit is not 0."""
+        known = [one for one in self.outcomes if one.margins and one.limit]
+        if not known:
+            return []
+        data = []
+        for number, one in enumerate(known):
+            scale = abs(one.limit) if math.isfinite(one.limit) else 1.0
+            data.append(line([margin / scale for margin in one.margins], [(i + 1) / len(one.margins) for i in range(len(one.margins))],
+                             phrase("any failure") if one.name == ANY else one.name, number))
+        border = [{"type": "line", "x0": 0, "x1": 0, "yref": "paper", "y0": 0, "y1": 1, "line": {"color": "#D55E00", "dash": "dash"}}]
+        return [(phrase("Margins of the study"), phrase("Share of samples whose margin is at most so large; left of the dashed line they fail. Study in {folder}.",
+                                                        folder=self.folder), {
+            "data": data, "layout": {"shapes": border, "xaxis": {"title": {"text": phrase("margin over limit [-]")}},
+                                     "yaxis": {"title": {"text": phrase("share of samples [-]")}}}})]
+
+
+def percent(value: float | None) -> str:
+    """ "1.2 %" """
+    return "? %" if value is None else f"{100.0 * value:.3g} %"
+
+
+def read_probability(folder: str, scene: Scene) -> Probability:
+    """The study in the output folder of drillmbd probability. Raises Usage if it is none, or one of another scene."""
+    place = pathlib.Path(folder)
+    try:
+        summary = json.loads((place / "summary.json").read_text(encoding="utf-8"))
+        studied = (place / "scene.toml").read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise Usage(f"--probability {folder}: has no complete study: {error}; give the --output folder of drillmbd probability") from error
+    if summary.get("command") != "probability" or not summary.get("estimates"):
+        raise Usage(f"--probability {folder}: has no estimates of drillmbd probability; give the --output folder of a study of probabilities")
+    now = saves(scene)
+    if studied != now:
+        first = next(((a, b) for a, b in zip([*studied.splitlines(), ""], [*now.splitlines(), ""]) if a != b), ("", ""))
+        raise Usage(f"--probability {folder}: is a study of another scene; it has {first[0]!r} where this scene has {first[1]!r}; run drillmbd "
+                    "probability again with this scene")
+    margins = _margins(place / "samples.csv")
+    limits = {one.name: (KINDS[one.kind].unit, one.limit) for one in scene.failures}
+    scales = {name: abs(limit) or 1.0 for name, (_, limit) in limits.items()}
+    outcomes = []
+    for name, estimate in summary["estimates"].items():
+        if name in limits:
+            outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, [])))))
+        else:
+            each = [[margin / scales[one] for margin in margins[one]] for one in limits if one in margins]
+            whole = sorted(_known(map(min, zip(*each)))) if name == ANY and len(each) == len(limits) else []
+            outcomes.append(Outcome(name, estimate, margins=whole))
+    return Probability(os.path.basename(os.path.normpath(folder)), outcomes)
+
+
+def _known(values: Any) -> list[float]:
+    return [one for one in values if math.isfinite(one)]
+
+
+def _margins(path: pathlib.Path) -> dict[str, list[float]]:
+    """Of each failure, sample by sample; empty where the study keeps none."""
+    if not path.exists():
+        return {}
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    prefix = "margin of "
+    return {head[len(prefix):]: [float(row[i]) for row in rows[1:]] for i, head in enumerate(rows[0]) if head.startswith(prefix)}

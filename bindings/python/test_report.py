@@ -1,0 +1,464 @@
+"""Tests of the report: catalogue of its languages, the page in Chinese, plan and section of the hole, verdicts that are not given, limits
+for the crew, probability."""
+import ast
+import html
+import json
+import math
+import pathlib
+import re
+import unittest
+
+from shared_tests import DRIVES, HERE, SHORT_STRING, FolderTest, needs
+
+needs("numpy", "tomllib")
+
+import tomllib  # noqa: E402
+
+from drillmbd import answers, enums, language, report, report_hole, report_linear, scene, unit_systems, verdict  # noqa: E402
+from drillmbd._structs import SpeedBand  # noqa: E402
+from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
+from drillmbd.errors import Usage, status_text  # noqa: E402
+from drillmbd.frames import SpeedBands  # noqa: E402
+from drillmbd.operating import BIT_FRICTION, Operating  # noqa: E402
+
+PACKAGE = HERE / "drillmbd"
+LIBRARY = HERE.parents[1] / "lib"
+CATALOGUE = tomllib.loads((PACKAGE / "language_zh.toml").read_text(encoding="utf-8"))
+FIELDS = re.compile(r"\{[^{}]*\}")
+SCENE = """title = "演示钻孔"
+[environment]
+fluid_density = "1000 kg/m3"
+[hole]
+diameter = "94 mm"
+dip = "5 deg"
+azimuth = "90 deg"
+""" + SHORT_STRING.replace('diameter = 0\n', 'diameter = "94 mm"\nload = "2 kN"\n') + """[[programme]]
+name = "turning"
+term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+""" + DRIVES + """[limits]
+torque = "5 kN m"
+push = "100 kN"
+pull = "100 kN"
+yield_stress = "400 MPa"
+[run]
+end = "20 ms"
+step = "1 ms"
+static = true
+[fatigue]
+curve_stress = "100 MPa"
+slope = 4
+[speeds]
+speed_low = "30 rpm"
+speed_high = "300 rpm"
+points = 30
+[[speeds.order]]
+order = 1
+[[speeds.output]]
+place = {part = "main", pipe = 4}
+component = "z"
+limit = "1 m"
+"""
+FATIGUE = re.compile(r"\[fatigue\].*?(?=\[speeds\])", re.DOTALL)
+STUDY = """[variability]
+seed = 3
+samples = 12
+question = "static"
+[[variability.scatter]]
+name = "friction"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+distribution = "uniform"
+low = 0.2
+high = 0.4
+[[failure]]
+name = "pull"
+kind = "rig-pull"
+limit = "1 kN"
+"""
+#: Words of the Chinese page that no catalogue translates: units, names of programs, keys and people, axes.
+LATIN = set("kN N MPa kPa Pa m mm s ms rad deg rpm h kg drillmbd rig toml Python Pessier Fear S main run speeds buckling fatigue end psi lbf ft in lbm ppg "
+            "klbf hp kft x L load bit feed head turning string pipes static report PNG e string out".split())
+
+
+def phrases():
+    """File and call of each sentence that goes through the catalogue."""
+    for path in sorted(PACKAGE.rglob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        names = {one.asname or one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "language" for one in node.names}
+        names |= {"phrase"} if path.name == "language.py" else set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in names & {"phrase", "joined"}:
+                yield path.name, node
+
+
+def sources():
+    """Literals of messages, values replaced by NUL, in the C library and in the package."""
+    for path in LIBRARY.rglob("*.[ch]"):
+        for found in re.finditer(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', path.read_text(encoding="utf-8")):
+            text = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', found[0])).replace("\\n", "\n")
+            yield re.sub(r"%[-+0-9.]*[a-z]", "\0", text.replace("%%", "%"))
+    for path in PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                yield "".join(one.value if isinstance(one, ast.Constant) else "\0" for one in node.values)
+
+
+class CatalogueTest(unittest.TestCase):
+    def test_every_sentence_is_there_and_used(self):
+        wanted = set()
+        for file, call in phrases():
+            self.assertIsInstance(call.args[0], ast.Constant, f"{file}:{call.lineno}: the sentence must be a literal")
+            wanted.add(call.args[0].value)
+        self.assertGreater(len(wanted), 150)
+        self.assertEqual(wanted - set(CATALOGUE["phrases"]), set(), "missing in language_zh.toml")
+        self.assertEqual(set(CATALOGUE["phrases"]) - wanted, set(), "unused in language_zh.toml")
+
+    def test_fields_are_those_of_the_english(self):
+        for part in CATALOGUE.values():
+            for english, other in part.items():
+                self.assertEqual(sorted(FIELDS.findall(english)), sorted(FIELDS.findall(other)), english)
+                self.assertTrue(other.strip(), english)
+
+    def test_fields_have_values(self):
+        for file, call in phrases():
+            if call.func.id == "phrase":
+                fields = set(re.findall(r"\{(\w+)", call.args[0].value))
+                self.assertEqual(fields, {one.arg for one in call.keywords}, f"{file}:{call.lineno}")
+
+    def test_translations_are_chinese(self):
+        """Outside fields, keys and names there is no English word."""
+        for part in CATALOGUE.values():
+            for english, other in part.items():
+                left = set(re.findall(r"[A-Za-z]+", re.sub(r"\{[^{}]*\}|\[+[\w. ]*\]+|\\?\"[^\"]*\"", " ", other)))
+                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size".split()) | {"load"}
+                self.assertEqual(left - allowed, set(), (english, other))
+
+    def test_messages_are_those_of_the_library(self):
+        known = [*sources(), *map(status_text, enums.Status)]
+        for template in CATALOGUE["messages"]:
+            text = FIELDS.sub("\0", template)
+            self.assertTrue(any(text in one for one in known), template)
+
+    def test_every_status_is_there(self):
+        for status in enums.Status:
+            self.assertIn(status_text(status), CATALOGUE["messages"])
+
+    def test_names_of_operations_are_those_of_the_library(self):
+        self.assertEqual(list(report.OPERATION_NAMES), [operation_name(kind) for kind in OPERATIONS])
+
+
+class LanguageTest(unittest.TestCase):
+    def test_english_is_the_sentence(self):
+        self.assertEqual(language.phrase("factor {factor:.4g}", factor=1.23456), "factor 1.235")
+        self.assertEqual(language.ENGLISH(language.phrase("OK")), "OK")
+
+    def test_chinese(self):
+        to = language.Language("zh")
+        tile = verdict.Tile(language.phrase("Thrust at the rig"), "5 kN", language.phrase("no damage"), verdict.OK)
+        self.assertEqual(to(tile.line()), "钻机推力：5 kN，合格（无损伤）")
+        self.assertEqual(to(language.joined(", ", [language.phrase("pick-up"), "x"])), "上提、x")
+        self.assertEqual(to("名 name"), "名 name")
+        self.assertEqual(to(language.Foreign("the iteration did not converge")), "迭代不收敛")
+        self.assertEqual(to(language.Foreign("never seen 5")), "程序信息（英文原文）：never seen 5")
+        self.assertEqual(to.lines("  rigid parts                   97\n"), "  刚性部件                      97\n")
+
+    def test_units_are_converted_in_every_language(self):
+        field = unit_systems.Units("field")
+        said = field.sentence(language.phrase("surveyed length {length:.4g} m", length=30.48))
+        self.assertEqual((said, language.Language("zh")(said)), ("surveyed length 100 ft", "测斜长度 100 ft"))
+
+
+class HoleTest(unittest.TestCase):
+    def view(self, dip="5 deg", azimuth="90 deg", units="si"):
+        made = scene.loads(SCENE.replace('"5 deg"', f'"{dip}"').replace('"90 deg"', f'"{azimuth}"'))
+        with made.new_sim() as sim:
+            sim.static(**made.fields_of("static"))
+            found = sim.profile(made.names["main"], made.pipes["main"])
+        return report_hole.hole_view(made, found, unit_systems.Units(units)), found
+
+    def test_place_of_the_end(self):
+        """A straight hole: the end is length times cosine of the dip along its azimuth, length times sine above; nothing to the side."""
+        for azimuth in (0.0, 90.0, 200.0):
+            view, found = self.view(azimuth=f"{azimuth:g} deg")
+            length = float(found.depth.max())
+            self.assertAlmostEqual(math.degrees(view.azimuth) % 360.0, azimuth, 6)
+            for value, wanted in zip(view.course[-1], (length * math.cos(math.radians(5.0)), 0.0, length * math.sin(math.radians(5.0)))):
+                self.assertAlmostEqual(value, wanted, 6)
+            self.assertAlmostEqual(view.dips[0], 5.0, 6)
+
+    def test_units(self):
+        si, field = self.view()[0], self.view(units="field")[0]
+        self.assertAlmostEqual(field.course[-1][0] / si.course[-1][0], 1 / 0.3048, 9)
+        self.assertAlmostEqual(max(field.force) / max(si.force), 0.3048 / 4.4482216152605, 9)
+        self.assertEqual((field.length_unit, field.force_unit), ("ft", "lbf/ft"))
+
+    def test_azimuth_and_sides(self):
+        """East of north, seen from above, is to the right: north is x, west is y."""
+        self.assertAlmostEqual(report_hole.azimuth_of((0.0, -3.0, 0.0), 3.0, 0.0), 0.5 * math.pi)
+        self.assertEqual(report_hole.azimuth_of((0.0, 0.0, -50.0), 50.0, 1.25), 1.25)
+        along, right, up = report_hole.turned((10.0, -1.0, 2.0), 0.0, 1.0)
+        self.assertEqual((along, right, up), (10.0, 1.0, 2.0))
+
+    def test_both_views_have_one_scale(self):
+        view, _ = self.view()
+        for width in (960.0, 340.0):
+            drawn = report_hole.Drawing(view, width, language.ENGLISH).svg()
+            course = [[tuple(map(float, one.split(","))) for one in points.split()]
+                      for points in re.findall(r'points="([^"]*)" fill="none" stroke="#cccccc"', drawn)]
+            self.assertEqual(len(course), 2)
+            (plan, section) = course
+            self.assertAlmostEqual(plan[-1][0] - plan[0][0], section[-1][0] - section[0][0], 1)
+            rise = (section[0][1] - section[-1][1]) / (section[-1][0] - section[0][0])
+            self.assertAlmostEqual(rise, math.tan(math.radians(5.0)), 2)
+            places = [float(one) for one in re.findall(r'[ "]x="([-\d.]+)"', drawn)] + [point[0] for one in course for point in one]
+            self.assertTrue(all(0.0 <= place <= width for place in places), places)
+
+    def test_north_arrow(self):
+        """Along azimuth 90 the hole goes to the right of the page and north is up; along 0 north is to the right."""
+        for azimuth, wanted in (("90 deg", (0.0, -1.0)), ("0 deg", (1.0, 0.0)), ("200 deg", (math.cos(math.radians(200)), -math.sin(math.radians(200))))):
+            drawn = report_hole.Drawing(self.view(azimuth=azimuth)[0], 960.0, language.ENGLISH).svg()
+            tail, tip = (tuple(map(float, one.split(","))) for one in re.search(r'points="([^"]*)"[^>]*stroke-width="1.6"', drawn)[1].split())
+            length = math.dist(tail, tip)
+            for i in range(2):
+                self.assertAlmostEqual((tip[i] - tail[i]) / length, wanted[i], 2)
+
+    def test_upright_hole(self):
+        drawn = report_hole.Drawing(self.view(dip="-90 deg")[0], 340.0, language.ENGLISH).svg()
+        self.assertIn("collar, dip -90.0°", drawn)
+        self.assertNotIn("nan", drawn)
+
+    def test_contact_force_has_its_class(self):
+        """Thicker and darker with the force, also without colours; the string that lies on the wall bears its weight in the mud."""
+        light = [0.2126 * int(colour[1:3], 16) + 0.7152 * int(colour[3:5], 16) + 0.0722 * int(colour[5:], 16) for _, colour in report_hole.CLASSES[1:]]
+        self.assertTrue(all(a > b + 30.0 for a, b in zip(light, light[1:])), light)
+        self.assertEqual([width for width, _ in report_hole.CLASSES], sorted({width for width, _ in report_hole.CLASSES}))
+        view, found = self.view()
+        self.assertEqual(len(view.force), 8)
+        self.assertGreater(max(view.force), 0.0)
+        self.assertAlmostEqual(max(view.force), float(max(found["normal_force"])), 9)
+        self.assertEqual(view.class_of(0.0), 0)
+        self.assertEqual([view.class_of(view.step * (i + 0.5)) for i in range(4)], [1, 2, 3, 4])
+        self.assertLessEqual(max(view.force), 4.0 * view.step)
+
+
+class VerdictTest(unittest.TestCase):
+    """Each all-clear has an input for which it is not given."""
+
+    def speeds(self, bands=(), severity=0.5, rotation=10.0, silent=0):
+        found = SpeedBands()
+        for low, high in bands:
+            found.append(SpeedBand(low=low, high=high))
+        found.report.silent_orders = silent
+        made = report_linear.Speeds(found, [severity] * 3, [5.0, 15.0, 25.0])
+        return made, report_linear.speeds_tile(made, Operating(rotation=rotation))
+
+    def test_speeds(self):
+        self.assertEqual(self.speeds()[1].verdict, "OK")
+        self.assertEqual(self.speeds(severity=0.0)[1].verdict, "NOT ASSESSED")
+        self.assertEqual(self.speeds(rotation=None)[1].verdict, "NOT ASSESSED")
+        self.assertEqual(self.speeds(rotation=30.0)[1].verdict, "NOT ASSESSED")
+        self.assertEqual(self.speeds(silent=1)[1].verdict, "NOT ASSESSED")
+        self.assertEqual(self.speeds(bands=[(9.0, 11.0)])[1].verdict, "OVER")
+        self.assertEqual(self.speeds(bands=[(10.5, 11.0)])[1].verdict, "NEAR LIMIT")
+        self.assertEqual(self.speeds(bands=[(20.0, 22.0)])[1].verdict, "OK")
+
+    def test_speeds_that_may_be(self):
+        """Whole revolutions per minute outside of all bands, inside the range."""
+        rpm = math.pi / 30.0
+        self.assertEqual(self.speeds()[0].allowed(), [(48, 238)])
+        self.assertEqual(self.speeds(bands=[(100.2 * rpm, 120.7 * rpm), (200.0 * rpm, 25.0)])[0].allowed(), [(48, 100), (121, 200)])
+        self.assertEqual(self.speeds(bands=[(5.0, 25.0)])[0].allowed(), [])
+        self.assertEqual(self.speeds(bands=[(200.0 * rpm, 25.0)])[0].avoid(), "200 rpm and more")
+
+    def test_demand(self):
+        def told(limit, value, failed=()):
+            demand = verdict.Demand("x", "N", limit, failed=list(failed))
+            if value is not None:
+                demand.add(value, "s")
+            return demand.tile().verdict
+        self.assertEqual([told(10.0, 5.0), told(10.0, 9.0), told(10.0, 11.0)], ["OK", "NEAR LIMIT", "OVER"])
+        self.assertEqual([told(None, 5.0), told(10.0, None), told(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
+
+    def study(self, text, **more):
+        made = report.Study(scene.loads(text), answers.Output(None, "x.toml", scene.loads(text), "report", True))
+        for name, value in more.items():
+            setattr(made, name, value)
+        made.ask()
+        return made, {tile.title: tile for tile in made.tiles}
+
+    def test_page_of_a_scene(self):
+        """The scene has every excitation and load, so that its values are compared; torque of the bit by hand."""
+        made, tiles = self.study(SCENE)
+        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress", "Buckling in the hole", "Critical speeds"):
+            self.assertEqual(tiles[title].verdict, "OK", tiles[title])
+        self.assertEqual(made.plan.torque_on_bit, BIT_FRICTION * 2000.0 * 0.094 / 3.0)
+        self.assertIn("bit torque 31.33 N m, estimated from the bit load", made.headline)
+        self.assertEqual([row[0] for row in made.rows], ["Thrust at the rig", "Pull at the rig", "Torque at the rig", "Rotary speed", "Load on the bit"])
+        self.assertEqual(made.rows[0][1:3], ("100 kN", tiles["Thrust at the rig"].value))
+        self.assertEqual(made.rows[4][1], "2 kN: more is not assessed")
+
+    def test_buckling_in_the_hole(self):
+        self.assertEqual(self.study(SCENE.replace('"2 kN"', '"900 kN"'))[1]["Buckling in the hole"].verdict, "OVER")
+        self.assertEqual(self.study(SCENE.replace('load = "2 kN"\n', ''))[1]["Buckling in the hole"].verdict, "NOT ASSESSED")
+
+    def test_without_a_run(self):
+        """No analysis has the load of the bit in the stress then."""
+        text = FATIGUE.sub("", SCENE.replace('end = "20 ms"\n', ""))
+        tiles = self.study(text)[1]
+        self.assertEqual((tiles["Von Mises stress"].verdict, tiles["Run in time"].verdict), ("NOT ASSESSED", "NOT ASSESSED"))
+        with_strength = self.study(text.replace('eccentricity = "1 mm"', 'eccentricity = "1 mm"\nyield_strength = "500 MPa"'))[1]
+        self.assertEqual(with_strength["Von Mises stress"].verdict, "OK")
+
+    def test_rock_law(self):
+        """The torque of a bit that cuts rock is not estimated; without a run its load is not known."""
+        text = FATIGUE.sub("", SCENE.replace('load = "2 kN"', 'load = "2 kN"\nrock_law = "rate"'))
+        made, tiles = self.study(text.replace('end = "20 ms"\n', ""))
+        self.assertFalse(made.plan.estimated)
+        self.assertNotIn("estimated", made.headline)
+        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig", "Von Mises stress")], ["NOT ASSESSED"] * 3)
+        made, tiles = self.study(text)
+        self.assertFalse(made.plan.estimated)
+        self.assertNotIn("rock law", tiles["Torque at the rig"].text)
+
+    def test_bit_without_a_diameter(self):
+        """Its torque is not estimated, so that torque and stress are not cleared."""
+        made, tiles = self.study(SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload'))
+        self.assertFalse(made.plan.estimated)
+        self.assertEqual([tiles[name].verdict for name in ("Thrust at the rig", "Torque at the rig", "Von Mises stress")],
+                         ["OK", "NOT ASSESSED", "NOT ASSESSED"])
+
+    def test_stopped_run(self):
+        """After Ctrl-C nothing that needs the whole run is cleared."""
+        made = report.Study(scene.loads(SCENE), answers.Output(None, "x.toml", scene.loads(SCENE), "report", True))
+
+        def stopped(sim):
+            if sim.statistics().steps:
+                raise KeyboardInterrupt
+            return shape(sim)
+        shape, made._shape = made._shape, stopped
+        made.ask()
+        self.assertEqual({tile.verdict for tile in made.tiles if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
+
+    def test_fatigue(self):
+        endless = SCENE.replace('slope = 4', 'slope = 4\nendurance = "90 MPa"')
+        self.assertEqual(self.study(endless)[1]["Fatigue"].verdict, "OK")
+        clipped = endless.replace('endurance = "90 MPa"', 'endurance = "90 MPa"\nstress_range = "1 kPa"')
+        self.assertNotEqual(self.study(clipped)[1]["Fatigue"].verdict, "OK")
+        self.assertEqual(self.study(SCENE)[1]["Fatigue"].verdict, "NO LIMIT GIVEN")
+
+
+class PageTest(FolderTest):
+    SCENE = SCENE
+
+    def setUp(self):
+        needs("plotly")
+        super().setUp()
+
+    def page(self, *more, text=None, name="out"):
+        if text is not None:
+            self.scene = self.write("rig.toml", text)
+        out = self.ask("report", self.scene, "-o", self.folder / name, *more)
+        return out, (self.folder / name / "report.html").read_text(encoding="utf-8"), json.loads((self.folder / name / "summary.json").read_text())
+
+    @staticmethod
+    def words(page):
+        """The visible text."""
+        return html.unescape(re.sub(r"<script.*?</script>|<style.*?</style>|<[^>]*>", "\n", page, flags=re.DOTALL))
+
+    @staticmethod
+    def labels(value):
+        """Texts of the figures."""
+        if isinstance(value, dict):
+            for key, one in value.items():
+                if isinstance(one, str) and key in ("text", "name", "label", "prefix"):
+                    yield one
+                elif key not in ("frames",):
+                    yield from PageTest.labels(one)
+        elif isinstance(value, list):
+            for one in value:
+                yield from PageTest.labels(one)
+
+    def assertChinese(self, text):
+        self.assertRegex(text, "[\u4e00-\u9fff]")
+        left = {one for one in re.findall(r"[A-Za-z]+", re.sub(r"\b[0-9a-f]{16}\b|\d+\.\d+\.\d+|https?:\S+|\{[^{}]*\}", " ", text))} - LATIN
+        self.assertEqual(left, set(), text[:3000])
+
+    def test_whole_page_in_chinese(self):
+        out, page, summary = self.page("--language", "zh")
+        out = re.sub(r"/\S*", "", out)
+        self.assertIn('<html lang="zh-CN">', page)
+        self.assertChinese(out)
+        self.assertChinese(self.words(page))
+        figures = list(self.labels(json.loads(re.search(r'id="figures">(.*?)</script>', page)[1])))
+        self.assertGreater(len(figures), 30)
+        self.assertChinese("\n".join(figures))
+        self.assertIn("钻机推力", page)
+        self.assertEqual(summary["verdicts"][0]["verdict"], "OK")  # for programs: English
+        self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
+
+    def test_chinese_with_failures_and_other_units(self):
+        """Analyses that fail or are left out, notes, another system of units: nothing of it is English, but what the library itself wrote."""
+        text = SCENE.replace('load = "2 kN"\n', '').replace('end = "20 ms"\n', '')
+        text = re.sub(r"\[speeds\].*", "", FATIGUE.sub("", text), flags=re.DOTALL).replace('push = "100 kN"\n', "")
+        for system in ("field", "mine"):
+            out, page, _ = self.page("--language", "zh", "--units", system, text=text, name=system)
+            self.assertChinese(self.words(page))
+            self.assertIn("未评估", out)
+        self.assertIn("未给出：开钻前必须询问", page)
+
+    def test_english_page(self):
+        _, page, _ = self.page()
+        self.assertIn('<html lang="en">', page)
+        self.assertNotRegex(page.split('id="plotly"')[0].replace("演示钻孔", ""), "[\u4e00-\u9fff]")
+        for part in ("What must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4", "only 30 to 300 rpm", "dip +5.0 deg"):
+            self.assertIn(part, page)
+
+    def test_failing_analysis_says_why_in_the_language(self):
+        study = report.Study(scene.load(self.scene), answers.Output(None, "x.toml", scene.load(self.scene), "report", True))
+        study._speeds = lambda: (_ for _ in ()).throw(ArithmeticError("no solution"))
+        study.ask()
+        tile = next(one for one in study.tiles if one.title == "Critical speeds")
+        self.assertEqual((tile.verdict, tile.text), ("NOT COMPUTED", "no solution"))
+        self.assertIn("程序信息（英文原文）：no solution", language.Language("zh")(tile.text))
+
+    def test_probability(self):
+        needs("h5py", "scipy", "openturns")
+        self.scene = self.write("rig.toml", SCENE + STUDY)
+        self.ask("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q")
+        studied = json.loads((self.folder / "study" / "summary.json").read_text(encoding="utf-8"))["estimates"]["pull"]
+        out, page, summary = self.page("--probability", self.folder / "study")
+        tiles = {one["title"]: one for one in summary["verdicts"]}
+        tile = tiles["Probability: pull"]
+        self.assertEqual(tile["verdict"], "NO LIMIT GIVEN")
+        self.assertIn(f"{studied['failures']} of 12 samples fail, 0 have no result", tile["text"])
+        self.assertIn(f"95 % interval {100 * studied['low']:.3g} % to {100 * studied['high']:.3g} %", tile["text"])
+        with open(self.folder / "study" / "samples.csv", encoding="utf-8") as file:
+            heads, *rows = (line.strip().split(",") for line in file)
+        margins = sorted(float(row[heads.index("margin of pull")]) for row in rows)
+        self.assertIn(f"smallest {verdict.shown(margins[0], 'N')}", tile["text"])
+        self.assertIn(f"median {verdict.shown(margins[6], 'N')}", tile["text"])
+        self.assertIn("Margins of the study", page)
+        self.assertIn("Probability: any failure", out)
+        self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language", "zh")[1]).replace("pull", "").replace("study", ""))
+
+    def test_probability_of_another_scene(self):
+        needs("h5py", "scipy", "openturns")
+        self.scene = self.write("rig.toml", SCENE + STUDY)
+        self.ask("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q", "--samples", "2")
+        other = self.write("other.toml", (SCENE + STUDY).replace('"2 kN"', '"3 kN"'))
+        told = self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
+        self.assertIn("is a study of another scene", told)
+        self.assertIn("no complete study", self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "none", status=2))
+        before = (self.folder / "study" / "summary.json").read_bytes()
+        self.assertIn("give another --output", self.ask("report", self.scene, "-o", self.folder / "study", "--probability", self.folder / "study", status=2))
+        self.assertEqual((self.folder / "study" / "summary.json").read_bytes(), before)
+
+    def test_no_failure_seen_is_no_zero(self):
+        from drillmbd.report_probability import Outcome
+        one = Outcome("x", {"probability": 0.0, "low": 0.0, "high": 0.26, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 0})
+        self.assertEqual(one.value, "at most 26 %")
+        lost = Outcome("x", {"probability": None, "low": 0.0, "high": 1.0, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 12})
+        self.assertEqual(lost.value, "not computed")
+
+
+if __name__ == "__main__":
+    unittest.main()
