@@ -18,7 +18,8 @@ def write(sim: Sim, output: Output, name: str, depths: Sequence[float], trip_spe
         return
     rows = [sim.hydraulics(depth, trip_speed) for depth in depths]
     columns = {f"{key}{_suffix(unit)}": [_or_none(getattr(row, key)) for row in rows] for key, unit in FIELDS.items()}
-    output.summary.setdefault("hydraulics", {})[name] = {"trip_speed_m_s": trip_speed, **columns}
+    told: dict[str, Any] = {"trip_speed_m_s": trip_speed, **columns}
+    output.summary.setdefault("hydraulics", {})[name] = told
     output.table(f"hydraulics_{file_name(name)}.csv", [f"{key.replace('_', ' ')} [{unit or '-'}]" for key, unit in FIELDS.items()],
                  [[getattr(row, key) for key in FIELDS] for row in rows])
     output.say(f"{name}, mud at {output.units.text(rows[-1].depth, 'm')}: {_sentence(rows[-1], output)}")
