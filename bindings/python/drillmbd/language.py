@@ -37,7 +37,14 @@ class Listed(str):
 
 
 class Foreign(str):
-    """A message that the library or the reader of scene files wrote in English."""
+    """A message that the library or the reader of scene files wrote in English, with numbers in SI."""
+    original: str
+    units: Any  # into which numbers are converted, or None
+
+    def __new__(cls, text: str, units: Any = None) -> Foreign:
+        self = super().__new__(cls, units.sentence(text) if units is not None else text)
+        self.original, self.units = text, units
+        return self
 
 
 def phrase(template: str, /, **values: Any) -> Phrase:
@@ -74,10 +81,12 @@ class Language:
             return self.phrases.get(text.separator, text.separator).join(self(part) for part in text.parts)
         return self._foreign(text) if isinstance(text, Foreign) else text
 
-    def _foreign(self, text: str) -> str:
+    def _foreign(self, text: Foreign) -> str:
         """By the first pattern that fits; else the English original, which is said to be one."""
-        found = self._fitting(text)
-        return found if found is not None else self(phrase("{message}", message=str.__str__(text))) if text.strip() else str(text)
+        found = self._fitting(text.original)
+        if found is not None:
+            return str(text.units.sentence(found)) if text.units is not None else found
+        return self(phrase("{message}", message=str.__str__(text))) if text.strip() else str(text)
 
     def _fitting(self, text: str) -> str | None:
         for pattern, template in self.patterns:

@@ -19,7 +19,7 @@ from .plots import COLOURS
 from .profile import Profile, values_of
 from .questions import columns_of
 from .report_basis import Row, assumptions, headline, limits_at_the_rig
-from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded
+from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded, value_axis
 from .report_hole import HoleView, hole_view
 from .report_linear import Speeds, buckling_tile, speeds, speeds_figure, speeds_tile
 from .report_page import page
@@ -54,9 +54,10 @@ class Study:
         self.rows: list[Row] = []                    # limits at the rig
         self.hole: HoleView | None = None
         self.space: InSpace | None = None            # as at the end of the run
-        self.check, self.hash, self.headline = "", "", headline(self.string, self.plan, self.units)
+        self.check, self.hash = "", ""
+        self.headline: str = headline(self.string, self.plan, self.units)
         self.understood: list[str] = []
-        self.made = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
+        self.made: str = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
                            file=output.summary["scene"])
 
     def ask(self) -> None:
@@ -170,7 +171,7 @@ class Study:
                     for number, name in enumerate(OPERATION_NAMES)]
             shapes = self._limit_lines({limit: -factor if limit == "push" else factor for limit in limits}, data)
             self.figures.append((title, phrase("Soft string in steady motion, {load} while drilling and sliding; dashed: limits of the rig.", load=load), {
-                "data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
+                "data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes, "yaxis": {
                     "title": {"text": phrase("measured depth of the bit [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}))
         self.output.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
                                               for name, row in zip(OPERATION_NAMES, found.rows[-1])}
@@ -190,7 +191,7 @@ class Study:
     def _yield_strength(self) -> float:
         """[Pa] of all pipes; NaN where they differ or one has none: then no stress follows from the share."""
         given = {pipes.get("yield_strength", 0.0) for name, arguments in self.scene.model.calls if name == "add_pipes" for pipes in arguments[1:2]}
-        return given.pop() if len(given) == 1 and min(given) > 0.0 else math.nan
+        return float(min(given)) if len(given) == 1 and min(given) > 0.0 else math.nan
 
     def _confinement(self, rows: Any) -> None:
         """Largest share of the buckling loads of a pipe confined by its hole, in all operations."""
@@ -229,7 +230,7 @@ class Study:
                 for number, (operation, found) in enumerate(self.operations.items())
                 for values in [getattr(found, name) if limit == "push" else abs(found.torque)]]
         shapes = self._limit_lines({limit: -factor if limit == "push" else factor}, data)
-        return {"data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
+        return {"data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes, "yaxis": {
             "title": {"text": phrase("measured depth [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}
 
     # ---- Linear analyses --------------------------------------------------------------------------------------------
@@ -336,7 +337,7 @@ class Study:
                 name, factor = self.units.head(head), self.units.factor_of(head)
                 self.figures.append((name.split(" [")[0], phrase("In the run."), {
                     "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
-                    "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": {"title": {"text": name}}}}))
+                    "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
 
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
         found = sim.profile(self.part, self.pipes, 1)

@@ -74,7 +74,7 @@ def assumptions(scene: Scene, units: Units, hash_of_state: str) -> list[tuple[st
 
 
 def _mud(calls: Any, units: Units) -> list[tuple[str, str]]:
-    given = next((arguments[0] for name, arguments in calls if name == "set_environment"), {})
+    given: dict[str, Any] = next((arguments[0] for name, arguments in calls if name == "set_environment"), {})
     environment: Any = _structs.EnvironmentDef(**{key: value for key, value in given.items() if key in ("fluid_density", "flow_rate")})
     if not environment.fluid_density:
         return [(phrase("mud"), phrase("none: the string is in air"))]

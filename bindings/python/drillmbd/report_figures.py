@@ -13,12 +13,20 @@ from .scene import Scene
 from .unit_systems import Units
 
 Figure = Tuple[str, str, Dict[str, Any]]  # title, text, plotly
+WIDEST, HIGHEST, SHORT = 3.0, 1.7, 0.15  #: of the box in space, in the units of the eye
+NOISE = 1e-9             #: of a value in the unit of its figure: smaller ones are rounding errors
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
 def rounded(values: Any) -> list[float]:
     """Six digits are enough to draw."""
     return [float(f"{float(value):.6g}") for value in values]
+
+
+def value_axis(title: str, *rows: Any) -> dict[str, Any]:
+    """An axis of values; rounding errors about 0 are drawn as 0."""
+    largest = max((abs(float(one)) for row in rows for one in row if math.isfinite(one)), default=0.0)
+    return {"title": {"text": title}, **({"range": [-1, 1]} if largest < NOISE else {})}
 
 
 def line(x: Any, y: Any, name: str, number: int) -> dict[str, Any]:
@@ -75,10 +83,8 @@ def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[s
         for scale in (factor, 1.0)]} for number, time in enumerate(times)] if len(times) > 1 else []
     axes = {"x": phrase("north [{unit}]", unit=units.unit("m")), "y": phrase("west [{unit}]", unit=units.unit("m")),
             "z": phrase("height [{unit}]", unit=units.unit("m"))}
-    layout: dict[str, Any] = {"scene": {"aspectmode": "data", "camera": {
-        "eye": {"x": -0.2, "y": -2.2, "z": 1.0}}, **{f"{name}axis": {"title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 11},
-                                                                       "nticks": 6} for name, title in axes.items()}},
-                              "height": 560, "showlegend": True, "margin": {"l": 0, "r": 0, "t": 50, "b": 20}, "legend": {"y": -0.32, "yanchor": "top"}}
+    layout: dict[str, Any] = {"scene": {"camera": {"eye": _eye(axis)}, **_box(space, axes)}, "height": 560, "showlegend": True,
+                              "margin": {"l": 0, "r": 0, "t": 50, "b": 20}, "legend": {"y": -0.32, "yanchor": "top"}}
     tube = len(data) - 3
     layout["updatemenus"] = [_buttons([(phrase("drawn larger"), "restyle", [{"visible": [True, False, True] + [True] * tube}]),
                                        (phrase("to scale"), "restyle", [{"visible": [False, True, True] + [False] * tube}])], 0.0)]
@@ -90,6 +96,26 @@ def picture_in_space(space: InSpace, times: list[float], units: Units) -> dict[s
         layout["sliders"] = [{"currentvalue": {"prefix": phrase("time [s]: ")}, "x": 0.02, "len": 0.96, "steps": [
             {"label": one["name"], "method": "animate", "args": [[one["name"]], at_once]} for one in frames]}]
     return {"data": data, "layout": layout, "frames": frames}
+
+
+def _box(space: InSpace, titles: dict[str, Phrase]) -> dict[str, Any]:
+    """Axes to one scale around string and hole, as large as the picture shows them from the eye."""
+    everything = need("numpy").concatenate([space.axis, *(space.drawn(number, space.factor) for number in range(len(space.shapes)))])
+    room = 1.1 * space.factor * space.radius
+    low, high = everything.min(axis=0) - room, everything.max(axis=0) + room
+    size = [max(float(one), 1e-3 * float(max(high - low))) for one in high - low]
+    scale = min(WIDEST / max(size[:2]), HIGHEST / size[2])
+    axes = {f"{name}axis": {"title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 11}, "nticks": 6 if size[i] > SHORT * max(size) else 2,
+                            "range": rounded([low[i], low[i] + size[i]])} for i, (name, title) in enumerate(titles.items())}
+    return {"aspectmode": "manual", "aspectratio": {name: scale * one for name, one in zip("xyz", size)}, **axes}
+
+
+def _eye(axis: Any) -> dict[str, float]:
+    """From the right of the hole, seen from its collar, and a little above, so that it lies across the picture."""
+    north, west = (float(axis[-1][i] - axis[0][i]) for i in (0, 1))
+    away = math.hypot(north, west)
+    north, west = (north / away, west / away) if away > 0.0 else (1.0, 0.0)
+    return {"x": 2.2 * west - 0.2 * north, "y": -2.2 * north - 0.2 * west, "z": 1.0}
 
 
 def _buttons(buttons: list[tuple[Phrase, str, list[Any]]], x: float) -> dict[str, Any]:

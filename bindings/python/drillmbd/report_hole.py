@@ -162,7 +162,7 @@ class Drawing:
                           'stroke="#000" stroke-width="2"/>')
         self.parts.append(f'<circle cx="{course[-1][0]:.1f}" cy="{course[-1][1]:.1f}" r="{0.4 * size:g}" fill="#000"/>')
         marks(at, upper, lower)
-        return lower + 2.6 * size
+        return lower + (2.6 if component == 2 or self.width > 500.0 else 4.0) * size
 
     def _string(self, places: list[Place]) -> None:
         """Each pipe from half-way to its neighbour before to half-way to the one behind, by the class of its force; equal ones as one line."""
@@ -206,7 +206,7 @@ class Drawing:
         if abs(end_x - x) > 8.0 * size:
             self.parts.append(_text(end_x, end_y - end_above, self.to(phrase("end, {depth:.5g} {unit}", depth=view.depths[-1], unit=view.length_unit)),
                                     "end"))
-        self._north(self.width - 3.0 * size, 1.7 * size if self.width > 500.0 else lower + 1.9 * size)
+        self._north(self.width - 2.2 * size, 2.3 * size if self.width > 500.0 else lower + 2.4 * size)
 
     def _section_marks(self, at: Callable[[Any], Place], upper: float, lower: float) -> None:
         size, view = self.size, self.view
@@ -230,12 +230,12 @@ class Drawing:
         """The arrow to the north: along the views by cos A, to the left of them (upward) by sin A."""
         size, azimuth = self.size, self.view.azimuth
         dx, dy = math.cos(azimuth), -math.sin(azimuth)
-        length = 1.1 * size
+        length = 0.9 * size
         tip, tail = (x + length * dx, y + length * dy), (x - length * dx, y - length * dy)
         head = [(tip[0] - 0.5 * size * dx - 0.35 * size * s * dy, tip[1] - 0.5 * size * dy + 0.35 * size * s * dx) for s in (1.0, -1.0)]
         points = " ".join(f"{a:.1f},{b:.1f}" for a, b in (tip, *head))
         self.parts.append(_line([tail, tip], "#000", 1.6) + f'<polygon points="{points}" fill="#000"/>')
-        self.parts.append(_text(tail[0] - 0.8 * size * dx, tail[1] - 0.8 * size * dy + 0.35 * size, self.to(phrase("N")), "middle",
+        self.parts.append(_text(tip[0] + 0.75 * size * dx, tip[1] + 0.75 * size * dy + 0.35 * size, self.to(phrase("N")), "middle",
                                 more='font-weight="bold"'))
 
     def _scale_bar(self, top: float) -> float:

@@ -16,7 +16,7 @@ from .report_figures import Figure, InSpace
 from .report_hole import Drawing, HoleView, still
 from .verdict import NEAR, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Tile
 
-CLASSES = {OK: "ok", NEAR: "near", OVER: "over", NOT_ASSESSED: "open", NOT_COMPUTED: "open"}
+CLASSES: dict[str, str] = {OK: "ok", NEAR: "near", OVER: "over", NOT_ASSESSED: "open", NOT_COMPUTED: "open"}
 WIDE, NARROW = 960.0, 340.0  #: [pixel] pictures of the hole for screens and paper, and for phones
 
 
@@ -47,14 +47,15 @@ h1{font-size:1.5em;margin:.3em 0}h2{font-size:1.2em;margin:1.4em 0 .4em}.made{co
 .verdict{display:inline-block;font-style:normal;font-weight:bold;padding:0 .5em;border:1px solid #000;white-space:nowrap}
 .ok .verdict{background:#cfe8d5}.near .verdict{background:#ffe08a}.card.over{border:4px solid #000}.over .verdict{background:#b3261e;color:#fff}
 .card.open{border-style:dashed}.open .verdict{background:#ddd}
-.figure{min-height:420px;width:100%}.still{display:none}svg{max-width:100%;height:auto;display:block}.narrow{display:none}
+.figure{min-height:420px;width:100%}.still{display:none}.wide svg,.narrow svg,.still svg{max-width:100%;height:auto;display:block}.narrow{display:none}
 .scroll{overflow-x:auto;max-width:100%}table{border-collapse:collapse}td,th{border:1px solid #999;padding:3px 8px;text-align:left;vertical-align:top}
 pre{overflow:auto;font-size:12px}.nogl .turning{display:none}.nogl .still{display:block}
 @media screen and (max-width:600px){body{padding:.6em}.figure{min-height:300px}.wide{display:none}.narrow{display:block}
-.limits td,.limits th{padding:3px 5px;font-size:14px}.limits .verdict{white-space:normal;padding:0 .2em}}
+.limits td,.limits th{padding:3px 4px;font-size:13px}.limits{table-layout:fixed;width:100%}.limits .verdict{white-space:normal;padding:0 .2em;font-size:11px}
+.limits th:first-child{width:20%}.limits th:nth-child(2){width:29%}.limits th:nth-child(4){width:27%}}
 @page{size:A4;margin:15mm}
-@media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.3}h2{margin:1em 0 .3em}.modebar-container{display:none}h1,h2,h2+p{break-after:avoid}section,.card,tr,svg{break-inside:avoid}
-.cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap}
+@media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.3}h2{margin:1em 0 .3em}.modebar-container{display:none}h1,h2,h2+p{break-after:avoid}section,.card,tr,.wide,.still{break-inside:avoid}
+.cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow:visible}
 .verdict{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"""
 
 SCRIPT = """const problems=document.getElementById("problems");let failed=0;
@@ -67,8 +68,8 @@ const words=JSON.parse(document.getElementById("words").textContent),small=inner
 function fitted(f){const common={xaxis:{},yaxis:{},margin:{l:small?55:70,r:small?10:20,t:small?20:40,b:50},font:{size:small?12:14,family:getComputedStyle(document.body).fontFamily},
 legend:{orientation:"h",x:0,y:1.02,yanchor:"bottom"}},l=f.layout,out={...common,...l,legend:{...common.legend,...l.legend}};
 if(!l.scene){out.xaxis={automargin:true,...l.xaxis};out.yaxis={automargin:true,...l.yaxis}}
-if(small&&l.scene){out.height=440;out.scene={...l.scene,camera:{...l.scene.camera,eye:{x:-0.4,y:-3.4,z:1.6}}};out.legend.y=-0.45;
-for(const name of ["xaxis","yaxis","zaxis"])out.scene[name]={...l.scene[name],nticks:4};
+if(small&&l.scene){const eye=l.scene.camera.eye,box=l.scene.aspectratio,far=box.z>box.x+box.y?1.1:1.8;out.height=440;out.scene={...l.scene,camera:{eye:{x:far*eye.x,y:far*eye.y,z:far*eye.z}}};out.legend.y=-0.45;
+for(const name of ["xaxis","yaxis","zaxis"])out.scene[name]={...l.scene[name],nticks:Math.min(4,l.scene[name].nticks)};
 if(out.sliders)out.sliders=out.sliders.map(s=>({...s,font:{size:10},minorticklen:0}));
 out.updatemenus=out.updatemenus.map((m,i)=>({...m,font:{size:11},pad:{l:0,r:0},x:0,y:i?1.0:1.14}))}return out}
 (async()=>{const script=document.createElement("script");

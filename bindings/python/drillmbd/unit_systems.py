@@ -117,8 +117,7 @@ class Units:
             return Phrase(text.template, text.values, self)
         if isinstance(text, Listed):
             return Listed(text.separator, [self.sentence(part) for part in text.parts])
-        found = _IN_TEXT.sub(converted, text)
-        return Foreign(found) if isinstance(text, Foreign) else found
+        return Foreign(text.original, self) if isinstance(text, Foreign) else _IN_TEXT.sub(converted, text)
 
 
 SI = Units()

@@ -34,7 +34,7 @@ def describe(scene: Scene, mass: float) -> list[str]:
 def trivial(scene: Scene) -> list[str]:
     """Excitations and damping that the scene leaves out, with the answers that have nothing to show then."""
     calls = _calls(scene)
-    found = []
+    found: list[str] = []
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
     if not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
             spin for component, spin in _speeds(calls) if component == enums.RX):
@@ -117,7 +117,7 @@ def _pipes(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[Phrase
 
 
 def _bits(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
-    found = []
+    found: list[str] = []
     hole = DEFINITIONS["hole"](**{k: v for k, v in calls["add_wall"][0][0].items() if k != "stations"}).diameter if "add_wall" in calls else 0.0
     for one, in calls.get("add_bit", []):
         gauge = DEFINITIONS["bit"](**{key: value for key, value in one.items() if key == "diameter"}).diameter
