@@ -265,19 +265,25 @@ typedef struct dmb_dip_point {
 
 typedef struct dmb_dip {
     dmb_dip_point before, last; /* the last two points of the path */
+    dmb_dip_point least;        /* minimum that was found */
     double most;                /* [N/m] largest value so far */
-    double depth;               /* [-] of a minimum that was found */
+    double depth;               /* [-] of the minimum */
     double *shape;              /* (rows) of the value found last */
-    uint32_t points;            /* that were looked at */
-    int32_t off;                /* 1: not looked for any more */
+    double *least_shape;        /* (rows) of the minimum */
+    dmb_sim *state;             /* of the minimum; NULL before the first one */
+    uint32_t points;            /* that were looked at in a row */
+    int32_t guessed;            /* 1: shape is that of a state nearby */
+    int32_t found;              /* 1: there is a minimum, and the value has not risen by much since */
+    int32_t reserved;
 } dmb_dip;
 
-/* Looks at the next point of the path, at `arc` from the last one, with its stiffness factored: 1 if a deep minimum
- * lies near the last point; next is then that minimum, with its shape in dip->shape. 0: none, next is as it was. Errors
- * of dmb_path_correct. */
-int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc);
-/* The present point of a path that begins. */
+/* The present point of a path that begins, from zeros; dmb_dip_close gives the memory back in any case. */
 int32_t dmb_dip_begin(dmb_dip *dip, dmb_path *path);
+void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim);
+/* Looks at the next point of the path, at `arc` from the last one, with its stiffness factored: 1 if a deep minimum has
+ * been passed, with its state, shape and depth in dip. 0: none so far; next is as it was. `spare`: a copy of the sim
+ * that may be overwritten. Errors of dmb_path_correct, DMB_ERR_NO_MEMORY. */
+int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare);
 /* Largest share of the load of sinusoidal buckling of all strings of the state, as of a profile; NaN: none. */
 double dmb_dip_sinusoidal_share(dmb_sim *at);
 

@@ -5,46 +5,67 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
+#include "base/memory.h"
 #include "drillmbd/query.h"
 #include "sim/access.h"
+#include "system/system.h"
 
 /* A minimum counts below this part of the largest value before; one to be closed in may lie between the points. */
 #define DMB_DIP_DEEP 0.5
 #define DMB_DIP_SHALLOW 0.9
-/* A rise by less than this part of the value is none. */
-#define DMB_DIP_RISE 1e-3
+/* The value has to rise by this part of a minimum before the path ends there: it is not one of many on the way down. */
+#define DMB_DIP_RISE 0.01
 #define DMB_DIP_SECTIONS 14
 #define DMB_GOLDEN 0.6180339887498949
 
-/* The point at `arc` from the last one; values of unstable states are negative. */
-static int32_t probe(dmb_dip *dip, dmb_path *path, double arc, dmb_dip_point *point)
+/* Values of unstable states are negative. */
+static int32_t softest_of(dmb_dip *dip, dmb_path *path, double *value)
 {
-    int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
-    if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
-    if (status >= 0) status = dmb_stability_softest(path->work, &point->value, dip->shape);
-    if (status < 0) return status;
-    if (path->next.negative > 0) point->value = -fabs(point->value);
-    point->arc = arc;
-    point->factor = path->next.factor;
-    return DMB_OK;
+    int32_t status = dmb_stability_softest(path->work, dip->guessed, value, dip->shape);
+    if (status < 0 && dip->guessed && !dmb_is_final(status))
+        status = dmb_stability_softest(path->work, 0, value, dip->shape);
+    dip->guessed = status >= 0 && isfinite(*value);
+    if (status >= 0 && path->next.negative > 0) *value = -fabs(*value);
+    return status;
 }
 
-/* Between arcs low and high of the last point, which is in `least`. */
-static int32_t close_in(dmb_dip *dip, dmb_path *path, double low, double high, dmb_dip_point *least)
+/* The point at `arc` from the last one, with its stiffness factored. */
+static int32_t go_to(dmb_path *path, double arc)
+{
+    const int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
+    return status < 0 ? status : dmb_path_tangent(path, path->last.tangent);
+}
+
+static int32_t probe(dmb_dip *dip, dmb_path *path, double arc, dmb_dip_point *point)
+{
+    int32_t status = go_to(path, arc);
+    if (status >= 0) status = softest_of(dip, path, &point->value);
+    point->arc = arc;
+    point->factor = path->next.factor;
+    return status;
+}
+
+/* Ends of an interval of arcs from the last point. */
+typedef struct ends {
+    dmb_dip_point low, high;
+} ends;
+
+/* The minimum between them, with arcs that are from the last point too; the ends come to lie beside it. */
+static int32_t close_in(dmb_dip *dip, dmb_path *path, ends *e, dmb_dip_point *least)
 {
     dmb_dip_point inner[2] = {{0}};
-    int32_t status = probe(dip, path, high - DMB_GOLDEN * (high - low), &inner[0]);
-    if (status >= 0) status = probe(dip, path, low + DMB_GOLDEN * (high - low), &inner[1]);
+    int32_t status = probe(dip, path, e->high.arc - DMB_GOLDEN * (e->high.arc - e->low.arc), &inner[0]);
+    if (status >= 0) status = probe(dip, path, e->low.arc + DMB_GOLDEN * (e->high.arc - e->low.arc), &inner[1]);
     for (int k = 0; k < DMB_DIP_SECTIONS && status >= 0; k++) {
         const int right = inner[1].value < inner[0].value;
         if (right) {
-            low = inner[0].arc;
+            e->low = inner[0];
             inner[0] = inner[1];
-            status = probe(dip, path, low + DMB_GOLDEN * (high - low), &inner[1]);
+            status = probe(dip, path, e->low.arc + DMB_GOLDEN * (e->high.arc - e->low.arc), &inner[1]);
         } else {
-            high = inner[1].arc;
+            e->high = inner[1];
             inner[1] = inner[0];
-            status = probe(dip, path, high - DMB_GOLDEN * (high - low), &inner[0]);
+            status = probe(dip, path, e->high.arc - DMB_GOLDEN * (e->high.arc - e->low.arc), &inner[0]);
         }
     }
     *least = inner[inner[1].value < inner[0].value];
@@ -59,50 +80,96 @@ static void step_to(dmb_dip *dip, dmb_dip_point next)
     dip->points++;
 }
 
-/* Eigenvalues that cannot be found are no failure of the analysis: no minimum is looked for from there on. */
+/* 1: there is a value. Eigenvalues that cannot be found are no failure of the analysis: points are counted anew. */
 static int32_t value_here(dmb_dip *dip, dmb_path *path, double *value)
 {
-    const int32_t status = dip->off ? DMB_OK : dmb_stability_softest(path->work, value, dip->shape);
+    const int32_t status = softest_of(dip, path, value);
     if (status < 0 && dmb_is_final(status)) return status;
-    if (status < 0 || !(*value > 0.0)) dip->off = 1;
-    return DMB_OK;
+    if (status >= 0 && *value > 0.0) return 1;
+    dip->points = 0;
+    return 0;
 }
 
 int32_t dmb_dip_begin(dmb_dip *dip, dmb_path *path)
 {
+    const size_t rows = path->work->scene->row_count;
     dmb_dip_point point = {0.0, 0.0, path->last.factor};
+    dip->shape = dmb_allocate_array(&path->work->allocator, 2 * rows, sizeof(double));
+    if (dip->shape == NULL) return DMB_ERR_NO_MEMORY;
+    dip->least_shape = dip->shape + rows;
     const int32_t status = value_here(dip, path, &point.value);
-    if (status >= 0) step_to(dip, point);
-    return status;
+    if (status > 0) step_to(dip, point);
+    return status < 0 ? status : DMB_OK;
+}
+
+void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim)
+{
+    if (dip->shape != NULL)
+        dmb_release(&sim->allocator, dip->shape, 2 * sizeof(double) * dmb_dense_scene(sim->scene)->row_count);
+    dmb_state_discard(dip->state);
+    dip->shape = dip->least_shape = NULL;
+    dip->state = NULL;
+}
+
+/* The trial, accepted, into dip->state; the path stays at its last point. `spare`: a state that is overwritten. */
+static int32_t keep(dmb_dip *dip, dmb_path *path, dmb_sim *spare)
+{
+    dmb_state_take(path->work, spare);
+    const int32_t status = dmb_path_accept(path);
+    if (status < 0) return status;
+    const dmb_path_place least = path->last;
+    path->last = path->next;
+    path->next = least;
+    if (dip->state != NULL) dmb_state_take(path->work, dip->state);
+    if (dip->state == NULL) dip->state = dmb_state_copy(path->work);
+    if (dip->state == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_state_take(spare, path->work);
+    memcpy(dip->least_shape, dip->shape, path->work->scene->row_count * sizeof(double));
+    return DMB_OK;
+}
+
+/* The last point is the lowest of three. Where a contact opens or closes the value jumps, and counts by its larger
+ * side: a string that lies more softly from there on has not bent off. */
+static int32_t look_closely(dmb_dip *dip, dmb_path *path, const dmb_dip_point *next, dmb_sim *spare)
+{
+    dmb_dip_point least;
+    ends e = {dip->before, *next};
+    e.low.arc -= dip->last.arc;
+    e.high.arc -= dip->last.arc;
+    int32_t status = close_in(dip, path, &e, &least);
+    if (status < 0 && dmb_is_final(status)) return status;
+    if (status < 0) { /* lost between contacts that open and close: the point itself */
+        least = e.low = e.high = dip->last;
+        least.arc = 0.0;
+    }
+    if (fmax(e.low.value, e.high.value) < DMB_DIP_DEEP * dip->most) {
+        status = probe(dip, path, least.arc, &least);
+        least.arc += dip->last.arc;
+        dip->depth = 1.0 - least.value / dip->most;
+        dip->least = least;
+        if (status >= 0) status = keep(dip, path, spare);
+        dip->found = status >= 0;
+        if (status < 0 && dmb_is_final(status)) return status;
+    }
+    return go_to(path, next->arc - dip->last.arc);
 }
 
 static int is_minimum(const dmb_dip *dip, double next)
 {
-    const double rise = DMB_DIP_RISE * dip->last.value;
-    return dip->points > 1 && dip->before.value > dip->last.value + rise && next > dip->last.value + rise &&
+    return dip->points > 1 && dip->before.value > dip->last.value && next > dip->last.value &&
            dip->last.value < DMB_DIP_SHALLOW * dip->most;
 }
 
-int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc)
+int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare)
 {
-    dmb_dip_point next = {path->last.arc + arc, 0.0, path->next.factor}, least;
+    dmb_dip_point next = {path->last.arc + arc, 0.0, path->next.factor};
     int32_t status = value_here(dip, path, &next.value);
-    if (status < 0 || dip->off) return status;
-    if (!is_minimum(dip, next.value)) {
-        step_to(dip, next);
-        return 0;
-    }
-    status = close_in(dip, path, dip->before.arc - dip->last.arc, arc, &least);
-    if (status < 0 && dmb_is_final(status)) return status;
-    if (status < 0) { /* lost between contacts that open and close: the point itself */
-        least = dip->last;
-        least.arc = 0.0;
-    }
-    const int found = least.value < DMB_DIP_DEEP * dip->most;
-    dip->depth = 1.0 - least.value / dip->most;
-    status = probe(dip, path, found ? least.arc : arc, &least);
-    if (!found) step_to(dip, next);
-    return status < 0 ? status : found;
+    if (status <= 0) return status;
+    if (dip->found && next.value < dip->least.value) dip->found = 0;
+    if (dip->found && next.value > (1.0 + DMB_DIP_RISE) * dip->least.value) return 1;
+    status = !dip->found && is_minimum(dip, next.value) ? look_closely(dip, path, &next, spare) : DMB_OK;
+    step_to(dip, next);
+    return status;
 }
 
 /* ---- Comparison with the closed form ----------------------------------------------------------------------------- */

@@ -168,19 +168,17 @@ static int32_t end_at_event(follower *f, int32_t event)
     return b->count < f->options->count ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
-/* At a deep minimum of the lowest eigenvalue, which is the next point. */
+/* At the deep minimum of the lowest eigenvalue that was passed. */
 static int32_t end_at_dip(follower *f)
 {
     dmb_buckling *b = f->buckling;
-    const double factor = f->path.next.factor;
-    const int32_t status = dmb_path_accept(&f->path);
-    if (status < 0) return say_lost(f, status);
-    dmb_state_take(f->path.work, b->work);
-    b->at = b->factor[0] = factor;
+    dmb_state_take(f->dip.state, b->work);
+    b->at = b->factor[0] = f->dip.least.factor;
     b->count = b->info.confirmed = 1;
     b->info.end = DMB_BUCKLING_DIP;
     b->info.dip = f->dip.depth;
-    memcpy(b->shape, f->dip.shape, b->work->scene->row_count * sizeof(double));
+    b->info.reached = b->at;
+    memcpy(b->shape, f->dip.least_shape, b->work->scene->row_count * sizeof(double));
     dmb_buckling_normalise(b->work->scene, b->shape);
     return f->options->count > 1 ? DMB_NOTE_STOPPED : DMB_OK;
 }
@@ -285,7 +283,7 @@ static int32_t step(follower *f)
     const arc_step taken = {path->next.arc, path->next.arc - path->last.arc};
     status = dmb_vector_append(&f->steps, &f->sim->allocator, &taken, 1);
     if (status >= 0 && path->next.stiffness == DMB_STIFFNESS_SYMMETRIC)
-        status = dmb_dip_look(&f->dip, path, taken.length);
+        status = dmb_dip_look(&f->dip, path, taken.length, f->buckling->work);
     if (status < 0) return say_lost(f, status);
     if (status > 0) return end_at_dip(f);
     status = dmb_path_accept(path);
@@ -300,7 +298,6 @@ static int32_t walk(follower *f)
     if (status < 0) return status;
     status = dmb_flutter_begin(&f->flutter, &f->path);
     if (status < 0) return status;
-    f->dip.shape = f->path.iterate;
     if (f->path.last.stiffness == DMB_STIFFNESS_SYMMETRIC) status = dmb_dip_begin(&f->dip, &f->path);
     if (status < 0) return say_lost(f, status);
     choose_target(f, 0);
@@ -368,6 +365,7 @@ static void begin_run(follower *f, const dmb_vector *longer, int first)
     b->info.points = 0;
     b->info.confirmed = 0;
     b->info.dip = 0.0;
+    b->info.end = DMB_BUCKLING_EXTRAPOLATED;
 }
 
 /* The path from the present state to its end; the steps are kept. */
@@ -376,10 +374,11 @@ static outcome run(follower *f, const dmb_vector *longer, int first)
     outcome out;
     begin_run(f, longer, first);
     out.status = walk(f);
-    f->buckling->info.reached = f->path.last.factor;
+    if (f->buckling->info.end != DMB_BUCKLING_DIP) f->buckling->info.reached = f->path.last.factor;
     if (first) dmb_flutter_conclude(&f->flutter);
     out.end = f->buckling->info.end;
     out.factor = f->buckling->count > 0 ? f->buckling->factor[0] : f->path.last.factor;
+    dmb_dip_close(&f->dip, f->sim);
     dmb_path_close(&f->path);
     return out;
 }

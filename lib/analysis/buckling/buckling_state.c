@@ -319,7 +319,7 @@ static void make_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
 /* A state moved by the difference that cannot be evaluated. */
 static int32_t explain_difference(dmb_sim *sim, double step, int32_t status)
 {
-    if (dmb_is_final(status) || sim->message.text[0] != '\0') return status;
+    if (status >= 0 || dmb_is_final(status) || sim->message.text[0] != '\0') return status;
     dmb_message_set(&sim->message,
                     "buckling: the stiffness cannot be evaluated at a distance of step = %g from the state: %s; choose "
                     "a smaller step, or 0 for the default",

@@ -70,7 +70,7 @@ static int32_t take(dmb_flutter *flutter, const dmb_sim *at)
 
 int32_t dmb_flutter_begin(dmb_flutter *flutter, const dmb_path *path)
 {
-    flutter->off = path->search.evaluation.slipping;
+    if (path->search.evaluation.slipping) flutter->off = 1;
     if (flutter->off || path->last.stiffness != DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK;
     const int32_t status = take(flutter, path->work);
     return status < 0 ? status : judge(flutter, path->last.factor);

@@ -233,23 +233,65 @@ static uint32_t coordinates_across(const dmb_sim *sim)
     return count < all ? count : all;
 }
 
-/* Values sought for the softest one: those beside it are close where a string lies in its hole. */
-#define DMB_SOFTEST_WANTED 8
-#define DMB_SOFTEST_TOLERANCE 1e-7
+/* A search that begins with a guess. */
+typedef struct softest {
+    dmb_sim *sim;
+    const double *guess; /* (rows) NULL: none, or it was drawn */
+} softest;
 
-int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape)
+static void softest_apply(void *context, const double *x, const double *Ex, double *y)
+{
+    const softest *s = context;
+    apply(s->sim, x, Ex, y);
+}
+
+static void softest_metric(void *context, const double *x, double *y)
+{
+    const softest *s = context;
+    across(s->sim, x, y);
+}
+
+/* K^-1 E guess, so that guides and joints allow it, the first time; random motions after that. */
+static void softest_draw(void *context, uint64_t *seed, double *x)
+{
+    softest *s = context;
+    if (s->guess == NULL) {
+        draw(s->sim, seed, x);
+        return;
+    }
+    across(s->sim, s->guess, x);
+    dmb_solve_for(s->sim, x, x);
+    s->guess = NULL;
+}
+
+static int32_t softest_go_on(void *context)
+{
+    const softest *s = context;
+    return dmb_progress_pulse(s->sim);
+}
+
+/* Values sought for the softest one: those beside it are close where a string lies in its hole. With a guess it is the
+ * first that converges, and the random vector that the search then throws in finds one that has come to lie below it.
+ * The error of a value is at most the square of the tolerance over its distance from the next one. */
+#define DMB_SOFTEST_WANTED 8
+#define DMB_SOFTEST_GUESSED 1
+#define DMB_SOFTEST_TOLERANCE 1e-5
+
+int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *shape)
 {
     dmb_krylov found;
-    const dmb_operator inverse = {.context = sim,
+    softest s = {sim, guessed ? shape : NULL};
+    const dmb_operator inverse = {.context = &s,
                                   .length = sim->scene->row_count,
                                   .dimension = coordinates_across(sim),
                                   .symmetric = 1,
                                   .partly = 1,
-                                  .metric = across,
-                                  .apply = apply,
-                                  .draw = draw,
-                                  .go_on = go_on};
-    const uint32_t wanted = inverse.dimension < DMB_SOFTEST_WANTED ? (uint32_t)inverse.dimension : DMB_SOFTEST_WANTED;
+                                  .metric = softest_metric,
+                                  .apply = softest_apply,
+                                  .draw = softest_draw,
+                                  .go_on = softest_go_on};
+    const uint32_t most = guessed ? DMB_SOFTEST_GUESSED : DMB_SOFTEST_WANTED;
+    const uint32_t wanted = inverse.dimension < most ? (uint32_t)inverse.dimension : most;
     if (wanted == 0) return DMB_ERR_NO_CONVERGENCE;
     const int32_t status = dmb_krylov_largest(&inverse, wanted, 1, DMB_SOFTEST_TOLERANCE, &sim->allocator, &found);
     if (status < 0) return status;

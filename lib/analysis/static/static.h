@@ -284,9 +284,9 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
                             dmb_stability *out);
 
 /* Eigenvalue of K x = mu E x nearest 0 [N/m], K symmetric, E the displacements across the axes of the nodes, by the
- * factors at hand, and its shape (rows), of length 1 in E. DMB_ERR_NO_CONVERGENCE also where nothing moves across;
- * other errors of dmb_krylov_largest. */
-int32_t dmb_stability_softest(dmb_sim *sim, double *value, double *shape);
+ * factors at hand, and its shape (rows), of length 1 in E. `guessed` 1: shape is that of a state nearby.
+ * DMB_ERR_NO_CONVERGENCE also where nothing moves across; other errors of dmb_krylov_largest. */
+int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *shape);
 
 /* Whether rings that slip leave a state without divergence, without an eigenvalue being sought.
  *
