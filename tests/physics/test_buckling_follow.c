@@ -310,8 +310,8 @@ static double in_bent_hole(const bent *b, dmb_buckling_info *info, double *event
 }
 
 /* 150 m turning by 6 degrees: the path bends off, and the lowest eigenvalue dips at the same load whatever the wall,
- * the mesh and the units. What one linearisation told fell as the inverse root of the wall's stiffness. The profile's
- * load leaves out that the string is clamped: 2 to 3 %. */
+ * the mesh and the units. The factor from the start alone falls as the inverse root of the wall's stiffness. The
+ * profile's load leaves out that the string is clamped: 2 to 3 %. */
 static double dip_of(const bent *b, const char *what)
 {
     dmb_buckling_info info;
