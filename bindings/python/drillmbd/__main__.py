@@ -1,6 +1,9 @@
 """python3 -m drillmbd"""
 import sys
 
-from .command import main
-
-sys.exit(main())
+try:
+    from .command import main
+    sys.exit(main())
+except KeyboardInterrupt:  # while packages are loaded
+    print("drillmbd: stopped by Ctrl-C", file=sys.stderr)
+    sys.exit(130)

@@ -13,6 +13,31 @@ from ._structs import PROGRESS_FN
 _NOBODY = cast(c_void_p(), PROGRESS_FN)
 
 
+class Interrupts:
+    """Ctrl-C of the command. Python raises KeyboardInterrupt wherever it is, and loses it where a package ignores exceptions, as
+    while it is imported; so each is noted here until it is dealt with."""
+
+    def __init__(self) -> None:
+        self.pending = False
+
+    def __call__(self, number: int, frame: Any) -> None:
+        self.pending = True
+        signal.default_int_handler(number, frame)
+
+    def install(self) -> None:
+        """Notes Ctrl-C from now on, where it would end the program."""
+        if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, self)
+
+    def check(self) -> None:
+        """Raises one that was lost."""
+        if self.pending:
+            raise KeyboardInterrupt
+
+
+INTERRUPTS = Interrupts()
+
+
 class Teller:
     """The C function of a sim's progress. It knows nothing of the sim, which holds it."""
 
@@ -49,9 +74,10 @@ class Teller:
     def long_call(self, handle: c_void_p, function: Any, *arguments: Any) -> int:
         """The status of a call that Ctrl-C ends; KeyboardInterrupt if it has. Python's own handler would raise where C
         has called, or not before the call has ended."""
-        if threading.current_thread() is not threading.main_thread() or \
-                signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        usual: Any = signal.getsignal(signal.SIGINT)
+        if threading.current_thread() is not threading.main_thread() or (usual is not signal.default_int_handler and usual is not INTERRUPTS):
             return int(function(handle, *arguments))
+        INTERRUPTS.check()
         self.interrupted = False
         signal.signal(signal.SIGINT, self._interrupt)
         try:
@@ -61,7 +87,7 @@ class Teller:
         finally:
             if self.function is None:
                 _lib.dmb_sim_set_progress(handle, _NOBODY, None)
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.signal(signal.SIGINT, usual)
         if self.interrupted:
             self.interrupted = False
             raise KeyboardInterrupt

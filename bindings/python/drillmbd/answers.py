@@ -6,13 +6,16 @@ import json
 import math
 import os
 import pathlib
+import time
 from collections.abc import Callable, Iterable
 from typing import Any
 
 from . import __version__
 from ._optional import need
+from ._progress import INTERRUPTS
 from ._structs import FatigueResult
 from .errors import Usage, status_text
+from .exit_status import STOPPED
 from .fatigue import StringFatigue
 from .language import ENGLISH, Foreign, Language, phrase
 from .scene import Scene, saves
@@ -31,9 +34,12 @@ class Output:
                  language: Language = ENGLISH) -> None:
         self.folder = pathlib.Path(folder) if folder is not None else None
         self.quiet, self.scene, self.units, self.language = quiet, scene, units, language
+        self.started = time.perf_counter()
+        self.meter: Any = None             # of the progress, which lines of text go before
+        self.interrupted = False
         self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
                                         "drillmbd": __version__, "units": units.name,  # of texts, tables and pictures
-                                        "units_of_numbers": "si", "notes": [], "files": []}
+                                        "units_of_numbers": "si", "warnings": [], "notes": [], "files": []}
         if self.folder is not None:
             self.folder.mkdir(parents=True, exist_ok=True)
             self.path("scene.toml").write_text(saves(scene), encoding="utf-8")
@@ -48,7 +54,20 @@ class Output:
     def say(self, text: str) -> None:
         """A line on the terminal."""
         if not self.quiet:
+            if self.meter is not None:
+                self.meter.clear()
             print(self.language(text))
+
+    def warn(self, text: str) -> None:
+        """Something about the scene, the same in each command."""
+        if text not in self.summary["warnings"]:
+            self.summary["warnings"].append(text)
+            self.say(phrase("note: {text}", text=text))
+
+    def stopped(self, text: str) -> None:
+        """A note that Ctrl-C ended the command, by which its exit status is 130."""
+        self.interrupted, INTERRUPTS.pending = True, False
+        self.note_text(text)
 
     def note(self, status: int, of: str) -> None:
         """Tells the text of a status above 0."""
@@ -84,12 +103,18 @@ class Output:
         need("matplotlib.pyplot").close(figure)
 
     def finish(self, status: int = 0) -> int:
-        """Writes the summary; returns the status."""
-        self.summary["status"] = status
+        """Writes the summary; returns the exit status: that which is given, or 130 after Ctrl-C."""
+        status = STOPPED if self.interrupted else status
+        self.write_summary(status)
         if self.folder is not None:
-            self.path("summary.json").write_text(json.dumps(finite(self.summary), indent=1) + "\n", encoding="utf-8")
             self.say(phrase("{count} files in {folder}", count=len(self.summary["files"]), folder=str(self.folder)))
         return status
+
+    def write_summary(self, status: int) -> None:
+        """Everything that was found, with the exit status and the time since the command began."""
+        self.summary.update(status=status, elapsed_s=time.perf_counter() - self.started)
+        if self.folder is not None:
+            self.path("summary.json").write_text(json.dumps(finite(self.summary), indent=1) + "\n", encoding="utf-8")
 
 
 def note_bounces(sim: Any, output: Output) -> None:

@@ -31,14 +31,13 @@ def buckle(scene: Scene, output: Output, options: Any) -> int:
         try:
             _factors(scene, sim, output)
         except KeyboardInterrupt:
-            output.note_text("stopped by Ctrl-C before the critical factors were found")
-            return output.finish(130)
+            output.stopped("stopped by Ctrl-C before the critical factors were found")
+            return output.finish()
         except Error as error:
             reasons.append(output.units.sentence(reason_of(scene, sim, error)))
             output.note_text(f"critical factors: not assessed, because {reasons[-1]}")
             output.summary["buckling"] = {"factors": [], "not_assessed": reasons[-1]}
     if reasons and not any(soft):
-        output.finish(1)
         raise Unanswered(f"buckling: not assessed, because {reasons[-1]}")
     return output.finish()
 

@@ -5,13 +5,13 @@ import argparse
 import importlib
 import math
 import os
-import re
 import sys
+import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from . import __version__
-from .errors import Error, Usage
+from . import __version__, exit_status
+from .errors import Usage
 from .language_choice import NAMES as LANGUAGES
 from .unit_choice import NAMES
 
@@ -38,8 +38,8 @@ EXAMPLES = """examples:
   drillmbd catalogue "5 in"                   drill pipe, rods, collars and rigs that scene files name
   drillmbd schema > scene.schema.json         for editors that check TOML
 
-exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
-written; 130 stopped by Ctrl-C, what was done is written.
+exit status, of each command:
+""" + exit_status.text() + """
 
 frames, angles and signs: azimuth is clockwise from north, inclination from the downward vertical, dip from the horizontal, up positive;
 thrust and compression are negative hook loads and axial forces. All with a drawing: examples/conventions/README.md
@@ -72,7 +72,8 @@ SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
 
-Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then."""
+Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then.
+After Ctrl-C the same line goes on: cases that are complete in the folder are not computed again."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -241,6 +242,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = asked.parse_args(words[:cut])
     options.more = words[cut + 1:]  # options of the question that a sweep asks
     try:
+        from ._progress import INTERRUPTS
+        INTERRUPTS.install()
         return _guarded(lambda: _ask(options))
     except BrokenPipeError:
         sys.stderr.close()
@@ -248,32 +251,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _guarded(ask: Callable[[], int]) -> int:
-    from .fmu import CannotExport
-    from .scene import CannotSave, SceneError
     try:
         return ask()
-    except SceneError as error:
-        return _tell(2, str(error))
-    except (Usage, CannotSave, CannotExport) as error:
-        return _tell(2, f"drillmbd: {error}")
-    except Error as error:
-        return _tell(1, f"drillmbd: {_without_functions(error.message)}")
-    except ArithmeticError as error:
-        return _tell(1, f"drillmbd: {error}")
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        where = f": {error.filename}" if error.filename else ""
-        return _tell(3, f"drillmbd: {error.strerror or error}{where}")
-    except ImportError as error:
-        return _tell(2, f"drillmbd: {error}")
-    except KeyboardInterrupt:
-        return _tell(130, "drillmbd: stopped")
-
-
-def _without_functions(message: str) -> str:
-    """A message of the library with the names of commands in place of those of C functions."""
-    return re.sub(r"\bdmb_(?:analysis_)?(\w+)", lambda found: found[1].replace("_", "-"), message)
+    except (Exception, KeyboardInterrupt) as error:
+        found = exit_status.status_and_message(error)
+        if found is None:
+            raise
+        return _tell(*found)
 
 
 def _tell(status: int, text: str) -> int:
@@ -295,18 +279,19 @@ def _sweep(options: Any) -> int:
     if options.question == "report" and options.output is None:
         raise Usage("sweep of report needs --output FOLDER, which holds a page for each case")
     return sweep(options.question, vary, lambda changes: scene.load(options.scene, changes), options.scene, asked,
-                 options.output, options.quiet)
+                 options.output, options.quiet, options.more)
 
 
 def _fmu(options: Any) -> int:
     from . import fmu, scene
+    from .scene.warned import warnings_of
     target = options.output or os.path.splitext(options.scene)[0] + ".fmu"
     if os.path.isdir(target):
         raise Usage(f"--output {target}: is a folder, must be the file of the unit")
     loaded = scene.load(options.scene)
     notes = fmu.export(loaded, target, options.fmi, options.sources)
     if not options.quiet:
-        for note in notes:
+        for note in [*warnings_of(loaded), *notes]:
             print(f"note: {note}")
         print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, {len(loaded.channels)} outputs, "
               f"{len(loaded.model.events())} events, {os.path.getsize(target) / 1e6:.1f} MB")
@@ -338,8 +323,11 @@ def least(name: str, scene: Any) -> str:
 def _ask(options: Any) -> int:
     from . import scene
     from .answers import Output, units_of
-    from .language import Foreign, Language
+    from .language import Language
     from .questions import QUESTIONS
+    from .runner import carry_out
+    from .scene.warned import warnings_of
+    started = time.perf_counter()
     if options.command == "schema":
         from .scene.schema import text
         print(text(), end="")
@@ -351,7 +339,10 @@ def _ask(options: Any) -> int:
     if options.command == "new":
         return _new(options)
     if options.command == "save":
-        saved = scene.saves(scene.load(options.scene))
+        loaded = scene.load(options.scene)
+        saved = scene.saves(loaded)
+        for warning in warnings_of(loaded):
+            print(f"note: {warning}", file=sys.stderr)
         if options.target == "-":
             print(saved, end="")
         else:
@@ -364,6 +355,7 @@ def _ask(options: Any) -> int:
         return _fmu(options)
     if options.command == "probability":
         from .probability.ask import probability
+        options.started = started
         return probability(options)
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
     loaded = scene.load(options.scene)
@@ -374,15 +366,8 @@ def _ask(options: Any) -> int:
         raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; give another --output")
     output = Output(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded),
                     Language(getattr(options, "language", "en")))
-    for one in loaded.remarks:
-        output.note_text(Foreign(f"line {one.line}: {one}"))
-    for pipes in loaded.divided:
-        output.note_text(pipes.text())
-    try:
-        return QUESTIONS[options.command](loaded, output, options)
-    except Error as error:
-        error.message = output.units.sentence(error.message)
-        raise
+    output.started = started
+    return carry_out(loaded, output, options, QUESTIONS[options.command])
 
 
 if __name__ == "__main__":

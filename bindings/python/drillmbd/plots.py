@@ -38,8 +38,51 @@ def _style(number: int) -> dict[str, Any]:
 
 
 def _legend(axes: Any) -> None:
-    if len(axes.get_lines()) > 1:
+    if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+#: A profile shows at least this share of the largest force, and of its moment by a lever of the order of a pipe's radius: below it,
+#: rounding and residuals would fill the axis.
+LEAST_SHARE, LEVER = 0.01, 0.05
+#: Turning points of a curve above which a band of its least and largest values is drawn in its place; turning points in an interval of
+#: the band, and the least and largest number of intervals.
+MOST_TURNS, TURNS, BANDS = 250, 4, (100, 500)
+
+
+def _at_least(axes: Any, half: float) -> None:
+    """Widens an axis that shows nothing but values below `half`."""
+    low, high = axes.get_xlim()
+    if half > 0.0 and max(abs(low), abs(high)) < half:
+        axes.set_xlim(-half, half)
+
+
+def _log(axes: Any, which: str = "y") -> None:
+    """A logarithmic axis of a decade at least, with labels between the powers of ten where few of these are in sight."""
+    getattr(axes, f"set_{which}scale")("log")
+    axis = getattr(axes, f"{which}axis")
+    low, high = getattr(axes, f"get_{which}lim")()
+    if 0.0 < high < 10.0 * low:
+        middle = math.sqrt(low * high)
+        getattr(axes, f"set_{which}lim")(middle / math.sqrt(10.0), middle * math.sqrt(10.0))
+    axis.set_minor_formatter(need("matplotlib.ticker").LogFormatterSciNotation(minor_thresholds=(2.0, 0.5)))
+
+
+def _curve(axes: Any, time: Any, values: Any, name: str, number: int) -> None:
+    """A curve over time; one that swings too often for a line as its mean in a band of its least and largest values."""
+    numpy = need("numpy")
+    steps = numpy.sign(numpy.diff(values))
+    turns = int((steps[1:] * steps[:-1] < 0.0).sum())
+    bands = max(BANDS[0], min(BANDS[1], turns // TURNS))
+    if turns <= MOST_TURNS or len(values) < 3 * bands:
+        axes.plot(time, values, label=name, linewidth=1.0, **_style(number))
+        return
+    edges = numpy.linspace(0, len(values), bands + 1).astype(int)
+    count = numpy.diff(edges)
+    middle = numpy.add.reduceat(time, edges[:-1]) / count
+    axes.fill_between(middle, numpy.minimum.reduceat(values, edges[:-1]), numpy.maximum.reduceat(values, edges[:-1]), alpha=0.3, linewidth=0.0,
+                      color=COLOURS[number % len(COLOURS)], label=f"{name}: least to largest")
+    axes.plot(middle, numpy.add.reduceat(values, edges[:-1]) / count, label=f"{name}: mean", linewidth=1.0, **_style(number))
 
 
 def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
@@ -49,17 +92,20 @@ def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
     figure, ((axial, torque, bending, wall),) = _axes(1, 4, (13, 6), sharey=True)
     length = units.factor("m")
     down = length * down
+    least = LEAST_SHARE * max(float(found.contact_force.sum()), float(abs(found.axial_force).max(initial=0.0)))
     for axes, values, si, label in ((axial, found.axial_force, "N", "axial force [{}]\n(tension > 0)"),
                                     (torque, found.torque, "N m", "torque [{}]"),
                                     (bending, found.bending_moment, "N m", "bending moment [{}]")):
         factor, unit = units.axis(si, values)
         axes.plot(factor * values, down, **SINGLE)
         axes.axvline(0.0, color="#999999", linewidth=0.8)
+        _at_least(axes, factor * least * (1.0 if si == "N" else LEVER))
         axes.set_xlabel(label.format(unit))
     factor, unit = units.axis("N", found.contact_force)
     if len(found.contact_depth):
-        wall.barh(length * found.contact_depth, factor * found.contact_force, color=COLOURS[2],
-                  height=0.6 * max(float(down.max()), 1e-9) / len(found.contact_depth))
+        wall.hlines(length * found.contact_depth, 0.0, factor * found.contact_force, color=COLOURS[2],
+                    linewidth=max(0.7, min(4.0, 200.0 / len(found.contact_depth))))
+        wall.set_xlim(left=0.0)
     wall.set_xlabel(f"force on the wall [{unit}]\nper site")
     axial.set_ylabel(units.head("measured depth [m]" if has_hole else "along the string [m]"))
     axial.invert_yaxis()
@@ -95,7 +141,7 @@ def history(table: Any, columns: Sequence[str], title: str = "") -> Any:
     for (axes,), unit in zip(grid, panels):
         shown = [i for i, one in enumerate(units) if one == unit]
         for number, i in enumerate(shown):
-            axes.plot(table[:, 0], table[:, 1 + i], label=columns[1 + i].split(" [")[0], linewidth=1.0, **_style(number))
+            _curve(axes, table[:, 0], table[:, 1 + i], columns[1 + i].split(" [")[0], number)
         axes.set_ylabel(f"[{unit}]" if len(shown) > 1 else columns[1 + shown[0]])
         _legend(axes)
     grid[-1][0].set_xlabel("time [s]")
@@ -123,7 +169,8 @@ def response(found: Response, names: Sequence[str] | None = None, title: str = "
         angle = numpy.angle(values, deg=True)
         phase.plot(found.frequencies, numpy.where(numpy.abs(numpy.diff(angle, append=angle[-1:])) > 180.0, numpy.nan, angle),
                    **_style(i))  # a phase that comes back at the other side draws no line across
-    size.set(yscale="log", ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else units.head(names[0]))
+    _log(size)
+    size.set(ylabel="amplitude [unit of the output]" if not names or len(names) > 1 else units.head(names[0]))
     phase.set(xlabel="frequency [Hz]", ylabel="phase [deg]", yticks=range(-180, 181, 90))
     _legend(size)
     figure.suptitle(title)
@@ -217,7 +264,9 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
         axes.axvspan(low, high, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00", linewidth=0.0)
         axes.annotate(f"{low:.0f} .. {high:.0f}", (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
                       xytext=(0, 3), textcoords="offset points", ha="center", fontsize=8, rotation=40)
-    axes.set(xlabel="rotary speed [rpm]", ylabel="severity [-]", yscale="log" if max(values) > 0.0 else "linear")
+    axes.set(xlabel="rotary speed [rpm]", ylabel="severity [-]")
+    if max(values) > 0.0:
+        _log(axes)
     _legend(axes)
     figure.suptitle(title)
     return figure
@@ -245,7 +294,9 @@ def fatigue(found: StringFatigue, title: str = "", units: Units = SI) -> Any:
     known = [(factor * stress, count) for stress, count in zip(ranges, counts) if count > 0.0]
     width = factor * (ranges[1] - ranges[0])
     cycles.bar([one for one, _ in known], [one for _, one in known], width=width, color=COLOURS[1])
-    cycles.set(xlabel=units.head("stress range [MPa]"), ylabel=f"cycles at pipe {found.pipes[found.worst]}", yscale="log" if known else "linear")
+    cycles.set(xlabel=units.head("stress range [MPa]"), ylabel=f"cycles at pipe {found.pipes[found.worst]}")
+    if known:
+        _log(cycles)
     figure.suptitle(title)
     return figure
 
@@ -261,6 +312,7 @@ def causes(found: Response, names: Sequence[str], output: int = 0, label: str = 
         axes.loglog(found.frequencies, found.amplitudes[number] * numpy.abs(found.transfer(number, output)), label=name,
                     **_style(number))
     axes.set(xlabel="frequency [Hz]", ylabel=label)
+    _log(axes)
     _legend(axes)
     figure.suptitle(title)
     return figure
@@ -275,7 +327,9 @@ def frequencies(found: Modes, title: str = "") -> Any:
         shown = [(number, frequency) for number, frequency, most in elastic if most == kind]
         axes.plot([one for one, _ in shown], [one for _, one in shown], "os^"[kind], color=COLOURS[1 + kind], markersize=4,
                   label=name)
-    axes.set(xlabel="mode [-]", ylabel="natural frequency [Hz]", yscale="log" if elastic else "linear")
+    axes.set(xlabel="mode [-]", ylabel="natural frequency [Hz]")
+    if elastic:
+        _log(axes)
     _legend(axes)
     figure.suptitle(title)
     return figure
@@ -293,7 +347,8 @@ def study(values: Sequence[float], columns: dict[str, Sequence[float]], paramete
             axes.plot(values, columns[name], marker="o", markersize=4, label=name.split(" [")[0], **_style(number))
         axes.set_ylabel(f"[{unit}]" if len(shown) > 1 else shown[0])
         if log:
-            axes.set(xscale="log", yscale="log")
+            _log(axes, "x")
+            _log(axes)
         _legend(axes)
     grid[-1][0].set_xlabel(parameter)
     figure.suptitle(title)
@@ -315,7 +370,9 @@ def spectrum(table: Any, columns: Sequence[str], title: str = "") -> Any:
         values = table[:, 1 + number] - table[:, 1 + number].mean()
         size = 2.0 * numpy.abs(numpy.fft.rfft(values * window)) / window.sum()
         axes.plot(frequency[1:], size[1:], linewidth=1.0, **SINGLE)
-        axes.set(ylabel=columns[1 + number], yscale="log" if size[1:].max() > 0.0 else "linear")
+        axes.set(ylabel=columns[1 + number])
+        if size[1:].max() > 0.0:
+            _log(axes)
     grid[-1][0].set_xlabel("frequency [Hz]")
     figure.suptitle(title)
     return figure

@@ -30,12 +30,14 @@ def check(scene: Scene, output: Output, options: Any) -> int:
         output.note(sim.status, "start")
         report, text = sim.check(), output.units.sentence(sim.check_text())
         understood = [output.units.sentence(one) for one in words.describe(scene, sim.momentum().mass)]
-        left_out = words.trivial(scene)
-    output.summary.update(model=record(scene.model.info()), check=record(report), understood=understood, left_out=left_out)
-    text = "\n".join(["the scene:", *(f"  {one}" for one in understood), *(f"not assessed: {one}" for one in left_out), text.rstrip("\n")])
+    output.summary.update(model=record(scene.model.info()), check=record(report), understood=understood, left_out=words.trivial(scene))
+    notes = output.summary["warnings"]
+    if notes:
+        text = text.replace("  warnings: none", f"  warnings of the model: none; notes on the scene: {len(notes)}, above")
+    text = "\n".join(["the scene:", *(f"  {one}" for one in understood), text.rstrip("\n")])
     output.say(text)
     if output.folder is not None:
-        output.path("check.txt").write_text(text + "\n", encoding="utf-8")
+        output.path("check.txt").write_text("".join(f"note: {one}\n" for one in notes) + text + "\n", encoding="utf-8")
     return output.finish()
 
 
@@ -141,7 +143,7 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         _run_answers(scene, sim, output, recorder)
         if last is not None and not stopped:
             last.verify(output)
-    return output.finish(130 if stopped else 0)
+    return output.finish()
 
 
 def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any, counters: list[Any]) -> bool:
@@ -151,6 +153,7 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
         every = max(1, round(every / step)) * step  # whole steps: files change no step
     bar, frame, elapsed, begin = None if output.quiet else Bar(sim.time, end), 0, 0.0, sim.time
     stopped = False
+    sim.on_progress = None  # the bar shows it
     try:
         while end - sim.time > (1e-6 * step if step else 0.0):
             if every:
@@ -163,7 +166,7 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
                 elapsed += time.perf_counter() - started
     except KeyboardInterrupt:
         stopped = True
-        output.summary["notes"].append(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
+        output.stopped(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
     if bar is not None:
         bar.close()
     if every:

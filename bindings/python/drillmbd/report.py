@@ -326,7 +326,7 @@ class Study:
                 shapes.append(self._shape(sim))
                 times.append(sim.time)
         except KeyboardInterrupt:
-            self.output.note_text(phrase("the run was stopped by Ctrl-C at {time:g} s of {end:g} s", time=sim.time, end=end))
+            self.output.stopped(phrase("the run was stopped by Ctrl-C at {time:g} s of {end:g} s", time=sim.time, end=end))
             for demand in self.demands.values():
                 demand.failed.append(phrase("the rest of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
         self.output.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}

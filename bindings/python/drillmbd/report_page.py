@@ -175,7 +175,7 @@ def page(study: Content) -> str:
             f'<meta name="viewport" content="width=device-width,initial-scale=1"><style>{STYLE}</style></head><body><h1>{title}</h1>'
             f'<p class="made">{made.text(study.made)}</p><p>{made.text(study.headline)}</p>{made.verdicts()}{made.limits()}'
             f'{made.heading(phrase("Results against limits"))}<div class="cards">{"".join(made.tile(tile) for tile in study.tiles)}</div>'
-            f'{made.hole()}{made.heading(phrase("Notes"))}{made.items(study.output.summary["notes"])}'
+            f'{made.hole()}{made.heading(phrase("Notes"))}{made.items([*study.output.summary["warnings"], *study.output.summary["notes"]])}'
             + "".join(made.figure(number, one) for number, one in enumerate(study.figures))
             + f'{made.heading(phrase("Assumptions"))}<div class="scroll"><table>{facts}</table></div>{made.heading(phrase("Model check"))}'
             f'<pre>{html.escape(study.output.units.sentence(made.to.lines(study.check)))}</pre>'

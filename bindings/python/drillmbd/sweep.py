@@ -2,20 +2,29 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import itertools
+import json
+import math
+import os
 import pathlib
 import re
+import time
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from . import __version__
 from .answers import Output, units_of
-from .errors import Error
+from .errors import Error, Usage
+from .exit_status import FAILED, STOPPED, line_of
+from .probability.study import code
 from .questions import QUESTIONS
-from .scene import CannotSave, Scene, SceneError
+from .runner import carry_out
+from .scene import CannotSave, Scene, SceneError, saves
 from .scene.changes import path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
-_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick")
+_NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick", "elapsed_s", "identity")
 MOST_CASES, MOST_ITEMS = 100_000, 32
 
 
@@ -70,36 +79,81 @@ def numbers_of(summary: Any, name: str = "") -> dict[str, float]:
 
 
 class Sweep:
-    """The cases of a sweep and what came of them."""
+    """The cases of a sweep and their results."""
 
-    def __init__(self, question: str, keys: list[str], folder: pathlib.Path | None, quiet: bool) -> None:
-        self.question, self.keys, self.folder, self.quiet = question, keys, folder, quiet
+    def __init__(self, question: str, keys: list[str], folder: pathlib.Path | None, quiet: bool, count: int, more: list[str]) -> None:
+        self.question, self.keys, self.folder, self.quiet, self.count, self.more = question, keys, folder, quiet, count, more
         self.rows: list[dict[str, Any]] = []
-        self.failed = 0
+        self.failed = self.kept = 0
+        self.warnings: list[str] = []
+        self.started = time.perf_counter()
 
     def say(self, text: str) -> None:
         """A line on the terminal."""
         if not self.quiet:
-            print(text)
+            print(text, flush=True)
 
     def case(self, values: tuple[Any, ...], load: Callable[[dict[str, Any]], Scene], file: str, options: Any) -> None:
         """One more case; what fails is counted and told in its row."""
         changes = dict(zip(self.keys, values))
         number = len(self.rows) + 1
         row: dict[str, Any] = {"case": number, **changes, "status": "ok", "message": ""}
+        about = ""
         try:
             scene = load(changes)
-            output = Output(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True,
-                            units_of(options, scene))
-            QUESTIONS[self.question](scene, output, options)
-            row.update(numbers_of(output.summary))
-            row["message"] = "; ".join(output.summary["notes"])
-        except (Error, ArithmeticError, SceneError, CannotSave) as error:
+            summary = self._kept(number, scene)
+            if summary is None:
+                summary = self._answer(number, scene, file, options)
+            else:
+                about, self.kept = ", as computed before", self.kept + 1
+                self._warn(summary["warnings"])
+            self.rows.append(row)
+            row.update(numbers_of(summary))
+            row["message"] = "; ".join(summary["notes"])
+        except (Error, ArithmeticError, SceneError, CannotSave, Usage) as error:
             self.failed += 1
-            row.update(status="failed", message=str(error))
-        self.rows.append(row)
+            self.rows.append(row)
+            row.update(status="failed", message=line_of(error))
         told = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}" for key, value in changes.items())
-        self.say(f"case {number}: {told}: {row['status']}" + (f": {row['message']}" if row["message"] else ""))
+        self.say(f"case {number} of {self.count}: {told}: {row['status']}{about}" + (f": {row['message']}" if row["message"] else ""))
+
+    def _answer(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
+        """The summary of a case that is computed now. Raises KeyboardInterrupt where Ctrl-C ended it."""
+        output = Output(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True, units_of(options, scene))
+        output.summary["identity"] = self._identity(scene)
+        try:
+            carry_out(scene, output, options, QUESTIONS[self.question])
+        finally:
+            self._warn(output.summary["warnings"])
+        if output.interrupted:
+            raise KeyboardInterrupt
+        return output.summary
+
+    def _identity(self, scene: Scene) -> str:
+        """A number of all that the results depend on; "" where the scene cannot be written."""
+        try:
+            text = saves(scene, False)
+        except CannotSave:
+            return ""
+        return hashlib.sha256(json.dumps([self.question, self.more, text, sorted(code().items())]).encode()).hexdigest()
+
+    def _kept(self, number: int, scene: Scene) -> dict[str, Any] | None:
+        """The summary of a case that an earlier sweep of the same folder completed."""
+        if self.folder is None:
+            return None
+        try:
+            found = json.loads((self.folder / f"{number:05d}" / "summary.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        same = isinstance(found, dict) and found.get("status") == 0 and found.get("identity") and found["identity"] == self._identity(scene)
+        return found if same else None
+
+    def _warn(self, texts: list[str]) -> None:
+        """Warnings of a scene that no case before it had."""
+        for text in texts:
+            if text not in self.warnings:
+                self.warnings.append(text)
+                self.say(f"note: {text}")
 
     def write(self, path: pathlib.Path) -> None:
         """All rows as CSV, a column for every number that any of them has."""
@@ -109,19 +163,39 @@ class Sweep:
             writer.writeheader()
             writer.writerows(self.rows)
 
+    def finish(self, status: int, file: str) -> int:
+        """Table and summary; returns the status."""
+        if self.folder is not None:
+            files = ["summary.json"]
+            if self.rows:
+                self.write(self.folder / "sweep.csv")
+                files.append("sweep.csv")
+            found = {"command": "sweep", "question": self.question, "scene": os.path.basename(file), "drillmbd": __version__, "keys": self.keys,
+                     "cases": self.count, "computed": len(self.rows) - self.kept, "kept": self.kept, "failed": self.failed, "warnings": self.warnings,
+                     "notes": [f"stopped by Ctrl-C after {len(self.rows)} of {self.count} cases"] if status == STOPPED else [], "files": files,
+                     "status": status, "elapsed_s": time.perf_counter() - self.started}
+            (self.folder / "summary.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        self.say(f"{len(self.rows)} of {self.count} cases, {self.failed} failed" + (f"; {self.folder / 'sweep.csv'}" if self.folder else ""))
+        return status
+
 
 def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict[str, Any]], Scene], file: str,
-          options: Any, folder: str | None, quiet: bool) -> int:
-    """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished cases."""
+          options: Any, folder: str | None, quiet: bool, more: list[str]) -> int:
+    """Runs the command for all combinations; returns the exit status: 1 if a case failed. Ctrl-C keeps the finished cases. more: the options
+    of the command as they are written."""
     target = pathlib.Path(folder) if folder is not None else None
     if target is not None:
         target.mkdir(parents=True, exist_ok=True)
-    found = Sweep(question, [key for key, _ in vary], target, quiet)
+    count = math.prod(len(listed) for _, listed in vary)
+    found = Sweep(question, [key for key, _ in vary], target, quiet, count, more)
+    status = STOPPED
     try:
         for values in itertools.product(*(listed for _, listed in vary)):
             found.case(values, load, file, options)
-    finally:
-        if target is not None and found.rows:
-            found.write(target / "sweep.csv")
-    found.say(f"{len(found.rows)} cases, {found.failed} failed" + (f"; {target / 'sweep.csv'}" if target is not None else ""))
-    return 1 if found.failed or not found.rows else 0
+        status = FAILED if found.failed or not found.rows else 0
+    except KeyboardInterrupt:
+        found.say("stopped by Ctrl-C" + ("; the same command goes on from here" if target is not None else ""))
+    except BaseException:
+        found.finish(FAILED, file)
+        raise
+    return found.finish(status, file)

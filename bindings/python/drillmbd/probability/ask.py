@@ -11,6 +11,7 @@ from typing import Any
 from .._optional import need
 from ..answers import Output
 from ..errors import Usage
+from ..runner import carry_out
 from ..scene import loads
 from . import engines
 from .draw import CannotDraw
@@ -58,12 +59,20 @@ def probability(options: argparse.Namespace) -> int:
             if rank > 0:
                 engines.mpi_work(sample)
                 return 0
-        return _Asked(sample, options).answer()
+        asked = _Asked(sample, options)
+        return carry_out(sample.draw.scene, asked.output, options, lambda *_: _answer(asked))
     except (CannotDraw, StudyError) as error:
         raise Usage(str(error)) from error
     finally:
         if options.engine == "mpi" and "size" in locals() and size > 1 and rank == 0:
             engines.mpi_end()
+
+
+def _answer(asked: _Asked) -> int:
+    try:
+        return asked.answer()
+    except (CannotDraw, StudyError) as error:
+        raise Usage(str(error)) from error
 
 
 class _Asked:
@@ -81,6 +90,7 @@ class _Asked:
         if options.failure is not None and options.failure not in sample.names:
             raise Usage(f"--failure {options.failure}: is none of the scene's: {', '.join(sample.names)}")
         self.output = Output(options.output, options.scene, scene, "probability", options.quiet)
+        self.output.started = options.started
         if scene.output.get("units"):
             self.output.note_text("[output] units is ignored: probability writes SI units")
         self.limit = sample.names.index(options.failure) if options.failure else 0
@@ -111,6 +121,9 @@ class _Asked:
                 self._subset(study)
             else:
                 self._counted(study)
+        except KeyboardInterrupt:
+            more = "; the same command goes on from there" if file is not None else ""
+            self.output.stopped(f"stopped by Ctrl-C after {len(study.results)} samples, before there were estimates{more}")
         finally:
             if file is not None:
                 file.close()

@@ -11,10 +11,13 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from .._optional import need
+from .._progress import INTERRUPTS
 from .sample import FAILED, Result
 
 TRIES = 3  #: workers that a sample may kill before it counts as failed
 AHEAD = 4  #: tasks that wait for each worker
+PATIENCE = 5.0  #: [s] for a worker to end by itself
+LOOK = 1.0      #: [s] between looks for Ctrl-C
 SUBMISSIONS = 3  #: of a sample to a Dask cluster that loses it
 
 
@@ -37,8 +40,8 @@ def threads(workers: int) -> Callable[..., Iterator[Result]]:
 
     def run(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
         sample.names  # made once, before the threads ask for it
-        with ThreadPoolExecutor(workers) as pool:
-            waiting: set[Any] = set()
+        pool, waiting = ThreadPoolExecutor(workers), set[Any]()
+        try:
             source = iter(tasks)
             for task in source:
                 waiting.add(pool.submit(sample, *task))
@@ -48,6 +51,8 @@ def threads(workers: int) -> Callable[..., Iterator[Result]]:
                 yield from (one.result() for one in done)
             for one in waiting:
                 yield one.result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
     return run
 
 
@@ -89,13 +94,14 @@ class _Worker:
         except OSError:
             pass  # it is dead, which the next look tells
 
-    def end(self) -> None:
+    def end(self, patience: float = PATIENCE) -> None:
+        """Ends the process: in `patience` [s] by itself, else by force."""
         try:
             self.pipe.send(None)
         except OSError:
             pass
         self.pipe.close()
-        self.process.join(5.0)
+        self.process.join(patience)
         if self.process.is_alive():
             self.process.kill()
             self.process.join()
@@ -109,6 +115,7 @@ def processes(workers: int) -> Callable[..., Iterator[Result]]:
         source, again = iter(tasks), collections.deque[Any]()
         kills: dict[int, int] = {}
         team: list[_Worker] = []
+        patience = 0.0
 
         def following() -> Any:
             return again.popleft() if again else next(source, None)
@@ -120,7 +127,8 @@ def processes(workers: int) -> Callable[..., Iterator[Result]]:
                 task = following() if len(team) < workers else None
             while any(one.task is not None for one in team):
                 busy = [one for one in team if one.task is not None]
-                ready = multiprocessing.connection.wait([one.pipe for one in busy])
+                ready = multiprocessing.connection.wait([one.pipe for one in busy], LOOK)
+                INTERRUPTS.check()
                 for i, one in enumerate(team):
                     if one.task is None or one.pipe not in ready:
                         continue
@@ -145,9 +153,10 @@ def processes(workers: int) -> Callable[..., Iterator[Result]]:
                 for one in team:  # a worker may have been idle when a dead one's sample came back
                     if one.task is None and again:
                         one.give(again.popleft())
+            patience = PATIENCE
         finally:
             for one in team:
-                one.end()
+                one.end(patience)
     return run
 
 

@@ -1,6 +1,7 @@
 """A scene: a compiled model with the names of its parts, and what is to be asked of it."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -45,9 +46,14 @@ class Scene:
     inline: set[str] = field(default_factory=set)          #: programmes that the file gives as a value in the place of a name
     divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
+    progress: Callable[[float], Any] | None = field(default=None, compare=False)  #: of the analyses of its sims, for a terminal
+
     def new_sim(self) -> Sim:
         """A sim with the options of the scene."""
-        return self.model.sim(**self.sim)
+        made = self.model.sim(**self.sim)
+        if self.progress is not None:
+            made.on_progress = self.progress
+        return made
 
     def fields_of(self, analysis: str) -> dict[str, Any]:
         """The fields of the options of an analysis."""

@@ -37,11 +37,11 @@ def trivial(scene: Scene) -> list[str]:
     found: list[str] = []
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
     if not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
-            spin for component, spin in _speeds(calls) if component == enums.RX):
+            one.get("component") == enums.RX and _ever(calls, one.get("programme")) for one, in calls.get("add_drive", [])):
         found.append(phrase("no rotation: torque, whirl and critical speeds are not excited"))
     if pipes and not any(one.eccentricity or one.eccentricity_spread for one in pipes):
         found.append(phrase("no eccentricity of the pipes: rotation excites no lateral vibration; set eccentricity in [[string.pipes]]"))
-    if calls.get("add_bit") and not any(_bit_load(calls, one) for one, in calls["add_bit"]):
+    if calls.get("add_bit") and not any(one.get("rock_law") or _ever(calls, one.get("load")) for one, in calls["add_bit"]):
         found.append(phrase("no load on the bit: buckling and bit torque are not assessed; set load in [[bit]]"))
     if pipes and not any(one.damping_time for one in pipes):
         found.append(phrase("no material damping of the pipes: vibrations do not decay by themselves; set damping_time in [[string.pipes]]"))
@@ -142,6 +142,13 @@ def _speeds(calls: dict[str, list[tuple[Any, ...]]]) -> list[tuple[int, float]]:
 
 def _bit_load(calls: dict[str, list[tuple[Any, ...]]], bit: dict[str, Any]) -> float:
     return _last(calls, bit["load"]) if "load" in bit else 0.0
+
+
+def _ever(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> bool:
+    """Whether a programme has a value other than 0 at any time."""
+    terms = calls["add_programme"][programme.index & 0xFFFFFF] if programme else ()
+    return any("function" in one or one.get("h0") or (one.get("h1") and one.get("kind", enums.TERM_CONSTANT) != enums.TERM_CONSTANT)
+               or any(value for _, value in one.get("table", ())) for one in terms)
 
 
 def _last(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> float:

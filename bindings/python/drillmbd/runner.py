@@ -1,0 +1,71 @@
+"""The way in which each command answers for a scene: warnings first, then the results, progress meanwhile; whatever ends it leaves a
+summary with the exit status and the time that it took."""
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from collections.abc import Callable
+from typing import IO, Any
+
+from .answers import Output
+from .errors import Error
+from .exit_status import STOPPED, line_of, status_and_message
+from .language import phrase
+from .scene import Scene
+from .scene.warned import warnings_of
+
+Answer = Callable[[Scene, Output, Any], int]
+
+
+class Meter:
+    """A line on the terminal with the part of a long analysis that is done. It appears after a while, and nowhere but on a terminal."""
+
+    AFTER, EVERY = 1.0, 0.3  #: [s]
+
+    def __init__(self, name: str, stream: IO[str] | None = None) -> None:
+        self.name, self.stream = name, sys.stderr if stream is None else stream
+        self.begun = self.told = time.monotonic()
+        self.width = 0
+
+    def __call__(self, fraction: float) -> None:
+        now = time.monotonic()
+        if now - self.begun < self.AFTER or now - self.told < self.EVERY:
+            return
+        self.told = now
+        text = f"{self.name}: {100.0 * fraction:3.0f} % of this analysis, {now - self.begun:.0f} s"
+        self.stream.write("\r" + text.ljust(self.width))
+        self.stream.flush()
+        self.width = len(text)
+
+    def clear(self) -> None:
+        """Takes the line away, so that another can be written there."""
+        if self.width:
+            self.stream.write("\r" + " " * self.width + "\r")
+            self.stream.flush()
+            self.width = 0
+
+
+def carry_out(scene: Scene, output: Output, options: Any, answer: Answer) -> int:
+    """The exit status of a command. Errors are raised again after the summary is written."""
+    meter = None if output.quiet or not sys.stderr.isatty() else Meter(output.summary["command"])
+    output.meter = scene.progress = meter
+    try:
+        for text in warnings_of(scene):
+            output.warn(output.units.sentence(text))
+        return answer(scene, output, options)
+    except KeyboardInterrupt:
+        output.stopped(phrase("stopped by Ctrl-C before all results were computed"))
+        return output.finish(STOPPED)
+    except Exception as error:
+        if isinstance(error, Error):
+            error.message = output.units.sentence(error.message)
+        found = status_and_message(error)
+        output.summary["error"] = line_of(error)
+        with contextlib.suppress(OSError):
+            output.write_summary(found[0] if found else 1)
+        raise
+    finally:
+        scene.progress = None
+        if meter is not None:
+            meter.clear()

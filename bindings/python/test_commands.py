@@ -1,0 +1,258 @@
+"""Tests of all commands alike: on every shipped scene, with the same warnings, statuses and summaries, after Ctrl-C and after failures."""
+import json
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+from unittest import mock
+
+from shared_tests import COMMAND, ENVIRONMENT, HERE, FolderTest, needs
+from test_command import SCENE
+
+needs("numpy")
+ROOT = HERE.parents[1]
+SHIPPED = [*sorted((ROOT / "examples" / "scenes").glob("*.toml")), *sorted((ROOT / "examples" / "failure_probability").glob("*.toml"))]
+#: Short settings in the place of those of the shipped scenes.
+SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "points = 5"), (r'"2 s"(?=\s*#? ?\n|$)', '"2 s"'),
+         (r'(?m)^from = "2 s"', 'from = "5 ms"'))
+COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",), ("buckle",),
+            ("torque-drag", "--depths", "2"), ("stuck", "--pull", "20 kN"), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
+            ("probability", "--samples", "1", "--method", "monte-carlo", "--engine", "serial"))
+LOOSE = SCENE.replace('[[drive]]\nname = "feed"\nprogramme = "0 m/s"\n', "")  # nothing holds the string along its axis
+HEAVY = SCENE.replace("count = 8", "count = 3000").replace('end = "20 ms"', 'end = "200 s"') + """[buckling]
+scale = "all"
+[variability]
+[[variability.scatter]]
+key = "hole.mu_dynamic"
+distribution = "uniform"
+low = 0.1
+high = 0.3
+[[failure]]
+kind = "rig-torque"
+limit = "1 N m"
+"""
+
+
+@unittest.skipUnless(SHIPPED, "not there: the shipped scenes")
+class ShippedTest(FolderTest):
+    """All commands on all shipped scenes."""
+
+    def setUp(self):
+        super().setUp()
+        for path in ROOT.glob("examples/scenes/*.csv"):
+            shutil.copy(path, self.folder)
+
+    def short(self, path):
+        text = path.read_text(encoding="utf-8")
+        for pattern, new in SHORT:
+            text = re.sub(pattern, new, text)
+        return self.write(path.name, text)
+
+    def test_every_command(self):
+        """Status 0, an answer, no traceback, and each warning of the scene as a note."""
+        from drillmbd import scene
+        from drillmbd.scene.warned import warnings_of
+        for path in SHIPPED:
+            short = self.short(path)
+            known = [f"note: {text}\n" for text in warnings_of(scene.load(short))]
+            for words in COMMANDS:
+                with self.subTest(scene=path.name, command=words[0]):
+                    out = self.ask(words[0], short, *words[1:])
+                    self.assertGreater(len(out), 40)
+                    self.assertNotIn("Traceback", out)
+                    self.assertEqual([text for text in known if text not in out], [])
+
+    def test_report_save_and_unit(self):
+        for path in SHIPPED:
+            short = self.short(path)
+            self.assertIn("[sim]", self.ask("save", short, "-"))
+            try:
+                import plotly.offline  # noqa: F401
+                self.ask("report", short, "-o", self.folder / "report")
+                self.assertTrue((self.folder / "report" / "report.html").exists())
+            except ImportError:
+                pass
+            unit = self.folder / "x.fmu"
+            process = subprocess.run([*COMMAND, "fmu", short, "-o", unit], capture_output=True, text=True, env=ENVIRONMENT)
+            if process.returncode == 2 and "is not there; build" in process.stderr:
+                continue  # a build without it
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+
+    def test_warnings_have_a_cause(self):
+        """Each cause of a warning, alone, is warned of; reference rig: of none, its load of the bit ends before the run does."""
+        from drillmbd import scene
+        from drillmbd.scene.warned import warnings_of
+        path = next(path for path in SHIPPED if path.stem == "reference_rig")
+        text = path.read_text(encoding="utf-8")
+        self.assertEqual(warnings_of(scene.loads(text)), [])
+        for old, new, told in (('eccentricity = "1 mm"', "", "no eccentricity"), ('damping_time = "0.1 ms"', "damping_time = 0", "no material damping"),
+                               ('h1 = "2960 N"', "h1 = 0", "no load on the bit"), ('h1 = "200 rpm"', "h1 = 0", "no rotation"),
+                               ('"94 mm"', '"94 m"', "diameter = 94 m, which is unusual"), ('h1 = "2960 N"', 'h1 = "300 kg"', "a unit of mass: its weight is taken"),
+                               ('length = "1 m"', 'length = "10 m"', "divided into")):
+            changed = text.replace(old, new).replace(old.replace('"', '"-', 1), new)
+            found = warnings_of(scene.loads(changed))
+            self.assertTrue(any(told in one for one in found), (old, found))
+        rock = text.replace('h1 = "2960 N"', "h1 = 0").replace('h1 = "-2960 N"', "h1 = 0").replace('mass = "5 kg"\n', 'mass = "5 kg"\nrock_law = "regenerative"\n')
+        self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
+
+
+class PictureTest(unittest.TestCase):
+    """Axes and curves that show what there is, and no rounding."""
+
+    def setUp(self):
+        needs("matplotlib")
+        import matplotlib
+        matplotlib.use("Agg")
+        from drillmbd import plots
+        self.plots = plots
+        self.addCleanup(matplotlib.pyplot.close, "all")
+
+    def test_profile_at_rest(self):
+        """Rounding of forces and torques stays near 0; a torque that friction could give fills its axis."""
+        import numpy
+        found = mock.Mock(depth=numpy.linspace(0, 100, 101), along=numpy.linspace(0, 100, 101), axial_force=1e-9 * numpy.sin(numpy.arange(101)),
+                          torque=1e-12 * numpy.cos(numpy.arange(101)), bending_moment=numpy.ones(101), contact_depth=numpy.arange(3000.0) / 30,
+                          contact_force=numpy.full(3000, 3.0))
+        axial, torque, _, wall = self.plots.profile(found).axes
+        self.assertGreaterEqual(axial.get_xlim()[1], 90.0)       # 1 % of 9 kN on the wall
+        self.assertGreaterEqual(torque.get_xlim()[1], 4.5)
+        self.assertEqual((len(wall.patches), len(wall.collections), wall.get_xlim()[0]), (0, 1, 0.0))  # one artist for all contacts
+        found.torque = 90.0 * numpy.cos(numpy.arange(101))
+        self.assertLess(self.plots.profile(found).axes[1].get_xlim()[1], 110.0)
+
+    def test_long_run(self):
+        """Many swings are a band with their mean; few are the curve itself."""
+        import numpy
+        time = numpy.linspace(0.0, 60.0, 6001)
+        for cycles, banded in ((20.0, False), (600.0, True)):
+            values = 5.0 + numpy.sin(2.0 * numpy.pi * cycles * time / 60.0)
+            axes = self.plots.history(numpy.column_stack([time, values]), ["time [s]", "torque [N m]"]).axes[0]
+            self.assertEqual(len(axes.collections), int(banded))
+            drawn = axes.get_lines()[0].get_ydata()
+            self.assertLess(float(abs(drawn - 5.0).max()), 0.3 if banded else 1.01)
+            if banded:
+                edge = axes.collections[0].get_paths()[0].vertices[:, 1]
+                self.assertAlmostEqual(edge.max(), 6.0, 2)
+                self.assertAlmostEqual(edge.min(), 4.0, 2)
+
+    def test_log_axis_of_less_than_two_decades(self):
+        for low, high in ((0.9, 0.93), (0.02, 0.05), (1e-6, 1e-3)):
+            figure = self.plots.severity([1.0, 2.0, 3.0], [low, high, high], [], 1.0)
+            axes = figure.axes[0]
+            figure.canvas.draw()
+            below, above = axes.get_ylim()
+            labels = [text.get_text() for which in ("major", "minor") for place, text in zip(axes.yaxis.get_ticklocs(minor=which == "minor"),
+                                                                                       axes.get_yticklabels(which=which)) if below <= place <= above]
+            self.assertGreaterEqual(len([text for text in labels if text]), 3, (low, high, labels))
+            self.assertGreaterEqual(above / below, 9.99)
+
+
+class EndTest(FolderTest):
+    """The end of each command: done, failed, stopped."""
+    SCENE = SCENE + '[buckling]\nscale = "all"\n[limits]\ntorque = "1 kN m"\n'
+
+    def summary(self, name="out"):
+        return json.loads((self.folder / name / "summary.json").read_text(encoding="utf-8"))
+
+    def test_statuses_are_listed_once(self):
+        from drillmbd.exit_status import STATUSES, text
+        self.assertIn(text(), self.ask("--help"))
+        guide = ROOT / "examples" / "README.md"
+        if guide.exists():
+            table = dict(re.findall(r"^\| (\d+) \| (.*) \|$", guide.read_text(encoding="utf-8"), re.M))
+            self.assertEqual(table, {str(status): about for status, about in STATUSES.items()})
+
+    def test_summary_of_a_failure(self):
+        """An analysis that fails leaves the reason, the status and the time."""
+        loose = self.write("loose.toml", LOOSE)
+        for command in ("static", "run"):
+            error = self.ask(command, loose, "-o", self.folder / command, status=1)
+            found = self.summary(command)
+            self.assertEqual(found["status"], 1)
+            self.assertEqual(f"drillmbd: {found['error']}\n", error)
+            self.assertIn("nothing holds it", error)
+            self.assertGreater(found["elapsed_s"], 0.0)
+
+    def test_every_command_stops(self):
+        """Ctrl-C within an analysis: status 130, and a summary with what is known."""
+        from drillmbd import questions
+        for name in questions.QUESTIONS:
+            with mock.patch.dict(questions.QUESTIONS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
+                self.ask(name, self.scene, "-o", self.folder / "out", status=130)
+            found = self.summary()
+            self.assertEqual((found["command"], found["status"]), (name, 130))
+            self.assertIn("stopped by Ctrl-C", found["notes"][-1])
+            self.assertGreater(found["elapsed_s"], 0.0)
+
+    def test_elapsed(self):
+        """The time of the whole command, by the clock."""
+        begun = time.perf_counter()
+        self.ask("run", self.scene, "-o", self.folder / "out")
+        elapsed = time.perf_counter() - begun
+        found = self.summary()
+        self.assertEqual(found["status"], 0)
+        self.assertLess(found["elapsed_s"], elapsed)
+        self.assertGreater(found["elapsed_s"], 0.5 * elapsed)
+        self.assertGreater(found["elapsed_s"], found["run"]["elapsed_s"])
+
+    def test_sweep_goes_on(self):
+        """Cases of the same settings are kept; of another scene, command or option they are computed again."""
+        from drillmbd import questions
+        words = ("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "-o", self.folder / "out", "--", "--depths", "2")
+        real, seen = questions.QUESTIONS["torque-drag"], []
+
+        def stop_at_third(*arguments):
+            seen.append(0)
+            if len(seen) == 3:
+                raise KeyboardInterrupt
+            return real(*arguments)
+
+        with mock.patch.dict(questions.QUESTIONS, {"torque-drag": stop_at_third}):
+            self.ask(*words, status=130)
+            found = self.summary()
+            self.assertEqual((found["status"], found["computed"], found["cases"]), (130, 2, 3))
+            out = self.ask(*words)
+        self.assertEqual(len(seen), 4)  # the third case alone
+        self.assertEqual(out.count("as computed before"), 2)
+        found, table = self.summary(), (self.folder / "out" / "sweep.csv").read_text()
+        self.assertEqual((found["status"], found["computed"], found["kept"]), (0, 1, 2))
+        shutil.rmtree(self.folder / "out")
+        self.ask(*words)
+        self.assertEqual((self.folder / "out" / "sweep.csv").read_text(), table)
+        self.assertIn("3 of 3 cases", self.ask(*words[:-1], "3"))
+        self.assertEqual(self.summary()["kept"], 0)
+        self.scene.write_text(self.scene.read_text().replace('"1 mm"', '"2 mm"'))
+        self.ask(*words[:-1], "3")
+        self.assertEqual(self.summary()["kept"], 0)
+
+    def test_interrupted_processes(self):
+        """Real processes in the middle of long analyses end within seconds."""
+        heavy = self.write("heavy.toml", HEAVY)
+        for words in (("static",), ("run",), ("modes",), ("response",), ("speeds",), ("buckle",), ("torque-drag", "--depths", "500"), ("report",),
+                      ("sweep", "static", "--vary", "hole.mu_dynamic=0.1,0.2"), ("probability", "--engine", "processes", "--workers", "2")):
+            with self.subTest(command=words[0]):
+                output = self.folder / words[0]
+                process = subprocess.Popen([*COMMAND, words[0], heavy, *words[1:], "-o", output], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+                                           env=ENVIRONMENT, text=True,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+                begun = output / ("00001/scene.toml" if words[0] == "sweep" else "scene.toml")
+                limit = time.monotonic() + 120.0
+                while not begun.exists() and time.monotonic() < limit and process.poll() is None:
+                    time.sleep(0.02)
+                time.sleep(0.3)
+                process.send_signal(signal.SIGINT)
+                _, error = process.communicate(timeout=120)
+                self.assertEqual(process.returncode, 130, error)
+                self.assertNotIn("Traceback", error)
+                found = json.loads((output / "summary.json").read_text(encoding="utf-8"))
+                self.assertEqual(found["status"], 130)
+                self.assertTrue(any("stopped by Ctrl-C" in note for note in found["notes"]), found["notes"])
+                self.assertGreater(found["elapsed_s"], 0.0)
+                shutil.rmtree(pathlib.Path(output))
+
+
+if __name__ == "__main__":
+    unittest.main()
