@@ -7,6 +7,7 @@ import math
 import pathlib
 import re
 import unittest
+import unittest.mock
 
 from shared_tests import DRIVES, HERE, SHORT_STRING, FolderTest, needs
 
@@ -14,7 +15,7 @@ needs("numpy", "tomllib")
 
 import tomllib  # noqa: E402
 
-from drillmbd import answers, enums, language, report, report_hole, report_linear, scene, unit_systems, verdict  # noqa: E402
+from drillmbd import answers, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
 from drillmbd._structs import SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import Usage, status_text  # noqa: E402
@@ -293,7 +294,8 @@ class VerdictTest(unittest.TestCase):
             self.assertEqual(tiles[title].verdict, "OK", tiles[title])
         self.assertEqual(made.plan.torque_on_bit, BIT_FRICTION * 2000.0 * 0.094 / 3.0)
         self.assertIn("bit torque 31.33 N m, estimated from the bit load", made.headline)
-        self.assertEqual([row[0] for row in made.rows], ["Thrust at the rig", "Pull at the rig", "Torque at the rig", "Rotary speed", "Load on the bit"])
+        self.assertEqual([row[0] for row in made.rows], ["Thrust at the rig", "Pull at the rig", "Torque at the rig", "Rotary speed", "Load on the bit",
+                                                         "Feed rate"])
         self.assertEqual(made.rows[0][1:3], ("100 kN", tiles["Thrust at the rig"].value))
         self.assertEqual(made.rows[4][1], "2 kN: more is not assessed")
 
@@ -308,6 +310,45 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual((tiles["Von Mises stress"].verdict, tiles["Run in time"].verdict), ("NOT ASSESSED", "NOT ASSESSED"))
         with_strength = self.study(text.replace('eccentricity = "1 mm"', 'eccentricity = "1 mm"\nyield_strength = "500 MPa"'))[1]
         self.assertEqual(with_strength["Von Mises stress"].verdict, "OK")
+
+    def test_nonlinear_buckling(self):
+        """OK only for a confirmed factor well above 1."""
+        class Found:
+            status = 0
+
+            def __init__(self, factors, confirmed):
+                self.factors, self.info = factors, unittest.mock.Mock(confirmed=confirmed)
+
+            def __enter__(self):
+                return self
+
+            def __exit__(self, *_):
+                pass
+
+        def told(factors, confirmed=1):
+            made = unittest.mock.MagicMock()
+            made.new_sim().__enter__().buckling.return_value = Found(factors, confirmed)
+            return report_linear.buckling_tile(made, lambda sim: None, unittest.mock.MagicMock()).verdict
+        self.assertEqual([told([2.0]), told([1.2]), told([0.9]), told([2.0], 0), told([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
+
+    def test_rows_for_the_crew(self):
+        """Load on the bit and feed are cleared with what they cause only; the page says not to drill where a value is over."""
+        made, tiles = self.study(SCENE.replace('torque = "5 kN m"', 'torque = "20 N m"').replace('"0 m/s"', '"1 mm/s"'))
+        rows = {row[0]: row for row in made.rows}
+        self.assertEqual((rows["Torque at the rig"][3], rows["Load on the bit"][3], rows["Feed rate"][3]), ("OVER",) * 3)
+        self.assertEqual(rows["Feed rate"][1], "1 mm/s: more is not assessed")
+        self.assertIn("Do not drill as described here. Over the limit: Torque at the rig.", report_page.Page(made).limits())
+        made, tiles = self.study(SCENE.replace('"0 m/s"', '"1 mm/s"'))
+        self.assertEqual({row[3] for row in made.rows}, {"OK"})
+        self.assertNotIn("Do not drill", report_page.Page(made).limits())
+        self.assertEqual(verdict.worst(["OK", "NOT ASSESSED", "NO LIMIT GIVEN"]), "NOT ASSESSED")
+
+    def test_noise_is_drawn_as_zero(self):
+        self.assertEqual(report_figures.value_axis("x", [1e-24, -3e-20])["range"], [-1, 1])
+        self.assertNotIn("range", report_figures.value_axis("x", [1e-24, 2e-6]))
+        demand = verdict.Demand("x", "N", 5.0)
+        demand.add(-0.0, "s")
+        self.assertEqual(demand.tile().value, "0 N")
 
     def test_rock_law(self):
         """The torque of a bit that cuts rock is not estimated; without a run its load is not known."""
@@ -337,6 +378,7 @@ class VerdictTest(unittest.TestCase):
             return shape(sim)
         shape, made._shape = made._shape, stopped
         made.ask()
+        self.assertTrue(made.output.interrupted)
         self.assertEqual({tile.verdict for tile in made.tiles if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
 
     def test_fatigue(self):

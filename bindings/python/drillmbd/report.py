@@ -67,10 +67,9 @@ class Study:
         self._attempt(phrase("stiff string"), everything, self._operations)
         self._attempt(phrase("run in time"), everything, self._run)
         self._missing_loads()
-        limits = {key: demand.tile() for key, demand in self.demands.items()}
-        self.tiles[:0] = list(limits.values())
+        self.tiles[:0] = [demand.tile() for demand in self.demands.values()]
         self._attempt(phrase("Critical speeds"), (), self._speeds)
-        self.rows = limits_at_the_rig(self.demands, limits, self.speeds, self.tiles[-1].verdict, self.plan, self.units)
+        self.rows = limits_at_the_rig(self.demands, self.tiles, self.speeds, self.plan, self.units)
         if "buckling" in self.scene.analyses:
             self._attempt(phrase("Buckling, nonlinear"), (), self._buckling)
         with self.scene.new_sim() as sim:

@@ -11,7 +11,7 @@ from .operating import BIT_FRICTION, Operating
 from .report_linear import Speeds
 from .scene import Scene
 from .unit_systems import Units
-from .verdict import NO_LIMIT, NOT_ASSESSED, Demand, Tile, shown
+from .verdict import NOT_ASSESSED, Demand, Tile, shown, worst
 
 NAMES_OF = {"si": phrase("SI"), "field": phrase("field units (ft, lbf, psi)"), "mine": phrase("mine units (m, kN, MPa)")}
 Row = tuple[str, str, str, str]  # quantity, limit, expected, verdict
@@ -32,28 +32,34 @@ def headline(string: str, plan: Operating, units: Units) -> Phrase:
     return phrase("String {string}. Operation: {operation}.", string=string, operation=joined(", ", known))
 
 
-def limits_at_the_rig(demands: dict[str, Demand], tiles: dict[str, Tile], speeds: Speeds | None, speeds_verdict: str, plan: Operating,
-                      units: Units) -> list[Row]:
-    """Limits for the crew: a row for each quantity that the rig shows, also where no limit is known."""
+def limits_at_the_rig(demands: dict[str, Demand], tiles: list[Tile], speeds: Speeds | None, plan: Operating, units: Units) -> list[Row]:
+    """Limits for the crew: a row for each quantity that the rig shows, also where no limit is known. Load on the bit and feed have the worst
+    verdict of the results that they decide."""
+    verdicts = {tile.title: tile.verdict for tile in tiles}
     rows: list[Row] = []
     for key in ("push", "pull", "torque"):
         demand = demands[key]
         limit = shown(demand.limit, demand.unit, units) if demand.limit else phrase("not given: ask before drilling")
         expected = shown(demand.value, demand.unit, units) if demand.value is not None else phrase("not known")
-        rows.append((demand.title, limit, expected, tiles[key].verdict))
+        rows.append((demand.title, limit, expected, verdicts[demand.title]))
     rotation = units.text((plan.rotation or 0.0) / RPM, "rpm") if plan.rotation else phrase("not known")
+    speed = verdicts.get("Critical speeds", NOT_ASSESSED)
     if speeds is None or not speeds.assessed:
-        rows.append((phrase("Rotary speed"), phrase("not known: no speeds were assessed"), rotation, speeds_verdict))
+        rows.append((phrase("Rotary speed"), phrase("not known: no speeds were assessed"), rotation, speed))
     else:
         ranges = [phrase("{low} to {high} rpm", low=low, high=high) for low, high in speeds.allowed()]
         limit = phrase("only {ranges}", ranges=joined(" or ", ranges)) if ranges else phrase("no assessed speed is free of critical speeds")
-        rows.append((phrase("Rotary speed"), limit, rotation, speeds_verdict))
-    if plan.weight_on_bit:
-        load = units.text(plan.weight_on_bit / 1e3, "kN")
-        rows.append((phrase("Load on the bit"), phrase("{load}: more is not assessed", load=load), load, NO_LIMIT))
-    else:
-        rows.append((phrase("Load on the bit"), phrase("not known: the scene gives none"), phrase("not known"), NOT_ASSESSED))
-    return rows
+        rows.append((phrase("Rotary speed"), limit, rotation, speed))
+    decided = worst([verdicts[demand.title] for key, demand in demands.items() if key != "pull"] + [verdicts.get("Buckling in the hole", NOT_ASSESSED)])
+    return [*rows, _planned(phrase("Load on the bit"), units.text((plan.weight_on_bit or 0.0) / 1e3, "kN"), plan.weight_on_bit, decided),
+            _planned(phrase("Feed rate"), units.text(1e3 * (plan.feed or 0.0), "mm/s"), plan.feed, decided)]
+
+
+def _planned(title: str, shown_value: str, value: float | None, verdict: str) -> Row:
+    """A quantity that the analyses had as the scene gives it."""
+    if not value:
+        return (title, phrase("not known: the scene gives none"), phrase("not known"), NOT_ASSESSED)
+    return (title, phrase("{value}: more is not assessed", value=shown_value), shown_value, verdict)
 
 
 def assumptions(scene: Scene, units: Units, hash_of_state: str) -> list[tuple[str, str]]:

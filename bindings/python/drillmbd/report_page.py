@@ -10,11 +10,11 @@ from typing import Protocol
 
 from ._optional import need
 from .answers import Output, finite
-from .language import phrase
+from .language import joined, phrase
 from .report_basis import Row
 from .report_figures import Figure, InSpace
 from .report_hole import Drawing, HoleView, still
-from .verdict import NEAR, NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, Tile
+from .verdict import NEAR, NOT_ASSESSED, NOT_COMPUTED, OK, OVER, WORST_FIRST, Tile
 
 CLASSES: dict[str, str] = {OK: "ok", NEAR: "near", OVER: "over", NOT_ASSESSED: "open", NOT_COMPUTED: "open"}
 WIDE, NARROW = 960.0, 340.0  #: [pixel] pictures of the hole for screens and paper, and for phones
@@ -90,7 +90,6 @@ document.body.dataset.drawn=drawn})();"""
 BUTTONS = (phrase("Download plot as a PNG"), phrase("Zoom"), phrase("Pan"), phrase("Zoom in"), phrase("Zoom out"), phrase("Autoscale"), phrase("Reset axes"),
            phrase("Orbital rotation"), phrase("Turntable rotation"), phrase("Reset camera to default"), phrase("Reset camera to last save"),
            phrase("Double-click to zoom back out"), phrase("Taking snapshot - this may take a few seconds"), phrase("Snapshot succeeded"))
-ORDER = (OVER, NEAR, NOT_COMPUTED, NOT_ASSESSED, NO_LIMIT, OK)
 
 
 class Page:
@@ -115,7 +114,7 @@ class Page:
     def verdicts(self) -> str:
         """One line for each verdict that occurs, the worst first."""
         found = []
-        for verdict in ORDER:
+        for verdict in WORST_FIRST:
             titles = [self.to(tile.title) for tile in self.study.tiles if tile.verdict == verdict]
             if titles:
                 found.append(f'<div class="{CLASSES.get(verdict, "none")}"><span class="verdict">{self.text(verdict)}</span> '
@@ -127,10 +126,13 @@ class Page:
         heads = (phrase("Quantity"), phrase("Do not exceed"), phrase("Expected"), phrase("Verdict"))
         rows = "".join(f'<tr class="{CLASSES.get(verdict, "none")}"><th>{self.text(title)}</th><td><b>{self.text(limit)}</b></td><td>{self.text(expected)}</td>'
                        f'<td><span class="verdict">{self.text(verdict)}</span></td></tr>' for title, limit, expected, verdict in self.study.rows)
-        return (self.heading(phrase("What must not be exceeded")) + '<div class="scroll"><table class="limits"><tr>'
+        over = [tile.title for tile in self.study.tiles if tile.verdict == OVER]
+        stop = f'<p><b>{self.text(phrase("Do not drill as described here. Over the limit: {quantities}.", quantities=joined(", ", over)))}</b></p>' if over else ""
+        return (self.heading(phrase("What must not be exceeded")) + stop + '<div class="scroll"><table class="limits"><tr>'
                 + "".join(f"<th>{self.text(head)}</th>" for head in heads) + f"</tr>{rows}</table></div><p>"
-                + self.text(phrase("These values hold for this hole, string, mud, friction and operation only. Stop and ask before a longer hole, more load on "
-                                   "the bit, another rotary speed or another bit. A quantity without the verdict OK is not cleared.")) + "</p>")
+                + self.text(phrase("These values hold for this hole, string, mud and friction only. Stop and ask before a longer hole, another bit, or more "
+                                   "than a value of this table. A quantity without the verdict OK is not cleared. If a reading is far from the expected "
+                                   "value, this page does not describe the hole: stop and ask.")) + "</p>")
 
     def hole(self) -> str:
         """Hole and string in words, plan and section."""

@@ -1,6 +1,7 @@
 """Verdicts on demands and limits: a tile of the report, a line of the command."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from .language import joined, phrase
@@ -8,12 +9,18 @@ from .unit_systems import SI, Units
 
 OK, NEAR, OVER = phrase("OK"), phrase("NEAR LIMIT"), phrase("OVER")
 NO_LIMIT, NOT_ASSESSED, NOT_COMPUTED = phrase("NO LIMIT GIVEN"), phrase("NOT ASSESSED"), phrase("NOT COMPUTED")
+WORST_FIRST = (OVER, NEAR, NOT_COMPUTED, NOT_ASSESSED, NO_LIMIT, OK)
 NEAR_SHARE = 0.8  #: of a limit
 
 
 def shown(value: float, unit: str, units: Units = SI) -> str:
     """A number in three digits with a prefix; in four in other units than SI."""
     return units.scaled(value, unit, ".3g" if units.name == "si" else ".4g", "kMG")
+
+
+def worst(verdicts: Iterable[str]) -> str:
+    """The one that allows least."""
+    return min(verdicts, key=WORST_FIRST.index)
 
 
 @dataclass
@@ -45,7 +52,7 @@ class Demand:
     def add(self, value: float, source: str) -> None:
         """The result of one analysis; a negative one, as the thrust of a string that hangs, demands nothing."""
         if value == value:
-            self.found.append((max(value, 0.0), source))
+            self.found.append((max(0.0, value), source))
 
     @property
     def value(self) -> float | None:
