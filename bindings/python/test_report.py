@@ -136,7 +136,7 @@ class CatalogueTest(unittest.TestCase):
     def test_messages_are_those_of_the_library(self):
         known = [*sources(), *map(status_text, enums.Status)]
         for template in CATALOGUE["messages"]:
-            text = FIELDS.sub("\0", template)
+            text = FIELDS.sub("\0", template).removeprefix("\0: ")  # the name of the analysis or part
             for part in text.split("; "):  # a remedy is put behind a failure
                 self.assertTrue(any(part in one for one in known), template)
 
@@ -205,7 +205,7 @@ class HoleTest(unittest.TestCase):
         for width in (960.0, 340.0):
             drawn = report_hole.Drawing(view, width, language.ENGLISH).svg()
             course = [[tuple(map(float, one.split(","))) for one in points.split()]
-                      for points in re.findall(r'points="([^"]*)" fill="none" stroke="#cccccc"', drawn)]
+                      for points in re.findall(r'points="([^"]*)" fill="none" stroke="#e2e2e2"', drawn)]
             self.assertEqual(len(course), 2)
             (plan, section) = course
             self.assertAlmostEqual(plan[-1][0] - plan[0][0], section[-1][0] - section[0][0], 1)
@@ -502,6 +502,7 @@ class PageTest(FolderTest):
         margins = sorted(float(row[heads.index("margin of pull")]) for row in rows)
         self.assertIn(f"smallest {verdict.shown(margins[0], 'N')}", tile["text"])
         self.assertIn(f"median {verdict.shown(margins[6], 'N')}", tile["text"])
+        self.assertIn("by the static state of each sample", tile["text"])
         self.assertIn("Margins of the study", page)
         self.assertIn("Probability: any failure", out)
         self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language", "zh")[1]).replace("pull", "").replace("study", ""))
@@ -519,11 +520,13 @@ class PageTest(FolderTest):
         self.assertEqual((self.folder / "study" / "summary.json").read_bytes(), before)
 
     def test_no_failure_seen_is_no_zero(self):
-        from drillmbd.report_probability import Outcome
+        from drillmbd.report_probability import Outcome, amount
         one = Outcome("x", {"probability": 0.0, "low": 0.0, "high": 0.26, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 0})
         self.assertEqual(one.value, "at most 26 %")
         lost = Outcome("x", {"probability": None, "low": 0.0, "high": 1.0, "confidence": 0.95, "failures": 0, "samples": 12, "lost": 12})
         self.assertEqual(lost.value, "not computed")
+        si = unit_systems.Units()
+        self.assertEqual([amount(1500.0, unit, si) for unit in ("N", "-", "s", "m/s2")], ["1.5 kN", "1.5e+03", "1.5e+03 s", "1.5e+03 m/s2"])
 
 
 if __name__ == "__main__":

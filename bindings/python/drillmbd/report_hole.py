@@ -155,7 +155,7 @@ class Drawing:
         x, y = course[0]
         level = [(self.left, y), (max(max(one[0] for one in course), self.left + 6.0 * size), y)]
         self.parts.append(_line(level, "#777", 1.0, 'stroke-dasharray="2 4"'))
-        self.parts.append(_line(course, "#cccccc", 13.0, 'stroke-linecap="round"'))
+        self.parts.append(_line(course, "#e2e2e2", 13.0, 'stroke-linecap="round"'))
         self._string([at(one) for one in self.view.string])
         self._depths(at, component)
         self.parts.append(f'<rect x="{x - 0.4 * size:.1f}" y="{y - 0.4 * size:.1f}" width="{0.8 * size:g}" height="{0.8 * size:g}" fill="#fff" '

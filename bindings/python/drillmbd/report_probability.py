@@ -28,6 +28,7 @@ class Outcome:
     unit: str = ""                 #: of limit and margins
     limit: float = math.nan
     margins: list[float] = field(default_factory=list)  #: of all samples that have one, rising
+    static: bool = False           #: margins are those of the static state, not of a run
 
     @property
     def title(self) -> Phrase:
@@ -47,8 +48,9 @@ class Outcome:
     def interval(self) -> Phrase:
         """With its confidence and the counts behind it."""
         one = self.estimate
-        return phrase("{confidence:g} % interval {low} to {high}; {failures} of {samples} samples fail, {lost} have no result", low=percent(one["low"]),
-                      high=percent(one["high"]), confidence=100.0 * one["confidence"], failures=one["failures"], samples=one["samples"], lost=one["lost"])
+        by = phrase("by the static state of each sample") if self.static else phrase("by a run of each sample")
+        return phrase("{confidence:g} % interval {low} to {high}; {failures} of {samples} samples fail, {lost} have no result; {by}", by=by,
+                      low=percent(one["low"]), high=percent(one["high"]), confidence=100.0 * one["confidence"], failures=one["failures"], samples=one["samples"], lost=one["lost"])
 
     def margin_text(self, units: Units) -> str:
         """The median and the smallest margin, and the limit they are counted from; a negative margin is a failure."""
@@ -57,8 +59,8 @@ class Outcome:
         middle, least = self.margins[len(self.margins) // 2], self.margins[0]
         if not math.isfinite(self.limit):
             return phrase("margin over its limit: median {median:.3g}, smallest {least:.3g}", median=middle, least=least)
-        return phrase("limit {limit}; margin: median {median}, smallest {least}", limit=shown(self.limit, self.unit, units),
-                      median=shown(middle, self.unit, units), least=shown(least, self.unit, units))
+        return phrase("limit {limit}; margin: median {median}, smallest {least}", limit=amount(self.limit, self.unit, units),
+                      median=amount(middle, self.unit, units), least=amount(least, self.unit, units))
 
 
 @dataclass
@@ -89,6 +91,13 @@ class Probability:
                                      "yaxis": {"title": {"text": phrase("share of samples [-]")}}}})]
 
 
+def amount(value: float, unit: str, units: Units) -> str:
+    """A number with its unit, with a prefix where that is usual."""
+    if unit in ("N", "N m", "Pa"):
+        return shown(value, unit, units)
+    return f"{value:.3g}" if unit == "-" else units.text(value, unit, ".3g")
+
+
 def percent(value: float | None) -> str:
     """ "1.2 %" """
     return "? %" if value is None else f"{100.0 * value:.3g} %"
@@ -112,14 +121,14 @@ def read_probability(folder: str, scene: Scene) -> Probability:
     margins = _margins(place / "samples.csv")
     limits = {one.name: (KINDS[one.kind].unit, one.limit) for one in scene.failures}
     scales = {name: abs(limit) or 1.0 for name, (_, limit) in limits.items()}
-    outcomes = []
+    outcomes, static = [], scene.variability is not None and scene.variability.question == "static"
     for name, estimate in summary["estimates"].items():
         if name in limits:
-            outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, [])))))
+            outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, []))), static))
         else:
             each = [[margin / scales[one] for margin in margins[one]] for one in limits if one in margins]
             whole = sorted(_known(map(min, zip(*each)))) if name == ANY and len(each) == len(limits) else []
-            outcomes.append(Outcome(name, estimate, margins=whole))
+            outcomes.append(Outcome(name, estimate, margins=whole, static=static))
     return Probability(os.path.basename(os.path.normpath(folder)), outcomes)
 
 
