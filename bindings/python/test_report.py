@@ -4,8 +4,10 @@ import ast
 import html
 import json
 import math
-import pathlib
+import os
 import re
+import shutil
+import subprocess
 import unittest
 import unittest.mock
 
@@ -99,7 +101,9 @@ def sources():
             yield re.sub(r"%[-+0-9.]*[a-z]", "\0", text.replace("%%", "%"))
     for path in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.JoinedStr):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
+            elif isinstance(node, ast.JoinedStr):
                 yield "".join(one.value if isinstance(one, ast.Constant) else "\0" for one in node.values)
 
 
@@ -130,7 +134,7 @@ class CatalogueTest(unittest.TestCase):
         for part in CATALOGUE.values():
             for english, other in part.items():
                 left = set(re.findall(r"[A-Za-z]+", re.sub(r"\{[^{}]*\}|\[+[\w. ]*\]+|\\?\"[^\"]*\"", " ", other)))
-                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size".split()) | {"load"}
+                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size outer diameter".split()) | {"load"}
                 self.assertEqual(left - allowed, set(), (english, other))
 
     def test_messages_are_those_of_the_library(self):
@@ -361,6 +365,15 @@ class VerdictTest(unittest.TestCase):
         self.assertFalse(made.plan.estimated)
         self.assertNotIn("rock law", tiles["Torque at the rig"].text)
 
+    def test_two_strings(self):
+        """Analyses of one string clear nothing of a scene with two."""
+        text = SCENE.replace('[[bit]]', '[[string]]\nname = "other"\nstart_free = []\n[[string.pipes]]\ncount = 2\neccentricity = "1 mm"\n[[bit]]\nstring = "main"')
+        self.assertEqual(len(scene.loads(text).pipes), 2)
+        tiles = self.study(text)[1]
+        for title in ("Thrust at the rig", "Pull at the rig", "Torque at the rig", "Von Mises stress", "Buckling in the hole"):
+            self.assertNotEqual(tiles[title].verdict, "OK", title)
+        self.assertIn("other strings (other)", tiles["Pull at the rig"].text)
+
     def test_bit_without_a_diameter(self):
         """Its torque is not estimated, so that torque and stress are not cleared."""
         made, tiles = self.study(SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload'))
@@ -477,6 +490,38 @@ class PageTest(FolderTest):
         self.assertNotRegex(page.split('id="plotly"')[0].replace("演示钻孔", ""), "[\u4e00-\u9fff]")
         for part in ("What must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4", "only 30 to 300 rpm", "dip +5.0 deg"):
             self.assertIn(part, page)
+
+    def test_remarks_on_the_scene_file_in_chinese(self):
+        """A mass for a force, and a survey that begins below the collar."""
+        self.write("survey.csv", "depth [m],dip [deg],azimuth [deg]\n5,5,90\n20,5,90\n")
+        text = SCENE.replace('pull = "100 kN"', 'pull = "10 t"').replace('dip = "5 deg"\nazimuth = "90 deg"', 'survey_file = "survey.csv"').replace(
+            'name = "main"', 'name = "main"\nstart_depth = "5 m"')
+        out, page, _ = self.page("--language", "zh", text=text)
+        self.assertIn("是质量单位：按其重量取值", page)
+        self.assertIn("从 5 m 开始（连接点）", page)
+        self.assertChinese(re.sub(r"hole\.survey_file|survey\.csv|limits\.pull = \S+ t|“t”", " ", self.words(page)))
+
+    def test_fits_a_phone(self):
+        """In a frame of 360 pixels nothing is wider, tables scroll inside themselves, and all figures are drawn."""
+        browser = shutil.which("chromium")
+        if browser is None:
+            self.skipTest("not there: chromium; the page was not looked at")
+        text = SCENE.replace('dip = "5 deg"', 'dip = "-60 deg"').replace("[run]", '[output]\nvtk_interval = "1 s"\n[run]')
+        _, page, _ = self.page("--language", "zh", text=text)
+        frame = self.write("frame.html", f"""<html><body><iframe id="phone" src="file://{self.folder}/out/report.html" width="360" height="700"></iframe>
+<script>setInterval(()=>{{const inside=document.getElementById("phone").contentDocument;
+document.body.dataset.width=inside.documentElement.scrollWidth;document.body.dataset.ready=inside.body.dataset.drawn;
+document.body.dataset.trouble=inside.getElementById("problems").dataset.count;
+document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly-plot,.narrow svg,.card")].map(one=>one.getBoundingClientRect().right))}},500)
+</script></body></html>""")
+        done = subprocess.run([browser, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader",
+                               "--allow-file-access-from-files", "--virtual-time-budget=30000", "--dump-dom", f"file://{frame}"],
+                              capture_output=True, text=True, timeout=300, env={**os.environ, "HOME": str(self.folder)})
+        found = dict(re.findall(r'data-(\w+)="([\d.]+)"', done.stdout))
+        self.assertEqual(found.get("ready"), str(page.count('class="figure"')), found)
+        self.assertEqual(found["trouble"], "0")
+        self.assertLessEqual(float(found["width"]), 360.0)
+        self.assertLessEqual(float(found["widest"]), 360.0)
 
     def test_failing_analysis_says_why_in_the_language(self):
         study = report.Study(scene.load(self.scene), answers.Output(None, "x.toml", scene.load(self.scene), "report", True))

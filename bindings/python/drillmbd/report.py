@@ -67,6 +67,7 @@ class Study:
         self._attempt(phrase("stiff string"), everything, self._operations)
         self._attempt(phrase("run in time"), everything, self._run)
         self._missing_loads()
+        self._other_strings()
         self.tiles[:0] = [demand.tile() for demand in self.demands.values()]
         self._attempt(phrase("Critical speeds"), (), self._speeds)
         self.rows = limits_at_the_rig(self.demands, self.tiles, self.speeds, self.plan, self.units)
@@ -79,6 +80,16 @@ class Study:
             self.tiles += self.probability.tiles(self.units)
             self.figures += self.probability.figures()
         self.output.summary["verdicts"] = [vars(tile) for tile in self.tiles]
+
+    def _other_strings(self) -> None:
+        """Analyses of one string see the first one only."""
+        others = joined(", ", [name for name in self.scene.pipes if name != self.string])
+        if others:
+            for demand in self.demands.values():
+                demand.failed.append(phrase("other strings ({strings}), which the analyses of one string leave out", strings=others))
+            for tile in self.tiles:
+                if tile.verdict == OK:
+                    tile.verdict, tile.text = NOT_ASSESSED, phrase("of string {string} only; {text}", string=self.string, text=tile.text)
 
     def _missing_loads(self) -> None:
         """Loads of drilling that no analysis has: without them no verdict on thrust, torque and stress is OK."""

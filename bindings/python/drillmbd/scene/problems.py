@@ -18,9 +18,13 @@ class Problem:
     value: Any      #: as written; None where a whole table is meant
     text: str       #: what is wrong, with bound and advice
 
+    @property
+    def place(self) -> str:
+        """Key and value."""
+        return self.key + ("" if self.value is None else f" = {_shown(self.value)}")
+
     def __str__(self) -> str:
-        shown = "" if self.value is None else f" = {_shown(self.value)}"
-        return f"{self.key}{shown}: {self.text}"
+        return f"{self.place}: {self.text}"
 
 
 def _shown(value: Any) -> str:

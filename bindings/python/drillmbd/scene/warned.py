@@ -13,7 +13,7 @@ from .content import Scene
 def warnings_of(scene: Scene) -> list[str]:
     """One line each."""
     with scene.new_sim() as sim:
-        return [Foreign(f"line {one.line}: {one}") for one in scene.remarks] + [one.text() for one in scene.divided] + \
+        return [phrase("line {line}: {place}: {text}", line=one.line, place=one.place, text=Foreign(one.text)) for one in scene.remarks] + [one.text() for one in scene.divided] + \
             [phrase("not assessed: {reason}", reason=one) for one in words.trivial(scene)] + of_model(sim)
 
 
