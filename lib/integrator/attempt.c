@@ -14,6 +14,7 @@
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
 #include "system/constrain/constrain.h"
+#include "system/constrain/rotor.h"
 #include "system/system.h"
 
 /* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */
@@ -48,8 +49,30 @@ static void add_rigid(const dmb_sim *sim, double ratio, uint32_t rigid, motion_n
     }
 }
 
+/* A rotor, in axes that do not spin with it. */
+static void add_rotor(const dmb_sim *sim, double ratio, uint32_t rotor, motion_norms *most)
+{
+    const dmb_rotor_step *step = sim->rotor_step + rotor;
+    const uint32_t row = sim->scene->layout.row[sim->scene->rotors[rotor].node];
+    const double *start = step->start, *v = sim->trial.velocity + row;
+    double acceleration[6], pseudo[6];
+    dmb_vec6_copy(sim->trial.acceleration + row, acceleration);
+    dmb_vec6_copy(sim->trial.pseudo_acceleration + row, pseudo);
+    dmb_rotor_enter(sim, rotor, v, acceleration);
+    dmb_rotor_enter(sim, rotor, v, pseudo);
+    for (uint32_t k = 0; k < 6; k++) {
+        const double a0 = start[6 + k] + ratio * (start[12 + k] - start[6 + k]);
+        add_row(most, tolerance_of(sim, 6, k), pseudo[k] - a0, acceleration[k], v[k] - step->spin[k]);
+    }
+}
+
 static void add_node(const dmb_sim *sim, double ratio, uint32_t node, motion_norms *most)
 {
+    const uint32_t rotor = dmb_rotor_on(sim->scene, node);
+    if (rotor != DMB_NONE) {
+        add_rotor(sim, ratio, rotor, most);
+        return;
+    }
     const uint32_t size = sim->scene->layout.size[node], row = sim->scene->layout.row[node];
     for (uint32_t k = 0; k < size; k++) {
         const uint32_t i = row + k;
@@ -142,6 +165,24 @@ static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, 
     }
 }
 
+/* A rotor, in axes that do not spin with it. */
+static void refit_rotor(const dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t rotor)
+{
+    const uint32_t node = sim->scene->rotors[rotor].node, row = sim->scene->layout.row[node];
+    const double ratio = dmb_step_motion_ratio(sim, h), kept = 1.0 - sim->released_part[node];
+    const double *from = sim->rotor_step[rotor].start;
+    dmb_step_motion to = dmb_step_motion_of(sim);
+    double gone[6];
+    to.velocity += row, to.acceleration += row, to.pseudo_acceleration += row;
+    dmb_rotor_carry(sim, rotor, sim->correction + row, gone);
+    for (uint32_t k = 0; k < 6; k++) {
+        const double dv = from[6 + k] - gone[k], a0 = dv + kept * ratio * (from[12 + k] - from[6 + k]);
+        const start s = {sim->increment[row + k], from[k], dv, a0};
+        refit(c, h, &s, &to, k);
+    }
+    dmb_rotor_leave(sim, rotor, to.velocity, to.acceleration, to.pseudo_acceleration);
+}
+
 static void refit_node(const dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t node)
 {
     const uint32_t first = sim->scene->layout.row[node], end = sim->scene->layout.row[node + 1];
@@ -173,6 +214,7 @@ void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
     refit_work work = {sim, c, h};
     dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, refit_nodes, &work);
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
+    for (uint32_t i = 0; i < sim->scene->rotor_count; i++) refit_rotor(sim, c, h, i);
 }
 
 /* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and
@@ -274,6 +316,7 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;
         dmb_system_unwrap(sim);
+        dmb_rotors_unwrap(sim);
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
     return attempt->status;

@@ -6,6 +6,7 @@
 #include "system/assemble/bounces.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
+#include "system/constrain/rotor.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 
@@ -302,6 +303,7 @@ int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead)
     if (status >= 0) status = end_bounces(&of);
     if (status < 0) return status;
     dmb_system_unwrap(of.sim);
+    dmb_rotors_unwrap(of.sim);
     dmb_system_accept(&of.attempt.evaluation);
     dmb_bounces_accept(&of.attempt.evaluation, of.attempt.bounced);
     return DMB_OK;

@@ -4,6 +4,7 @@
 #include "sim/parts.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
+#include "system/constrain/rotor.h"
 
 /* Rows that a part takes at least. */
 enum { ROWS = 6 * DMB_GRAIN };
@@ -65,6 +66,7 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
     predict_rows rows = {sim->scene->kernels, &job};
     dmb_parts_run(sim, job.count, ROWS, predict, &rows);
     if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &job);
+    if (sim->scene->rotor_count) dmb_rotors_predict(sim, &job);
     for (uint32_t i = 0; i < sim->scene->held_count && slope != 0.0; i++)
         sim->correction[sim->scene->layout.row[sim->scene->held_node[i]] + sim->scene->held_component[i]] = 0.0;
 }
@@ -114,6 +116,10 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
     };
     correct_nodes nodes = {sim, &job, sim->scene->free_rigid_count == 0, 0};
     dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, correct, &nodes);
+    if (sim->scene->rotor_count) {
+        dmb_rotors_correct(sim, &job);
+        dmb_rotors_place(sim);
+    }
     if (nodes.place) return;
     dmb_free_rigids_correct(sim, &job);
     dmb_step_motion_place(sim);
@@ -123,6 +129,7 @@ void dmb_step_motion_place(dmb_sim *sim)
 {
     dmb_system_move(sim);
     if (sim->scene->free_rigid_count) dmb_free_rigids_place(sim);
+    if (sim->scene->rotor_count) dmb_rotors_place(sim);
 }
 
 void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double h, const double *increment)

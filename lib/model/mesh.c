@@ -43,6 +43,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .inputs = {.item_size = sizeof(dmb_scene_input)},
         .events = {.item_size = sizeof(dmb_scene_event)},
         .joints = {.item_size = sizeof(dmb_scene_joint)},
+        .rotors = {.item_size = sizeof(dmb_mesh_rotor)},
         .couplings = {.item_size = sizeof(dmb_scene_coupling)},
         .callbacks = {.item_size = sizeof(dmb_scene_callback)},
         .laws = {.item_size = sizeof(dmb_joint_law)},
@@ -70,7 +71,8 @@ void dmb_mesh_release(dmb_mesh *mesh)
         &mesh->constraints, &mesh->clusters,  &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
         &mesh->bodies,      &mesh->inputs,    &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
         &mesh->events,      &mesh->forces,    &mesh->ring_order,    &mesh->divisions,    &mesh->rings,
-        &mesh->inside,      &mesh->stuck,     &mesh->flow_pieces,   &mesh->gain_tables,  &mesh->added_masses};
+        &mesh->inside,      &mesh->stuck,     &mesh->flow_pieces,   &mesh->gain_tables,  &mesh->added_masses,
+        &mesh->rotors};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 
@@ -268,6 +270,7 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
         dmb_mesh_strings, dmb_mesh_bodies,      dmb_mesh_rings,  dmb_mesh_poses,       dmb_mesh_depths,
         dmb_mesh_types,   dmb_mesh_masses,      dmb_mesh_sites,  dmb_mesh_joints,      dmb_mesh_actions,
         dmb_mesh_forces,  dmb_mesh_constraints, dmb_mesh_inputs, dmb_mesh_flow,
+        dmb_mesh_rotors,
     };
     int32_t status = DMB_OK;
     mesh->features = dmb_mesh_features(mesh);

@@ -17,6 +17,7 @@
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
  *   forces          springs, forces            springs, spring_points, forces
  *   flow            pipes, hole, environment   flow_pieces
+ *   rotors          joints, nodes, ...         rotors
  *   constraints     joints ... forces          constraints, clusters, cluster_nodes; back-references
  *                                              in joints, couplings, drives, callbacks, springs, forces
  *
@@ -73,6 +74,13 @@ typedef struct dmb_mesh_ring {
     uint32_t reserved;
 } dmb_mesh_ring;
 
+/* A body that may spin; its masses are those of its node. */
+typedef struct dmb_mesh_rotor {
+    dmb_scene_rotor rotor;
+    int32_t from;     /* where its axis comes from, in mesh_rotor */
+    int32_t bearings; /* 1: it is on a joint that it may spin on */
+} dmb_mesh_rotor;
+
 typedef struct dmb_mesh {
     dmb_model *model; /* written to: its message only */
     dmb_compile_options options;
@@ -106,6 +114,7 @@ typedef struct dmb_mesh {
     dmb_vector stuck;         /* dmb_scene_stuck */
     dmb_vector flow_pieces;   /* dmb_flow_piece */
     dmb_vector joints;        /* dmb_scene_joint */
+    dmb_vector rotors;        /* dmb_mesh_rotor, by node */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */
     dmb_vector laws;          /* dmb_joint_law */
@@ -228,6 +237,8 @@ int32_t dmb_mesh_actions(dmb_mesh *mesh);
 int32_t dmb_mesh_flow(dmb_mesh *mesh);
 int32_t dmb_mesh_forces(dmb_mesh *mesh);
 int32_t dmb_mesh_constraints(dmb_mesh *mesh);
+/* Bodies on joints that a step integrates in axes that do not spin with them. */
+int32_t dmb_mesh_rotors(dmb_mesh *mesh);
 int32_t dmb_mesh_inputs(dmb_mesh *mesh);
 
 /* DMB_FEATURE_... that are asked for and described. */

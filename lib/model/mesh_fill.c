@@ -143,6 +143,18 @@ static void fill_free_rigids(dmb_scene *scene)
     }
 }
 
+static void fill_rotors(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    uint32_t rigid_mass = 0;
+    for (uint32_t i = 0; i < scene->rotor_count; ++i) {
+        dmb_scene_rotor *rotor = scene->rotors + i;
+        *rotor = DMB_VECTOR_AT(dmb_mesh_rotor, &mesh->rotors, i)->rotor;
+        while (scene->rigid_masses[rigid_mass].node != rotor->node) ++rigid_mass; /* by node, as rotors are */
+        rotor->rigid_mass = rigid_mass;
+        rotor->added_mass = added_mass_on(scene, rotor->node);
+    }
+}
+
 static void fill_chains(const dmb_mesh *mesh, dmb_scene *scene)
 {
     uint32_t chain = 0;
@@ -166,6 +178,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
     fill_rigid_masses(mesh, scene);
     fill_added_masses(mesh, scene);
     fill_free_rigids(scene);
+    fill_rotors(mesh, scene);
 }
 
 /* ---- Elements and the rest --------------------------------------------------------------------------------------- */

@@ -160,6 +160,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
     scene->free_rigid_count = count_free_rigids(mesh);
+    scene->rotor_count = (uint32_t)mesh->rotors.count;
     count_rows(mesh, scene);
     scene->velocity_count = starts_in_motion(mesh) ? scene->row_count : 0;
     count_constraints(mesh, scene);
@@ -195,6 +196,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     if (counts->added_mass_count > 0)
         to->added_masses = DMB_ARENA_ARRAY(arena, dmb_added_mass, counts->added_mass_count);
     to->free_rigids = DMB_ARENA_ARRAY(arena, dmb_free_rigid, counts->free_rigid_count);
+    if (counts->rotor_count > 0) to->rotors = DMB_ARENA_ARRAY(arena, dmb_scene_rotor, counts->rotor_count);
 }
 
 static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)

@@ -161,6 +161,14 @@ typedef struct dmb_free_rigid {
     uint32_t reserved;
 } dmb_free_rigid;
 
+/* A body on joints that a step turns about an axis of its own (system/constrain/rotor.h). */
+typedef struct dmb_scene_rotor {
+    double twist[6]; /* [m, -] velocity of the node at a spin of 1 rad/s about the axis, body frame */
+    uint32_t node, rigid_mass;
+    uint32_t added_mass; /* DMB_NONE: none */
+    uint32_t reserved;
+} dmb_scene_rotor;
+
 /* Nodes that a force acts on: within one node, or the two of an element, its tangent has room in the blocks of the
  * chain; others have a constraint without equations, which couples them. */
 typedef struct dmb_scene_spring {
@@ -236,7 +244,7 @@ typedef struct dmb_scene {
     uint32_t free_count, prescribed_count, held_count;
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
-    uint32_t free_rigid_count;
+    uint32_t free_rigid_count, rotor_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
     uint32_t unilateral_count; /* laws of joints, then springs, where any of them may open; else 0 */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
@@ -294,6 +302,7 @@ typedef struct dmb_scene {
     dmb_rigid_mass *rigid_masses; /* at most one a node, by node */
     dmb_added_mass *added_masses; /* likewise */
     dmb_free_rigid *free_rigids;  /* by node, none in scenes with joints; shape (free_rigid_count) */
+    dmb_scene_rotor *rotors;      /* by node, in scenes with joints; shape (rotor_count) */
 
     /* wall */
     dmb_hole hole; /* valid if has_hole */

@@ -9,7 +9,7 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, st, e, d, k, load, history, diagonal, link, backup;
-    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian,
+    uint64_t act, delay, cut, ns, u, ur, held, input, event, force, stuck, f, ro, j, c, cluster, column, raw, jacobian,
         tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
 } field_counts;
@@ -33,8 +33,8 @@ typedef struct field_counts {
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
     const uint64_t act = (of)->act, delay = (of)->delay, cut = (of)->cut;                                           \
     (void)act, (void)delay, (void)cut;                                                                              \
-    const uint64_t f = (of)->f, chain = (of)->chain, piece = (of)->piece;                                           \
-    (void)chain, (void)piece;                                                                                       \
+    const uint64_t f = (of)->f, ro = (of)->ro, chain = (of)->chain, piece = (of)->piece;                                           \
+    (void)ro, (void)chain, (void)piece;                                                                                       \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
@@ -98,6 +98,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.input = scene->input_count;
     c.event = scene->event_count;
     c.f = scene->free_rigid_count;
+    c.ro = scene->rotor_count;
     c.chain = scene->chain_count;
     c.piece = pieces_of(scene);
     c.p = scene->path_site_count;

@@ -150,6 +150,7 @@
     X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of   \
                                                     each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
+    X(dmb_rotor_step, rotor_step, ro)   /* of bodies on joints that may spin, system/constrain/rotor */                \
     /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint system/constrain/cluster, \
        system/constrain/sparse_cluster; torques of free rotations taken out by analysis/static/static_spin;          \
        factors in their place by system/solve/solve: */                                                              \
@@ -326,6 +327,16 @@ typedef struct dmb_history_head {
     uint32_t head, count;
     double offset; /* [rad] */
 } dmb_history_head;
+
+/* A body on joints in a step, in the axes that its spin turns those of the start into (system/constrain/rotor.h). */
+typedef struct dmb_rotor_step {
+    double spin[6];          /* [m/s, rad/s] its spin at the start, as a velocity of the node, body frame */
+    double length;           /* [s] of the step */
+    double R[9], x[3];       /* [-], [m] those axes seen from the node at the start */
+    double start[18];        /* speed but for the spin, acceleration, pseudo-acceleration of the start, shape (3, 6) */
+    double displacement[3];  /* [m] of the trial, but for the increment */
+    double quaternion[4];    /* [-] likewise */
+} dmb_rotor_step;
 
 #define DMB_WORK_FIELD(type, name, count) type *name;
 #define DMB_FIELD(type, name, count, check) type *name;

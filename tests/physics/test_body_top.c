@@ -155,13 +155,13 @@ static void reference_of_the_top(void **state)
     check_below("reference: angular velocity", largest_difference(3, y + 4, speed), 1e-7);
 }
 
-/* Errors at 1 s with r 0.9: 8.28e-2, 2.06e-2, 5.15e-3 m in the norm and 6.20e-2, 1.53e-2, 3.80e-3 in the largest
- * component, which is what the scheme gives on SO(3) about the fixed point, and on SE(3) with any reference point (a
- * separate recurrence in the rotation alone agrees to five digits). CASES.md tells 6.61e-2, 1.66e-2, 4.15e-3. */
+/* Errors at 1 s with r 0.9: 1.989e-5, 4.972e-6, 1.243e-6 m in the norm, by the scheme on SO(3) in axes that do not spin
+ * with the top (THEORY 4); a separate recurrence in the rotation alone agrees to four digits. In axes that spin with it
+ * they are 8.28e-2, 2.06e-2, 5.15e-3; CASES.md tells 6.61e-2, 1.66e-2, 4.15e-3 of those. */
 static void heavy_top_is_of_second_order(void **state)
 {
     (void)state;
-    const double table[3] = {6.61e-2, 1.66e-2, 4.15e-3}, norm[3] = {8.2811e-2, 2.0626e-2, 5.1507e-3};
+    const double table[3] = {6.61e-2, 1.66e-2, 4.15e-3}, norm[3] = {1.98892e-5, 4.97237e-6, 1.24316e-6};
     top_error e[4];
     for (int k = 0; k < 4; k++) {
         e[k] = top_at(1.0, 1e-3 / (1 << k), 0.9);

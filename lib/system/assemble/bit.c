@@ -200,7 +200,7 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     dmb_node_pose(scene, &sim->trial, node, R, unused);
     motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
     if (scene->layout.size[node] == DMB_NODE_FULL) /* whose turn is counted when the step is accepted */
-        m.angle = sim->now.turn[node] + sim->increment[scene->layout.row[node] + 3];
+        m.angle = sim->now.turn[node] + dmb_node_travel(evaluation, node, 3);
     memset(&r, 0, sizeof r);
     const int drills = evaluation->steady && k < DMB_STEADY_BITS && evaluation->drilling >> k & 1;
     if (drills)

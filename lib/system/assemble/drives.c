@@ -228,12 +228,22 @@ void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed
         sim->trial.drive_position[drive] = value - sim->drive_offset[drive];
 }
 
-void dmb_drives_accept(dmb_sim *sim)
+/* [m, rad] of the row of a node that a drive acts on, in the step or the move of statics. */
+static double travel_in(const dmb_evaluation *evaluation, const dmb_scene_drive *drive)
 {
+    const dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[drive->node];
+    if (sim->scene->layout.size[drive->node] == DMB_NODE_PATH) return sim->increment[drive->row];
+    return dmb_node_travel(evaluation, drive->node, drive->row - row);
+}
+
+void dmb_drives_accept(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
         if (drive->joint == DMB_NONE)
-            sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
+            sim->trial.drive_position[i] = sim->now.drive_position[i] + travel_in(evaluation, drive);
         else if (drive->kind == DMB_DRIVE_MOTION && sim->joint_state[drive->joint] != DMB_JOINT_OPEN)
             sim->trial.drive_speed[i] = sim->trial.drive_target[i];
     }

@@ -28,7 +28,7 @@ void dmb_gather_drives(dmb_evaluation *evaluation);
  * nothing and follows the coordinate. */
 void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed, int open);
 /* Positions and speeds at the end of an accepted step. */
-void dmb_drives_accept(dmb_sim *sim);
+void dmb_drives_accept(const dmb_evaluation *evaluation);
 /* Forces of the motion drives, from the multipliers of the trial and, of those that hold a row, from the residual, into
  * a configuration. */
 void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to);

@@ -11,6 +11,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
+#include "system/constrain/rotor.h"
 
 /* Rows and, for a tangent, blocks of the nodes from `first` to before `end`. */
 static void clear_nodes(void *work, uint32_t first, uint32_t end)
@@ -110,6 +111,15 @@ static void move_nodes(void *work, uint32_t first, uint32_t end)
 void dmb_system_move(dmb_sim *sim)
 {
     dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
+}
+
+double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component)
+{
+    const dmb_sim *sim = evaluation->sim;
+    double z[6];
+    dmb_vec6_copy(sim->increment + sim->scene->layout.row[node], z);
+    if (evaluation->step > 0.0) dmb_rotor_add_travel(sim, node, z);
+    return z[component];
 }
 
 static int32_t finite_status(const dmb_sim *sim)
@@ -273,6 +283,7 @@ void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *
     if (evaluation->dynamic) {
         const int stepping = evaluation->velocity_factor > 0.0;
         if (stepping && scene->free_rigid_count) dmb_free_rigids_matrix(evaluation);
+        if (stepping && scene->rotor_count) dmb_rotors_matrix(evaluation);
         diagonal_blocks(sim, stepping ? 0 : scene->free_rigid_count);
     }
     for (uint32_t i = 0; i < scene->held_count && held_rows != NULL; i++)
@@ -324,7 +335,7 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     if (scene->inside_count) dmb_contacts_accept(evaluation);
-    dmb_drives_accept(sim);
+    dmb_drives_accept(evaluation);
     if (scene->actuator_count) dmb_actuators_accept(evaluation);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
     dmb_system_take_reactions(sim, &sim->trial);

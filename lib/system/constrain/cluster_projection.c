@@ -4,6 +4,7 @@
 #include "math/se3.h"
 #include "sim/layout.h"
 #include "system/constrain/constrain.h"
+#include "system/constrain/rotor.h"
 
 /* ---- The trial --------------------------------------------------------------------------------------------------- */
 
@@ -46,6 +47,20 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
     return sim->cluster_move;
 }
 
+/* The part of the acceleration of a rotor that follows its speed. */
+static void turn_motion(const dmb_evaluation *step, uint32_t node, const double dz[6])
+{
+    const dmb_sim *sim = step->sim;
+    const uint32_t rotor = dmb_rotor_on(sim->scene, node), row = sim->scene->layout.row[node];
+    double *const to[4] = {sim->raw_acceleration, sim->raw_pseudo_acceleration, sim->trial.acceleration,
+                           sim->trial.pseudo_acceleration};
+    double turning[6];
+    if (rotor == DMB_NONE) return;
+    dmb_rotor_turning(sim, rotor, dz, turning);
+    for (int k = 0; k < 4; k++)
+        for (uint32_t i = 0; i < 6; i++) to[k][row + i] -= step->velocity_factor * turning[i];
+}
+
 /* In a step speeds and accelerations follow the pose by Newmark's formulas, so they and the increment z follow its
  * projection too: exp(z + dz) = exp(z) exp(x), dz = T(z)^-1 x. A part of z across the constraints would stay there, as
  * large as the way that Newton has come by, and be felt in the motion: it would depend on the choice of coordinates. */
@@ -70,6 +85,7 @@ static void move_motion(const dmb_evaluation *step, uint32_t node, const double 
             trial[k][row + i] += factor[k] * dz[i];
         }
     }
+    if (sim->scene->rotor_count) turn_motion(step, node, dz);
 }
 
 void dmb_trial_move_node(dmb_sim *sim, uint32_t node, const double *x)
@@ -223,6 +239,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     if (status >= 0 && from_raw) leave_weak(sim);
     if (status >= 0 && levels & DMB_SETTLE_SPEED) {
         settle_rows(sim, sim->constraint_rate, sim->trial.velocity, NULL, 0.0);
+        if (from_raw && sim->scene->rotor_count) dmb_rotors_follow(sim, sim->raw_velocity);
         status = dmb_constraint_rows(evaluation);
     }
     if (status >= 0 && levels & DMB_SETTLE_ACCELERATION) /* the recursion of a goes with that of v' */

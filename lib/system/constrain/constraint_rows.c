@@ -9,6 +9,7 @@
 
 #include "math/mat6.h"
 #include "sim/node.h"
+#include "system/constrain/rotor.h"
 
 /* [rad] in a step: gradients at one end of it tell the turn well enough. */
 #define DMB_SMALL_TURN 1.0
@@ -113,9 +114,11 @@ static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j,
     const dmb_scene_joint *joint = sim->scene->joints + j;
     double z[6], a[6] = {0.0};
     dmb_node_vector(sim->scene, c, joint->b.node, sim->increment, z);
+    dmb_rotor_add_travel(sim, joint->b.node, z);
     dmb_mat6_vec(relative->to_b, z, moved);
     if (joint->a.node == DMB_NONE) return;
     dmb_node_vector(sim->scene, c, joint->a.node, sim->increment, z);
+    dmb_rotor_add_travel(sim, joint->a.node, z);
     dmb_mat6_vec(relative->to_a, z, a);
     for (int i = 0; i < 6; i++) moved[i] += a[i];
 }

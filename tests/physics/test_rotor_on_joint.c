@@ -1,0 +1,191 @@
+/* Rotors that spin fast on joints: the slow precession of a heavy top against its closed form, at up to 3 rad of spin a
+ * step.
+ *
+ * A rotor with the moments A' about the fixed point and C about its axis spins at w3 along the axis, which stands at
+ * the angle T to the vertical and goes round the vertical at p. A carrier that goes round with it has C_c about the
+ * axis. With m the mass of both and l the height of their centre along the axis (Goldstein, Classical Mechanics, 5.7),
+ *     m g l = (C w3 + C_c p cos T) p - A' p^2 cos T
+ * A ring that only turns about the vertical has no part in it. In axes that do not spin with the rotor a step errs by
+ * (p h)^2; in axes that do it erred by 0.69 (w3 h)^2. */
+#include <math.h>
+#include <string.h>
+
+#include "mechanism.h"
+
+#define GRAVITY 9.81 /* [m/s2] */
+#define TILT 1.0     /* [rad] T */
+#define SPIN 1000.0  /* [rad/s] w3 */
+
+enum { ALONE, GUIDED, IN_CARRIER, IN_GIMBALS, KINDS };
+
+static const char *const names[KINDS] = {"on a spherical joint", "on a fixed point", "in a carrier", "in gimbals"};
+
+/* [kg, m, kg m2] */
+static const double mass = 2.0, arm = 0.1, C = 0.004, A = 0.003, carrier_mass = 0.5, carrier_C = 0.0004,
+                    carrier_A = 0.0006;
+
+typedef struct gyroscope {
+    rig s;
+    dmb_id rotor;
+    double precession; /* [rad/s] p */
+} gyroscope;
+
+/* Slow root of the equation of the head. */
+static double precession_of(int kind)
+{
+    const int carried = kind >= IN_CARRIER;
+    const double m = mass + carried * carrier_mass, J = A + carried * carrier_A + m * arm * arm;
+    const double a = (carried * carrier_C - J) * cos(TILT), b = C * SPIN, c = -m * GRAVITY * arm;
+    return 2.0 * -c / (b + sqrt(b * b - 4.0 * a * c));
+}
+
+/* A body whose x axis is that of the rotor, its reference point at `along` from the fixed point, that goes round the
+ * vertical at p and spins at w3. z of the body is across the axis and upwards. */
+static dmb_body_def body_on_axis(double along, double p, double w3)
+{
+    dmb_body_def body = dmb_body_def_default();
+    const double w[3] = {w3, 0.0, p * sin(TILT)};
+    body.rotation[1] = TILT - 0.5 * PI;
+    body.position[0] = along * sin(TILT);
+    body.position[2] = along * cos(TILT);
+    memcpy(body.velocity + 3, w, sizeof w);
+    body.velocity[1] = w[2] * along; /* w x (along, 0, 0) */
+    return body;
+}
+
+static void take_inertia(double m, double about, double across, dmb_body_def *body)
+{
+    body->mass = m;
+    body->inertia[0] = about;
+    body->inertia[1] = body->inertia[2] = across;
+}
+
+static void add_tip(rig *s, dmb_id body)
+{
+    dmb_joint_def joint = joint_between(DMB_JOINT_SPHERICAL, dmb_station(ground_id, 0, 0.0), dmb_station(body, 0, 0.0));
+    joint.origin_b[0] = -arm;
+    (void)add_joint(s, &joint);
+}
+
+/* A ring about the fixed point that turns about the vertical, and carries the body on a horizontal hinge. */
+static void add_gimbals(rig *s, dmb_id body, double p)
+{
+    const double vertical[3] = {0.0, 0.0, 1.0}, horizontal[3] = {0.0, 1.0, 0.0};
+    dmb_body_def ring = dmb_body_def_default();
+    ring.mass = 0.3;
+    ring.inertia[0] = 4e-4, ring.inertia[1] = 5e-4, ring.inertia[2] = 6e-4;
+    ring.velocity[5] = p;
+    const dmb_id outer = add_body(s, &ring);
+    dmb_joint_def stand =
+        joint_between(DMB_JOINT_REVOLUTE, dmb_station(ground_id, 0, 0.0), dmb_station(outer, 0, 0.0));
+    dmb_joint_def hinge = joint_between(DMB_JOINT_REVOLUTE, dmb_station(outer, 0, 0.0), dmb_station(body, 0, 0.0));
+    memcpy(stand.axis_a, vertical, sizeof vertical);
+    memcpy(stand.axis_b, vertical, sizeof vertical);
+    (void)add_joint(s, &stand);
+    memcpy(hinge.axis_a, horizontal, sizeof horizontal);
+    memcpy(hinge.axis_b, horizontal, sizeof horizontal);
+    hinge.origin_b[0] = -arm;
+    (void)add_joint(s, &hinge);
+}
+
+static dmb_id add_carrier(gyroscope *g)
+{
+    dmb_body_def carrier = body_on_axis(arm, g->precession, g->precession * cos(TILT));
+    take_inertia(carrier_mass, carrier_C, carrier_A, &carrier);
+    const dmb_id id = add_body(&g->s, &carrier);
+    (void)add_joint_between(&g->s, DMB_JOINT_REVOLUTE, dmb_station(id, 0, 0.0), dmb_station(g->rotor, 0, 0.0));
+    return id;
+}
+
+static gyroscope open_gyroscope(int kind, const dmb_sim_options *options)
+{
+    gyroscope g = {.precession = precession_of(kind)};
+    rig_open(&g.s, 0.0, 0.0, -GRAVITY);
+    dmb_body_def rotor = body_on_axis(kind == GUIDED ? 0.0 : arm, g.precession, SPIN);
+    take_inertia(mass, C, A, &rotor);
+    if (kind == GUIDED) rotor.free_mask = DMB_FREE_SPHERICAL, rotor.centre[0] = arm;
+    g.rotor = add_body(&g.s, &rotor);
+    if (kind == ALONE) add_tip(&g.s, g.rotor);
+    if (kind == IN_CARRIER) add_tip(&g.s, add_carrier(&g));
+    if (kind == IN_GIMBALS) add_gimbals(&g.s, add_carrier(&g), g.precession);
+    assert_int_equal(mechanism_start(&g.s, options), DMB_OK);
+    return g;
+}
+
+/* [rad] of the axis round the vertical, and to it. */
+static void angles_of(const gyroscope *g, double *round, double *tilt)
+{
+    const dmb_pose pose = pose_at(&g->s, dmb_station(g->rotor, 0, 0.0));
+    *round = atan2(pose.rotation[3], pose.rotation[0]);
+    *tilt = acos(pose.rotation[6]);
+}
+
+/* Relative errors, but for the tilt in rad. */
+typedef struct course {
+    double rate, tilt, energy, momentum, turn, iterations;
+} course;
+
+static course run(int kind, double per_step, double radius)
+{
+    const double h = per_step / SPIN;
+    const uint32_t n = (uint32_t)lround(0.9 / h);
+    dmb_sim_options options = sharp_options(radius, 1e-12);
+    gyroscope g = open_gyroscope(kind, &options);
+    const dmb_energy e0 = energy_of(&g.s);
+    const dmb_momentum m0 = momentum_of(&g.s);
+    double round, tilt;
+    take_steps(&g.s, h, n);
+    const dmb_energy e1 = energy_of(&g.s);
+    angles_of(&g, &round, &tilt);
+    const dmb_statistics statistics = statistics_of(&g.s);
+    const course c = {.rate = round / (g.precession * n * h) - 1.0,
+                      .tilt = tilt - TILT,
+                      .energy = (e1.kinetic + e1.gravity - e0.kinetic - e0.gravity) / e0.kinetic,
+                      .momentum = momentum_of(&g.s).angular[2] / m0.angular[2] - 1.0,
+                      .turn = rotation_at(&g.s, dmb_station(g.rotor, 0, 0.0)) / (SPIN * n * h) - 1.0,
+                      .iterations = (double)statistics.iterations / n};
+    check_below("        violation of the joints", statistics.violation, 1e-13);
+    rig_close(&g.s);
+    return c;
+}
+
+static void check_course(int kind, double per_step, double radius)
+{
+    const course c = run(kind, per_step, radius);
+    const double p = precession_of(kind), ph = p * per_step / SPIN;
+    print_message("    %s, w3 h = %g, radius %g: p is off by %.2e, (p h)^2 = %.2e\n", names[kind], per_step, radius,
+                  c.rate, ph * ph);
+    check_below("        precession, of (p h)^2", c.rate / (0.03 * ph * ph + 1e-12), 1.0);
+    check_below("        tilt [rad]", c.tilt, 1e-10);
+    check_below("        energy", c.energy, 1e-12);
+    check_below("        angular momentum about the vertical", c.momentum, 1e-10);
+    check_below("        iterations a step", c.iterations, 2.1);
+}
+
+static void precession_does_not_depend_on_the_spin_a_step(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (double radius = 0.8; radius < 1.1; radius += 0.2)
+            for (int i = 0; i < 5; i++)
+                check_course(kind, (const double[]){0.1, 0.3, 1.0, 2.0, 3.0}[i], radius);
+    check_course(IN_CARRIER, 0.01, 0.8);
+}
+
+static void precession_is_of_second_order(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        tell(names[kind], precession_of(kind));
+        check_order("    precession", run(kind, 3.0, 0.8).rate, run(kind, 1.5, 0.8).rate, 2.0, 0.02);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(precession_does_not_depend_on_the_spin_a_step),
+        cmocka_unit_test(precession_is_of_second_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
