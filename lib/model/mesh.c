@@ -269,8 +269,7 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
         dmb_mesh_hole,    dmb_mesh_count,       dmb_mesh_check,  dmb_mesh_ring_places, dmb_mesh_divisions,
         dmb_mesh_strings, dmb_mesh_bodies,      dmb_mesh_rings,  dmb_mesh_poses,       dmb_mesh_depths,
         dmb_mesh_types,   dmb_mesh_masses,      dmb_mesh_sites,  dmb_mesh_joints,      dmb_mesh_actions,
-        dmb_mesh_forces,  dmb_mesh_constraints, dmb_mesh_inputs, dmb_mesh_flow,
-        dmb_mesh_rotors,
+        dmb_mesh_forces,  dmb_mesh_constraints, dmb_mesh_inputs, dmb_mesh_flow,        dmb_mesh_rotors,
     };
     int32_t status = DMB_OK;
     mesh->features = dmb_mesh_features(mesh);

@@ -1,8 +1,8 @@
-/* Bodies that may spin fast on joints, and the axis that a step turns their axes about (system/constrain/rotor.h): bodies
- * of revolution whose joints, too, are the same when they turn about that axis. In axes that do not spin with the body
- * its equations then have no part that goes round with it. A body that is not round would have one at twice its spin,
- * which steps of half a radian no longer resolve and which makes its nutation grow without end (a top with moments
- * across its axis that differ by a tenth, at one radian a step): such a body is integrated in its own axes.
+/* Bodies that may spin fast on joints, and the axis that a step turns their axes about (system/constrain/rotor.h):
+ * bodies of revolution whose joints, too, are the same when they turn about that axis. In axes that do not spin with
+ * the body its equations then have no part that goes round with it. A body that is not round would have one at twice
+ * its spin, which steps of half a radian no longer resolve and which makes its nutation grow without end (a top with
+ * moments across its axis that differ by a tenth, at one radian a step): such a body is integrated in its own axes.
  *
  * The axis is that of a bearing of the body; without bearings the line from a pivot to the centre of mass, or else an
  * axis of inertia through the centre of mass. A body that cannot turn against a part that has no such axis has none
@@ -295,7 +295,8 @@ static bool spin_alike(const dmb_mesh_rotor *a, const dmb_mesh_rotor *b, const d
     spin_at(a, &joint->a, of_a);
     spin_at(b, &joint->b, of_b);
     const double sign = dmb_vec3_dot(of_a + 3, of_b + 3) < 0.0 ? -1.0 : 1.0;
-    const double size = dmb_vec3_norm(of_a) + dmb_vec3_norm(of_b) + dmb_vec3_norm(joint->a.x) + dmb_vec3_norm(joint->b.x);
+    const double size =
+        dmb_vec3_norm(of_a) + dmb_vec3_norm(of_b) + dmb_vec3_norm(joint->a.x) + dmb_vec3_norm(joint->b.x);
     const bool slides = joint->kind == DMB_JOINT_TRANSLATIONAL || joint->kind == DMB_JOINT_CROSS_SLIDE;
     for (int i = slides ? 3 : 0; i < 6; ++i)
         if (fabs(of_a[i] - sign * of_b[i]) > DMB_ALIGNED * (i < 3 ? size : 1.0)) return false;

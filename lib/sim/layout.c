@@ -33,8 +33,8 @@ typedef struct field_counts {
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
     const uint64_t act = (of)->act, delay = (of)->delay, cut = (of)->cut;                                           \
     (void)act, (void)delay, (void)cut;                                                                              \
-    const uint64_t f = (of)->f, ro = (of)->ro, chain = (of)->chain, piece = (of)->piece;                                           \
-    (void)ro, (void)chain, (void)piece;                                                                                       \
+    const uint64_t f = (of)->f, ro = (of)->ro, chain = (of)->chain, piece = (of)->piece;                            \
+    (void)ro, (void)chain, (void)piece;                                                                             \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \

@@ -330,12 +330,12 @@ typedef struct dmb_history_head {
 
 /* A body on joints in a step, in the axes that its spin turns those of the start into (system/constrain/rotor.h). */
 typedef struct dmb_rotor_step {
-    double spin[6];          /* [m/s, rad/s] its spin at the start, as a velocity of the node, body frame */
-    double length;           /* [s] of the step */
-    double R[9], x[3];       /* [-], [m] those axes seen from the node at the start */
-    double start[18];        /* speed but for the spin, acceleration, pseudo-acceleration of the start, shape (3, 6) */
-    double displacement[3];  /* [m] of the trial, but for the increment */
-    double quaternion[4];    /* [-] likewise */
+    double spin[6];         /* [m/s, rad/s] its spin at the start, as a velocity of the node, body frame */
+    double length;          /* [s] of the step */
+    double R[9], x[3];      /* [-], [m] those axes seen from the node at the start */
+    double start[18];       /* speed but for the spin, acceleration, pseudo-acceleration of the start, shape (3, 6) */
+    double displacement[3]; /* [m] of the trial, but for the increment */
+    double quaternion[4];   /* [-] likewise */
 } dmb_rotor_step;
 
 #define DMB_WORK_FIELD(type, name, count) type *name;

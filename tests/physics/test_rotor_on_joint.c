@@ -76,8 +76,7 @@ static void add_gimbals(rig *s, dmb_id body, double p)
     ring.inertia[0] = 4e-4, ring.inertia[1] = 5e-4, ring.inertia[2] = 6e-4;
     ring.velocity[5] = p;
     const dmb_id outer = add_body(s, &ring);
-    dmb_joint_def stand =
-        joint_between(DMB_JOINT_REVOLUTE, dmb_station(ground_id, 0, 0.0), dmb_station(outer, 0, 0.0));
+    dmb_joint_def stand = joint_between(DMB_JOINT_REVOLUTE, dmb_station(ground_id, 0, 0.0), dmb_station(outer, 0, 0.0));
     dmb_joint_def hinge = joint_between(DMB_JOINT_REVOLUTE, dmb_station(outer, 0, 0.0), dmb_station(body, 0, 0.0));
     memcpy(stand.axis_a, vertical, sizeof vertical);
     memcpy(stand.axis_b, vertical, sizeof vertical);
@@ -167,8 +166,7 @@ static void precession_does_not_depend_on_the_spin_a_step(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (double radius = 0.8; radius < 1.1; radius += 0.2)
-            for (int i = 0; i < 5; i++)
-                check_course(kind, (const double[]){0.1, 0.3, 1.0, 2.0, 3.0}[i], radius);
+            for (int i = 0; i < 5; i++) check_course(kind, (const double[]){0.1, 0.3, 1.0, 2.0, 3.0}[i], radius);
     check_course(IN_CARRIER, 0.01, 0.8);
 }
 

@@ -1,9 +1,9 @@
 /* Rotors: bodies on joints that may spin fast, integrated in axes that do not spin with them.
  *
  * In its own axes the motion of a body that spins at W and precesses slowly goes round at W, so that a step makes an
- * error of (W h)^2 in the precession. Let e be the twist of a unit of spin about the axis of a rotor (model/mesh_rotor),
- * W = e_w . w0 its spin at the start of the step, O = W e, and P(t) = exp(t O). The pose is H = N P(t): the axes N turn
- * and move with the body but for the spin, and with v the velocity in the axes of the body
+ * error of (W h)^2 in the precession. Let e be the twist of a unit of spin about the axis of a rotor
+ * (model/mesh_rotor), W = e_w . w0 its spin at the start of the step, O = W e, and P(t) = exp(t O). The pose is H = N
+ * P(t): the axes N turn and move with the body but for the spin, and with v the velocity in the axes of the body
  *
  *     V = Ad(P) v - O,   V' = Ad(P) (v' + ad(O) v)             velocity and acceleration of N, in axes of N
  *

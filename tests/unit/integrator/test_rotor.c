@@ -51,8 +51,7 @@ static rig open_spinning(int guided)
         for (int i = 0; i < 3; i++) body.centre[i] = 0.25 * e[i];
     }
     const dmb_id id = add_body(&s, &body);
-    if (!guided)
-        (void)add_joint_between(&s, DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
+    if (!guided) (void)add_joint_between(&s, DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
     assert_true(rig_start(&s, NULL) >= 0);
     return s;
 }
@@ -212,8 +211,8 @@ static void check_choice(const choice *of)
     memcpy(body.inertia, of->inertia, sizeof of->inertia);
     body.centre[1] = 0.2;
     const dmb_id id = add_body(&s, &body);
-    const dmb_joint_def first = on_ground(of->kind, id, of->axis), second =
-                                                                       on_ground(of->second_kind, id, of->second_axis);
+    const dmb_joint_def first = on_ground(of->kind, id, of->axis),
+                        second = on_ground(of->second_kind, id, of->second_axis);
     (void)add_joint(&s, &first);
     if (of->second_kind != DMB_JOINT_FREE) (void)add_joint(&s, &second);
     if (of->fixed_to_string) add_string_on(&s, id);
@@ -230,22 +229,92 @@ static void axes_are_those_of_bearings_and_of_revolution(void **state)
 {
     (void)state;
     static const choice all[] = {
-        {"disc on a hinge at its axis", {2, 1, 1}, {1, 0, 0}, {0, 0, -0.2, 1, 0, 0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_FREE, {1, 0, 0}},
+        {"disc on a hinge at its axis",
+         {2, 1, 1},
+         {1, 0, 0},
+         {0, 0, -0.2, 1, 0, 0},
+         DMB_JOINT_REVOLUTE,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
         {"bar on a hinge across it", {0.1, 1, 1}, {0, 0, 1}, {0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_FREE, {1, 0, 0}},
         {"blade on a hinge along it", {3, 2, 1.1}, {1, 0, 0}, {0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_FREE, {1, 0, 0}},
-        {"round in single precision", {2, 1, 1 + 1e-7}, {1, 0, 0}, {0, 0, -0.2, 1, 0, 0}, DMB_JOINT_CYLINDRICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
+        {"round in single precision",
+         {2, 1, 1 + 1e-7},
+         {1, 0, 0},
+         {0, 0, -0.2, 1, 0, 0},
+         DMB_JOINT_CYLINDRICAL,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
         {"hardly round", {2, 1, 1.001}, {1, 0, 0}, {0}, DMB_JOINT_CYLINDRICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
-        {"disc that also slides on a line", {2, 1, 1}, {1, 0, 0}, {0, 0, -0.2, 1, 0, 0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_POINT_ON_LINE, {0, 1, 0}},
-        {"disc with a shaft behind it", {2, 1, 1}, {1, 0, 0}, {0, 0, -0.2, 1, 0, 0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_UNIVERSAL, {1, 0, 0}},
-        {"ball on a hinge aslant of another", {1, 1, 1}, {1, 0, 0}, {0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_REVOLUTE, {0.6, 0.8, 0}},
-        {"disc that carries a hinge across it", {2, 1, 1}, {1, 0, 0}, {0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_REVOLUTE, {0, 0, 1}},
-        {"top on a pivot", {2, 1, 1}, {1, 0, 0}, {0, 0, 0.2, -1, 0, 0}, DMB_JOINT_SPHERICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
-        {"top on a pivot beside its axis", {1, 2, 1}, {1, 0, 0}, {0}, DMB_JOINT_SPHERICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
-        {"ball on a pivot", {1, 1, 1}, {1, 0, 0}, {0, 0, 0.2, -1, 0, 0}, DMB_JOINT_SPHERICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
+        {"disc that also slides on a line",
+         {2, 1, 1},
+         {1, 0, 0},
+         {0, 0, -0.2, 1, 0, 0},
+         DMB_JOINT_REVOLUTE,
+         0,
+         DMB_JOINT_POINT_ON_LINE,
+         {0, 1, 0}},
+        {"disc with a shaft behind it",
+         {2, 1, 1},
+         {1, 0, 0},
+         {0, 0, -0.2, 1, 0, 0},
+         DMB_JOINT_REVOLUTE,
+         0,
+         DMB_JOINT_UNIVERSAL,
+         {1, 0, 0}},
+        {"ball on a hinge aslant of another",
+         {1, 1, 1},
+         {1, 0, 0},
+         {0},
+         DMB_JOINT_REVOLUTE,
+         0,
+         DMB_JOINT_REVOLUTE,
+         {0.6, 0.8, 0}},
+        {"disc that carries a hinge across it",
+         {2, 1, 1},
+         {1, 0, 0},
+         {0},
+         DMB_JOINT_REVOLUTE,
+         0,
+         DMB_JOINT_REVOLUTE,
+         {0, 0, 1}},
+        {"top on a pivot",
+         {2, 1, 1},
+         {1, 0, 0},
+         {0, 0, 0.2, -1, 0, 0},
+         DMB_JOINT_SPHERICAL,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
+        {"top on a pivot beside its axis",
+         {1, 2, 1},
+         {1, 0, 0},
+         {0},
+         DMB_JOINT_SPHERICAL,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
+        {"ball on a pivot",
+         {1, 1, 1},
+         {1, 0, 0},
+         {0, 0, 0.2, -1, 0, 0},
+         DMB_JOINT_SPHERICAL,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
         {"stone on a pivot", {1.5, 1, 0.8}, {1, 0, 0}, {0}, DMB_JOINT_SPHERICAL, 0, DMB_JOINT_FREE, {1, 0, 0}},
         {"knife edge", {2, 1, 1}, {1, 0, 0}, {0}, DMB_JOINT_REVOLUTE, 0, DMB_JOINT_KNIFE_EDGE, {1, 0, 0}},
         {"disc fixed to a string", {2, 1, 1}, {1, 0, 0}, {0}, DMB_JOINT_CYLINDRICAL, 1, DMB_JOINT_FREE, {1, 0, 0}},
-        {"round, without a bearing", {1, 1, 2}, {1, 0, 0}, {0.2, 0, 0, 0, 0, 1}, DMB_JOINT_FREE, 0, DMB_JOINT_FREE, {1, 0, 0}},
+        {"round, without a bearing",
+         {1, 1, 2},
+         {1, 0, 0},
+         {0.2, 0, 0, 0, 0, 1},
+         DMB_JOINT_FREE,
+         0,
+         DMB_JOINT_FREE,
+         {1, 0, 0}},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) check_choice(&all[i]);
 }
