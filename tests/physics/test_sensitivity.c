@@ -129,7 +129,7 @@ static void check_case(const scene_case *c)
 
 /* Their parameters. */
 static double mu = 0.3, stiffness = 1e6, diameter = 0.073, damping = 5.0, young = 210e9, energy = 3e7, speed = 6.0;
-static double joint_spring = 8.0;
+static double joint_spring = 8.0, rotor_speed = 200.0;
 static double lag = 0.0, back_drag = 0.0, direction = 1.0; /* of an actuator; 0: none */
 static int32_t friction_law = DMB_FRICTION_STRIBECK, pipe_kind = DMB_PIPE_FLEXIBLE, rock_law = DMB_ROCK_RATE;
 
@@ -294,6 +294,26 @@ static void describe_rods(rig *s)
     joint.origin_a[0] = 1.0;
     joint.stiffness[DMB_RX] = joint_spring;
     last_joint = add_joint(s, &joint);
+}
+
+/* A rotor in a carrier on a pivot, the parameter being its speed: each sim turns the axes of its steps by its own. */
+static void describe_rotor(rig *s)
+{
+    const dmb_place ground = {{0, 0}, 0, 0, 0.0};
+    dmb_body_def body = dmb_body_def_default();
+    rig_open(s, 0.0, 0.0, -9.81);
+    body.mass = 0.5;
+    body.position[0] = 0.2;
+    body.inertia[0] = 0.002, body.inertia[1] = 0.003, body.inertia[2] = 0.004;
+    const dmb_id carrier = add_body(s, &body);
+    body.mass = 2.0;
+    body.inertia[0] = 0.02, body.inertia[1] = body.inertia[2] = 0.012;
+    body.velocity[3] = rotor_speed;
+    last_body = add_body(s, &body);
+    dmb_joint_def pivot = joint_between(DMB_JOINT_SPHERICAL, ground, dmb_station(carrier, 0, 0.0));
+    pivot.origin_b[0] = -0.2;
+    (void)add_joint(s, &pivot);
+    last_joint = add_joint_between(s, DMB_JOINT_REVOLUTE, dmb_station(carrier, 0, 0.0), dmb_station(last_body, 0, 0.0));
 }
 
 static uint32_t rod_channels(const rig *s, dmb_channel *out)
@@ -575,8 +595,11 @@ static void test_joints(void **state)
 {
     const scene_case c = {
         "spring of a joint", describe_rods, &joint_spring, rod_channels, 1e-6, 1e-3, 2e-3, 1e-6, 300, 0};
+    const scene_case rotor = {
+        "speed of a rotor", describe_rotor, &rotor_speed, rod_channels, 1e-4, 1e-2, 2e-3, 1e-6, 300, 0};
     (void)state;
     check_case(&c);
+    check_case(&rotor);
 }
 
 /* x'' = -w^2 x - 2 z x', x(0) = 0, x'(0) = v: x = v exp(-z t) sin(u t)/u, u^2 = w^2 - z^2. */
