@@ -225,7 +225,7 @@ static double error_on_string(int bearing, double per_step)
     return round / (g.precession * n * h) - 1.0;
 }
 
-/* What the string bends by is left out of the closed form. */
+/* The closed form leaves out the bending of the string. */
 static void a_rotor_at_the_end_of_a_string_precesses_right(void **state)
 {
     (void)state;
