@@ -192,7 +192,7 @@ class Analyses:
     def hydraulics(self, depth: float, trip_speed: float = 0.0) -> Hydraulics:
         """Pressures [Pa] of the mud with the string's far end at a measured depth [m], equivalent circulating density
         [kg/m3], surge and swab of the closed string that moves at a trip speed [m/s]."""
-        found = Hydraulics.blank()
+        found: Hydraulics = Hydraulics.blank()
         self._check(_lib.dmb_analysis_hydraulics(self._handle, real(depth, "hydraulics", "depth", unit="m"),
                                                  real(trip_speed, "hydraulics", "trip_speed", unit="m/s"), byref(found)))
         return found

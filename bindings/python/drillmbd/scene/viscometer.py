@@ -50,7 +50,7 @@ def _line(rates: list[float], stresses: list[float], exponent: float) -> tuple[f
 
 def _squares(rates: list[float], stresses: list[float], exponent: float) -> float:
     start, slope = _line(rates, stresses, exponent)
-    return sum((start + slope * rate ** exponent - stress) ** 2 for rate, stress in zip(rates, stresses))
+    return float(sum((start + slope * rate ** exponent - stress) ** 2 for rate, stress in zip(rates, stresses)))
 
 
 def _exponent(rates: list[float], stresses: list[float]) -> float:
