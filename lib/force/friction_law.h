@@ -11,9 +11,11 @@
 #include "drillmbd/model.h"
 #include "math/real.h"
 
+enum { DMB_FRICTION_POINTS = 8 }; /* [-] of a table, as of dmb_wall_def */
+
 typedef struct dmb_friction_law {
-    int32_t kind; /* DMB_FRICTION_... */
-    int32_t reserved;
+    int32_t kind;   /* DMB_FRICTION_... */
+    int32_t points; /* [-] of a table in the place of the Stribeck curve; 0: none */
     double mu_static;         /* [-] */
     double mu_dynamic;        /* [-] */
     double stribeck_speed;    /* [m/s] v_s > 0 */
@@ -21,6 +23,8 @@ typedef struct dmb_friction_law {
     double full_speed;        /* [m/s] v1 of AMBROSIO, > v0 */
     double bristle_stiffness; /* [1/m] sigma0 > 0, tangential stiffness over normal force */
     double bristle_damping;   /* [s/m] sigma1 >= 0, tangential damping over normal force */
+    const double *table_speed; /* [m/s] 0 and then strictly increasing, shape (points) */
+    const double *table_mu;    /* [-] coefficients there, shape (points); times mu_dynamic over the last one, which is > 0 */
 } dmb_friction_law;
 
 /* Friction as a function of velocity alone. F [as N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
@@ -60,9 +64,28 @@ static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
 /* ---- Smooth laws ---------------------------------------------------------------------------------------------------
  */
 
-/* mu(s) and mu'(s) of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s) */
+/* mu(s) and mu'(s) of the table (eq:friction.table): straight between its points, constant beyond the last one, where it
+ * is mu_d. So factors and sections of the hole, which set mu_d, change all of it in proportion. */
+static inline dmb_real dmb_friction_table(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
+{
+    const double *x = law->table_speed, *y = law->table_mu, scale = law->mu_dynamic / y[law->points - 1];
+    dmb_real mu = dmb_real_of(scale * y[0]);
+    *slope = dmb_real_of(0.0);
+    for (int k = 0; k + 1 < law->points; ++k) {
+        const dmb_mask beyond = dmb_mask_less(dmb_real_of(x[k]), s);
+        const double rise = scale * (y[k + 1] - y[k]) / (x[k + 1] - x[k]);
+        mu = dmb_real_select(beyond, scale * y[k] + rise * (s - x[k]), mu);
+        *slope = dmb_real_select(beyond, dmb_real_of(rise), *slope);
+    }
+    const dmb_mask end = dmb_mask_at_most(dmb_real_of(x[law->points - 1]), s);
+    *slope = dmb_real_select(end, dmb_real_of(0.0), *slope);
+    return dmb_real_select(end, dmb_real_of(law->mu_dynamic), mu);
+}
+
+/* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s) */
 static inline dmb_real dmb_stribeck(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
+    if (law->points > 0) return dmb_friction_table(law, s, slope);
     const dmb_mask end = dmb_mask_at_most(dmb_real_of(DMB_STRIBECK_END * law->stribeck_speed), s);
     *slope = dmb_real_of(0.0);
     if (law->mu_static == law->mu_dynamic || !dmb_mask_any(dmb_mask_not(end))) return dmb_real_of(law->mu_dynamic);

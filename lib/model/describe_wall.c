@@ -70,7 +70,7 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
     dmb_check_choice(check, "friction_law", law, DMB_FRICTION_NONE, DMB_FRICTION_BRISTLE);
     dmb_check_within(check, "mu_dynamic", def->mu_dynamic, 0.0, DMB_NUMBER_MAX);
     dmb_check_within(check, "mu_static", def->mu_static, 0.0, DMB_NUMBER_MAX);
-    if (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE) {
+    if (def->friction_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE)) {
         dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
     }
     dmb_check_within(check, "stribeck_speed", def->stribeck_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
@@ -81,6 +81,28 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
     }
     dmb_check_within(check, "bristle_stiffness", def->bristle_stiffness, DMB_NUMBER_MIN, DMB_DAMPING_MAX);
     dmb_check_within(check, "bristle_damping", def->bristle_damping, 0.0, DMB_DAMPING_MAX);
+}
+
+/* The table of the coefficient against the speed. */
+static void check_friction_table(dmb_check *check, const dmb_wall_def *def)
+{
+    const uint32_t n = def->friction_count;
+    dmb_check_count(check, "friction_count", n, 0, DMB_FRICTION_POINTS);
+    if (check->status < 0 || n == 0) return;
+    dmb_check_count(check, "friction_count (0, or 2 and more)", n, 2, DMB_FRICTION_POINTS);
+    dmb_check_each_within(check, "friction_speed", def->friction_speed, n, 0.0, DMB_SPEED_MAX);
+    dmb_check_increasing(check, "friction_speed", def->friction_speed, n, 1);
+    dmb_check_each_within(check, "friction_mu", def->friction_mu, n, 0.0, DMB_NUMBER_MAX);
+    if (check->status < 0) return;
+    dmb_check_within(check, "friction_speed[0]", def->friction_speed[0], 0.0, 0.0);
+    for (uint32_t i = 1; i < n && check->status >= 0; ++i)
+        if (def->friction_speed[i] - def->friction_speed[i - 1] < DMB_SPEED_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, "friction_speed", def->friction_speed[i], "> the one before, by 1e-12");
+    dmb_check_within(check, "friction_mu (the last one)", def->friction_mu[n - 1], DMB_NUMBER_MIN, DMB_NUMBER_MAX);
+    if (check->status < 0 || def->friction_law == DMB_FRICTION_STRIBECK || def->friction_law == DMB_FRICTION_BRISTLE)
+        return;
+    dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "friction_law", def->friction_law,
+                   "DMB_FRICTION_STRIBECK or DMB_FRICTION_BRISTLE with friction_count > 0");
 }
 
 /* At least four stations: those at both ends are never cut. */
@@ -106,9 +128,18 @@ static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
     dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
     check_normal_law(&check, def);
     check_friction_law(&check, def);
+    check_friction_table(&check, def);
     check_cuts(&check, def);
     if (def->survey_count != 0) check_survey(&check, &model->message, def);
     return check.status;
+}
+
+/* The ends of a table are the coefficients at rest and in fast sliding. */
+static void take_friction_table(dmb_wall_def *def)
+{
+    if (def->friction_count == 0 || def->friction_count > DMB_FRICTION_POINTS) return;
+    def->mu_static = def->friction_mu[0];
+    def->mu_dynamic = def->friction_mu[def->friction_count - 1];
 }
 
 static size_t survey_size(const dmb_wall_def *wall)
@@ -156,6 +187,7 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
         return dmb_describe_end(model, "wall", NULL, 0, DMB_ERR_ORDER);
     }
     status = dmb_wall_def_read(&read, def);
+    if (status >= 0) take_friction_table(&read);
     if (status >= 0) status = check_wall(model, &read);
     if (status >= 0) status = copy_survey(&read, &model->allocator);
     if (status >= 0) {

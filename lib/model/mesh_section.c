@@ -25,24 +25,39 @@ static section_values of_wall(const dmb_wall_def *w)
         {0.5 * w->diameter, w->stiffness, w->restitution, w->damping, w->mu_static, w->mu_dynamic, 0.0}};
 }
 
+/* With a table of the wall its first coefficient is the static one of all sections, in proportion. */
+static double static_of(const dmb_wall_def *wall, const dmb_hole_section *s)
+{
+    if (wall->friction_count == 0) return or_wall(s->mu_static, wall->mu_static);
+    return wall->mu_static * or_wall(s->mu_dynamic, wall->mu_dynamic) / wall->mu_dynamic;
+}
+
 static section_values of_section(const dmb_wall_def *wall, const dmb_hole_section *s)
 {
     return (section_values){{0.5 * or_wall(s->diameter, wall->diameter), or_wall(s->stiffness, wall->stiffness),
                              or_wall(s->restitution, wall->restitution), or_wall(s->damping, wall->damping),
-                             or_wall(s->mu_static, wall->mu_static), or_wall(s->mu_dynamic, wall->mu_dynamic),
+                             static_of(wall, s), or_wall(s->mu_dynamic, wall->mu_dynamic),
                              s->strength}};
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
+static int has_curve(const dmb_wall_def *wall)
+{
+    return wall->friction_law == DMB_FRICTION_STRIBECK || wall->friction_law == DMB_FRICTION_BRISTLE;
+}
+
 /* The bounds that the laws set to the wall's constants, with those of the wall filled in. */
-static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const section_values *s)
+static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_section *given, const section_values *s)
 {
     const dmb_wall_def *wall = &mesh->model->wall;
     dmb_check check = dmb_check_of(&mesh->model->message, "hole section", i);
     if (wall->normal_law == DMB_NORMAL_FLORES || wall->normal_law == DMB_NORMAL_EXACT)
         dmb_check_above(&check, "restitution", s->v[DMB_WALL_RESTITUTION], 0.0);
-    if (wall->friction_law == DMB_FRICTION_STRIBECK || wall->friction_law == DMB_FRICTION_BRISTLE)
+    if (wall->friction_count > 0 && given->mu_static >= 0.0)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "mu_static", given->mu_static,
+                       "left out (-1): friction_speed and friction_mu of the wall say it, in proportion to mu_dynamic");
+    else if (wall->friction_count == 0 && has_curve(wall))
         dmb_check_at_least_field(&check, "mu_static", s->v[DMB_WALL_MU_STATIC], "mu_dynamic",
                                  s->v[DMB_WALL_MU_DYNAMIC]);
     return check.status;
@@ -153,7 +168,7 @@ static int32_t pass_section(section_walk *walk, uint32_t i, uint32_t count)
     const dmb_hole_section *all = walk->mesh->model->sections.items, *s = all + i;
     const section_values values = of_section(wall, s);
     int32_t status = check_place(walk->mesh, all, i, count);
-    if (status >= 0) status = check_constants(walk->mesh, i, &values);
+    if (status >= 0) status = check_constants(walk->mesh, i, s, &values);
     if (status < 0) return status;
     const section_values slope = slope_behind(wall, s, &values);
     status = push_straight(walk, s->depth - 0.5 * s->transition);

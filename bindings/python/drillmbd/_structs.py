@@ -127,8 +127,12 @@ class WallDef(WallPart, Sized):
     cut_spacing: float
     cut_start: float
     cut_end: float
+    friction_count: int
+    reserved: int
+    friction_speed: 'Array[c_double]'
+    friction_mu: 'Array[c_double]'
     if TYPE_CHECKING:
-        def __init__(self, stations: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ...) -> None: ...
+        def __init__(self, stations: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_count: int = ..., friction_speed: Iterable[float] = ..., friction_mu: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("survey_count", c_uint32),
@@ -155,6 +159,10 @@ class WallDef(WallPart, Sized):
         ("cut_spacing", c_double),
         ("cut_start", c_double),
         ("cut_end", c_double),
+        ("friction_count", c_uint32),
+        ("reserved", c_uint32),
+        ("friction_speed", c_double * 8),
+        ("friction_mu", c_double * 8),
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
@@ -181,6 +189,9 @@ class WallDef(WallPart, Sized):
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
         "cut_start": ("m", "measured depth of the first of these stations and"),
         "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
+        "friction_count": ("-", "points of a table of the coefficient against the speed of sliding, 2 .. 8, of the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed: its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
+        "friction_speed": ("m/s", "the first one 0, strictly increasing, shape (friction_count). Static until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
+        "friction_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_count)"),
     }
 
 
@@ -2841,8 +2852,9 @@ class SpeedsOptions(Sized):
     equilibrium_tolerance: float
     report: Any
     unused: Any
+    spin: float
     if TYPE_CHECKING:
-        def __init__(self, *, points: int = ..., speed_low: SupportsFloat = ..., speed_high: SupportsFloat = ..., threshold: SupportsFloat = ..., margin: SupportsFloat = ..., refinement: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., report: Any = ..., unused: Any = ...) -> None: ...
+        def __init__(self, *, points: int = ..., speed_low: SupportsFloat = ..., speed_high: SupportsFloat = ..., threshold: SupportsFloat = ..., margin: SupportsFloat = ..., refinement: int = ..., contact: int = ..., friction: int = ..., contact_gap: SupportsFloat = ..., structural_damping: SupportsFloat = ..., equilibrium_tolerance: SupportsFloat = ..., report: Any = ..., unused: Any = ..., spin: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("points", c_uint32),
@@ -2859,6 +2871,7 @@ class SpeedsOptions(Sized):
         ("equilibrium_tolerance", c_double),
         ("report", POINTER(SpeedsReport)),
         ("unused", c_void_p),
+        ("spin", c_double),
     ]
     field_docs = {
         "points": ("-", "of the grid of speeds, 2 .. 1e5; default 200"),
@@ -2874,6 +2887,7 @@ class SpeedsOptions(Sized):
         "equilibrium_tolerance": ("m, -, -", "as of a response, same defaults"),
         "report": ("", "written where the call succeeds; NULL (default): none"),
         "unused": ("", "NULL"),
+        "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and with friction 1, the answer is that of a string that lies on the wall where friction carries it; eccentric masses are out of balance there: allow it by equilibrium_tolerance"),
     }
 
 

@@ -158,6 +158,7 @@ static dmb_response_options response_options(const speeds_run *r, double order)
     options.friction = r->options.friction;
     options.contact_gap = r->options.contact_gap;
     options.axes = DMB_RESPONSE_AXES_AT_REST;
+    options.spin = r->options.spin;
     return options;
 }
 

@@ -107,6 +107,72 @@ static void smooth_tangents(void **state)
     }
 }
 
+/* ---- table ---- */
+
+static const double table_speed[] = {0.0, 0.07, 0.08, 0.5}, table_mu[] = {0.5, 0.5, 0.24, 0.3};
+
+static dmb_friction_law table_law(int32_t kind, double mu_dynamic)
+{
+    dmb_friction_law law = law_of(kind, mu_dynamic * 0.5 / 0.3, mu_dynamic);
+    law.points = 4;
+    law.table_speed = table_speed;
+    law.table_mu = table_mu;
+    return law;
+}
+
+/* Static until 0.07 m/s; halves of all coefficients where mu_dynamic is half the last one; the bristle law slides on
+ * the same curve and breaks away at the static coefficient. */
+static void table_values(void **state)
+{
+    static const double at[][2] = {{0.03, 0.5}, {0.075, 0.37}, {0.29, 0.27}, {0.5, 0.3}, {9.0, 0.3}};
+    (void)state;
+
+    for (int i = 0; i < 5; i++) {
+        const double v[2] = {0.6 * at[i][0], -0.8 * at[i][0]}, far[2] = {1, 1};
+        dmb_friction_law law = table_law(DMB_FRICTION_STRIBECK, 0.3);
+        double F[2], dF_dv[4], dF_dN[2], z[2];
+        law.smoothing_speed = 0.0;
+        smooth_force(&law, 100, v, F);
+        CHECK_RELATIVE(hypot(F[0], F[1]), 100 * at[i][1], 1e-14);
+        assert_true(F[0] * v[0] + F[1] * v[1] < 0.0);
+        law = table_law(DMB_FRICTION_STRIBECK, 0.15);
+        law.smoothing_speed = 0.0;
+        smooth_force(&law, 100, v, F);
+        CHECK_RELATIVE(hypot(F[0], F[1]), 50 * at[i][1], 1e-14);
+        law = table_law(DMB_FRICTION_BRISTLE, 0.3);
+        (void)dmb_friction_bristle(&law, 100, v, far, v, 0, 1e-3, z, F, dF_dv, dF_dN);
+        CHECK_RELATIVE(hypot(F[0], F[1]), 100 * at[i][1], 1e-14);
+        (void)dmb_friction_bristle(&law, 100, v, far, v, 1, 1e-3, z, F, dF_dv, dF_dN);
+        CHECK_RELATIVE(hypot(F[0], F[1]), 50, 1e-14);
+    }
+}
+
+/* Against differences, but at the corners; the power is never positive. */
+static void table_tangents(void **state)
+{
+    uint64_t seed = 77;
+    int checked = 0;
+    (void)state;
+
+    for (int i = 0; i < 4000; ++i) {
+        const dmb_friction_law law = table_law(DMB_FRICTION_STRIBECK, 0.3);
+        const double scale = pow(10, draw(&seed, -4, 0)), h = 1e-6 * fmax(scale, 1e-3);
+        const double v[2] = {draw(&seed, -scale, scale), draw(&seed, -scale, scale)}, s = hypot(hypot(v[0], v[1]), 1e-3);
+        double F[2], above[2], below[2], dF_dv[4], dF_dN[2];
+        dmb_friction_smooth(&law, 10, v, F, dF_dv, dF_dN);
+        assert_true(F[0] * v[0] + F[1] * v[1] <= 0.0);
+        if (fabs(s - 0.07) < 2 * h || fabs(s - 0.08) < 2 * h || fabs(s - 0.5) < 2 * h) continue;
+        for (int j = 0; j < 2; ++j, ++checked) {
+            const double w[2] = {v[0] + (j == 0 ? h : 0), v[1] + (j == 1 ? h : 0)};
+            const double u[2] = {v[0] - (j == 0 ? h : 0), v[1] - (j == 1 ? h : 0)};
+            smooth_force(&law, 10, w, above);
+            smooth_force(&law, 10, u, below);
+            for (int k = 0; k < 2; ++k) CHECK_CLOSE(dF_dv[2 * k + j], (above[k] - below[k]) / (2 * h), 1e-4);
+        }
+    }
+    assert_true(checked > 7900);
+}
+
 /* The falling branch is negative damping and stays in the tangent. */
 static void falling_branch(void **state)
 {
@@ -475,7 +541,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smooth_formulas),       cmocka_unit_test(direction),
-        cmocka_unit_test(smooth_tangents),       cmocka_unit_test(falling_branch),
+        cmocka_unit_test(smooth_tangents),       cmocka_unit_test(table_values), cmocka_unit_test(table_tangents),
+        cmocka_unit_test(falling_branch),
         cmocka_unit_test(rest_and_nonsense),     cmocka_unit_test(bristle_tangents),
         cmocka_unit_test(bristle_is_continuous), cmocka_unit_test(breaks_away_at_static),
         cmocka_unit_test(bristle_dissipates),    cmocka_unit_test(slider_stops),
