@@ -241,7 +241,7 @@ def python_type(kind):
 
 
 # What the classes of _record.py take besides fields, and the fields that it stands for.
-MORE_KEYS = {"Term": ("table", "function"), "WallDef": ("stations",), "SpringDef": ("table",), "Motor": ("table",),
+MORE_KEYS = {"Term": ("table", "function"), "WallDef": ("stations", "friction_table"), "SpringDef": ("table",), "Motor": ("table",),
              "DriveDef": ("curve", "gain_table"), "ForceDef": ("places", "function"), "ConstraintDef": ("places", "function")}
 
 

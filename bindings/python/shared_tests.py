@@ -2,6 +2,7 @@
 import contextlib
 import importlib
 import io
+import json
 import os
 import pathlib
 import sys
@@ -53,6 +54,15 @@ class FolderTest(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_text(text, encoding="utf-8")
         return self.folder / name
+
+    def answer(self, command, *more):
+        """Output and summary of a command on the scene, whose files are there."""
+        output = self.folder / "out"
+        out = self.ask(command, self.scene, "--output", output, *more)
+        summary = json.loads((output / "summary.json").read_text(encoding="utf-8"))
+        for name in summary["files"]:
+            self.assertGreater((output / name).stat().st_size, 30, name)
+        return out, summary
 
     def ask(self, *words, status=0):
         """The command in this process, which has loaded the packages: its output, or its errors where it fails."""

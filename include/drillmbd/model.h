@@ -179,15 +179,16 @@ typedef struct dmb_wall_def {
                                  most 2^18 stations. 0 (default): the hole stays as described */
     double cut_start;         /* [m] measured depth of the first of these stations and */
     double cut_end;           /* [m] of the last one, >= three spacings apart: beyond, nothing is cut; default 0 */
-    uint32_t friction_count;  /* [-] points of a table of the coefficient against the speed of sliding, 2 .. 8, of the
-                                 laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed: its
-                                 first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections of
-                                 the hole give mu_dynamic alone, and the table acts in proportion */
+    uint32_t friction_table_count; /* [-] points of a table of the coefficient against the speed of sliding, 2 .. 8, of
+                                the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed:
+                                its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections
+                                of the hole give mu_dynamic alone, and the table acts in proportion */
     uint32_t reserved;
-    double friction_speed[8]; /* [m/s] the first one 0, strictly increasing, shape (friction_count). Static until a
-                                 threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic */
-    double friction_mu[8];    /* [-] coefficients there, >= 0, the last one > 0; straight between, constant beyond,
-                                 shape (friction_count) */
+    double friction_table_speed[8]; /* [m/s] the first one 0, strictly increasing, shape (friction_table_count). Static
+                                 until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static,
+                                 mu_dynamic */
+    double friction_table_mu[8]; /* [-] coefficients there, >= 0, the last one > 0; straight between, constant beyond,
+                              shape (friction_table_count) */
 } dmb_wall_def;
 DMB_SIZED_STRUCT(dmb_wall_def)
 /* Adds the hole. One hole a model; wall may be NULL. */

@@ -14,17 +14,18 @@
 enum { DMB_FRICTION_POINTS = 8 }; /* [-] of a table, as of dmb_wall_def */
 
 typedef struct dmb_friction_law {
-    int32_t kind;   /* DMB_FRICTION_... */
-    int32_t points; /* [-] of a table in the place of the Stribeck curve; 0: none */
-    double mu_static;         /* [-] */
-    double mu_dynamic;        /* [-] */
-    double stribeck_speed;    /* [m/s] v_s > 0 */
-    double smoothing_speed;   /* [m/s] v_eps of COULOMB and STRIBECK, v0 of AMBROSIO; > 0 */
-    double full_speed;        /* [m/s] v1 of AMBROSIO, > v0 */
-    double bristle_stiffness; /* [1/m] sigma0 > 0, tangential stiffness over normal force */
-    double bristle_damping;   /* [s/m] sigma1 >= 0, tangential damping over normal force */
+    int32_t kind;              /* DMB_FRICTION_... */
+    int32_t points;            /* [-] of a table in the place of the Stribeck curve; 0: none */
+    double mu_static;          /* [-] */
+    double mu_dynamic;         /* [-] */
+    double stribeck_speed;     /* [m/s] v_s > 0 */
+    double smoothing_speed;    /* [m/s] v_eps of COULOMB and STRIBECK, v0 of AMBROSIO; > 0 */
+    double full_speed;         /* [m/s] v1 of AMBROSIO, > v0 */
+    double bristle_stiffness;  /* [1/m] sigma0 > 0, tangential stiffness over normal force */
+    double bristle_damping;    /* [s/m] sigma1 >= 0, tangential damping over normal force */
     const double *table_speed; /* [m/s] 0 and then strictly increasing, shape (points) */
-    const double *table_mu;    /* [-] coefficients there, shape (points); times mu_dynamic over the last one, which is > 0 */
+    const double
+        *table_mu; /* [-] coefficients there, shape (points); times mu_dynamic over the last one, which is > 0 */
 } dmb_friction_law;
 
 /* Friction as a function of velocity alone. F [as N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
@@ -64,8 +65,8 @@ static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
 /* ---- Smooth laws ---------------------------------------------------------------------------------------------------
  */
 
-/* mu(s) and mu'(s) of the table (eq:friction.table): straight between its points, constant beyond the last one, where it
- * is mu_d. So factors and sections of the hole, which set mu_d, change all of it in proportion. */
+/* mu(s) and mu'(s) of the table (eq:friction.table): straight between its points, constant beyond the last one, where
+ * it is mu_d. So factors and sections of the hole, which set mu_d, change all of it in proportion. */
 static inline dmb_real dmb_friction_table(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
     const double *x = law->table_speed, *y = law->table_mu, scale = law->mu_dynamic / y[law->points - 1];

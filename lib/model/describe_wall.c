@@ -70,7 +70,7 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
     dmb_check_choice(check, "friction_law", law, DMB_FRICTION_NONE, DMB_FRICTION_BRISTLE);
     dmb_check_within(check, "mu_dynamic", def->mu_dynamic, 0.0, DMB_NUMBER_MAX);
     dmb_check_within(check, "mu_static", def->mu_static, 0.0, DMB_NUMBER_MAX);
-    if (def->friction_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE)) {
+    if (def->friction_table_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE)) {
         dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
     }
     dmb_check_within(check, "stribeck_speed", def->stribeck_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
@@ -86,23 +86,25 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
 /* The table of the coefficient against the speed. */
 static void check_friction_table(dmb_check *check, const dmb_wall_def *def)
 {
-    const uint32_t n = def->friction_count;
-    dmb_check_count(check, "friction_count", n, 0, DMB_FRICTION_POINTS);
+    const uint32_t n = def->friction_table_count;
+    dmb_check_count(check, "friction_table_count", n, 0, DMB_FRICTION_POINTS);
     if (check->status < 0 || n == 0) return;
-    dmb_check_count(check, "friction_count (0, or 2 and more)", n, 2, DMB_FRICTION_POINTS);
-    dmb_check_each_within(check, "friction_speed", def->friction_speed, n, 0.0, DMB_SPEED_MAX);
-    dmb_check_increasing(check, "friction_speed", def->friction_speed, n, 1);
-    dmb_check_each_within(check, "friction_mu", def->friction_mu, n, 0.0, DMB_NUMBER_MAX);
+    dmb_check_count(check, "friction_table_count (0, or 2 and more)", n, 2, DMB_FRICTION_POINTS);
+    dmb_check_each_within(check, "friction_table_speed", def->friction_table_speed, n, 0.0, DMB_SPEED_MAX);
+    dmb_check_increasing(check, "friction_table_speed", def->friction_table_speed, n, 1);
+    dmb_check_each_within(check, "friction_table_mu", def->friction_table_mu, n, 0.0, DMB_NUMBER_MAX);
     if (check->status < 0) return;
-    dmb_check_within(check, "friction_speed[0]", def->friction_speed[0], 0.0, 0.0);
+    dmb_check_within(check, "friction_table_speed[0]", def->friction_table_speed[0], 0.0, 0.0);
     for (uint32_t i = 1; i < n && check->status >= 0; ++i)
-        if (def->friction_speed[i] - def->friction_speed[i - 1] < DMB_SPEED_MIN)
-            dmb_check_fail(check, DMB_ERR_VALUE, "friction_speed", def->friction_speed[i], "> the one before, by 1e-12");
-    dmb_check_within(check, "friction_mu (the last one)", def->friction_mu[n - 1], DMB_NUMBER_MIN, DMB_NUMBER_MAX);
+        if (def->friction_table_speed[i] - def->friction_table_speed[i - 1] < DMB_SPEED_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, "friction_table_speed", def->friction_table_speed[i],
+                           "> the one before, by 1e-12");
+    dmb_check_within(check, "friction_table_mu (the last one)", def->friction_table_mu[n - 1], DMB_NUMBER_MIN,
+                     DMB_NUMBER_MAX);
     if (check->status < 0 || def->friction_law == DMB_FRICTION_STRIBECK || def->friction_law == DMB_FRICTION_BRISTLE)
         return;
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "friction_law", def->friction_law,
-                   "DMB_FRICTION_STRIBECK or DMB_FRICTION_BRISTLE with friction_count > 0");
+                   "DMB_FRICTION_STRIBECK or DMB_FRICTION_BRISTLE with friction_table_count > 0");
 }
 
 /* At least four stations: those at both ends are never cut. */
@@ -137,9 +139,9 @@ static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
 /* The ends of a table are the coefficients at rest and in fast sliding. */
 static void take_friction_table(dmb_wall_def *def)
 {
-    if (def->friction_count == 0 || def->friction_count > DMB_FRICTION_POINTS) return;
-    def->mu_static = def->friction_mu[0];
-    def->mu_dynamic = def->friction_mu[def->friction_count - 1];
+    if (def->friction_table_count == 0 || def->friction_table_count > DMB_FRICTION_POINTS) return;
+    def->mu_static = def->friction_table_mu[0];
+    def->mu_dynamic = def->friction_table_mu[def->friction_table_count - 1];
 }
 
 static size_t survey_size(const dmb_wall_def *wall)

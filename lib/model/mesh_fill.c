@@ -305,9 +305,9 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                   .full_speed = w->full_speed,
                                   .bristle_stiffness = w->bristle_stiffness,
                                   .bristle_damping = w->bristle_damping,
-                                  .points = (int32_t)w->friction_count,
-                                  .table_speed = w->friction_speed, /* of the model, which outlives the scene */
-                                  .table_mu = w->friction_mu};
+                                  .points = (int32_t)w->friction_table_count,
+                                  .table_speed = w->friction_table_speed, /* of the model, which outlives the scene */
+                                  .table_mu = w->friction_table_mu};
     scene->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = contact ? w->normal_law : DMB_NORMAL_NONE,
                                                            .stiffness = w->stiffness,
                                                            .exponent = w->exponent,

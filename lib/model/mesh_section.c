@@ -28,7 +28,7 @@ static section_values of_wall(const dmb_wall_def *w)
 /* With a table of the wall its first coefficient is the static one of all sections, in proportion. */
 static double static_of(const dmb_wall_def *wall, const dmb_hole_section *s)
 {
-    if (wall->friction_count == 0) return or_wall(s->mu_static, wall->mu_static);
+    if (wall->friction_table_count == 0) return or_wall(s->mu_static, wall->mu_static);
     return wall->mu_static * or_wall(s->mu_dynamic, wall->mu_dynamic) / wall->mu_dynamic;
 }
 
@@ -36,8 +36,7 @@ static section_values of_section(const dmb_wall_def *wall, const dmb_hole_sectio
 {
     return (section_values){{0.5 * or_wall(s->diameter, wall->diameter), or_wall(s->stiffness, wall->stiffness),
                              or_wall(s->restitution, wall->restitution), or_wall(s->damping, wall->damping),
-                             static_of(wall, s), or_wall(s->mu_dynamic, wall->mu_dynamic),
-                             s->strength}};
+                             static_of(wall, s), or_wall(s->mu_dynamic, wall->mu_dynamic), s->strength}};
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
@@ -54,10 +53,11 @@ static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_
     dmb_check check = dmb_check_of(&mesh->model->message, "hole section", i);
     if (wall->normal_law == DMB_NORMAL_FLORES || wall->normal_law == DMB_NORMAL_EXACT)
         dmb_check_above(&check, "restitution", s->v[DMB_WALL_RESTITUTION], 0.0);
-    if (wall->friction_count > 0 && given->mu_static >= 0.0)
+    if (wall->friction_table_count > 0 && given->mu_static >= 0.0)
         dmb_check_fail(&check, DMB_ERR_VALUE, "mu_static", given->mu_static,
-                       "left out (-1): friction_speed and friction_mu of the wall say it, in proportion to mu_dynamic");
-    else if (wall->friction_count == 0 && has_curve(wall))
+                       "left out (-1): friction_table_speed and friction_table_mu of the wall say it, in proportion to "
+                       "mu_dynamic");
+    else if (wall->friction_table_count == 0 && has_curve(wall))
         dmb_check_at_least_field(&check, "mu_static", s->v[DMB_WALL_MU_STATIC], "mu_dynamic",
                                  s->v[DMB_WALL_MU_DYNAMIC]);
     return check.status;

@@ -133,16 +133,16 @@ static int32_t add_term(dmb_model *model, const any_def *def)
 }
 
 static const field wall_fields[] = {
-    F(dmb_wall_def, survey_count, COUNT, 1),  F(dmb_wall_def, origin, REAL, 3),
-    F(dmb_wall_def, direction, REAL, 3),      F(dmb_wall_def, diameter, REAL, 1),
-    F(dmb_wall_def, normal_law, WHOLE, 1),    F(dmb_wall_def, friction_law, WHOLE, 1),
-    F(dmb_wall_def, stiffness, REAL, 1),      F(dmb_wall_def, exponent, REAL, 1),
-    F(dmb_wall_def, restitution, REAL, 1),    F(dmb_wall_def, damping, REAL, 1),
-    F(dmb_wall_def, impact_depth, REAL, 1),   F(dmb_wall_def, approach_speed, REAL, 1),
-    F(dmb_wall_def, mu_static, REAL, 1),      F(dmb_wall_def, mu_dynamic, REAL, 1),
-    F(dmb_wall_def, stribeck_speed, REAL, 1), F(dmb_wall_def, smoothing_speed, REAL, 1),
-    F(dmb_wall_def, full_speed, REAL, 1),     F(dmb_wall_def, bristle_stiffness, REAL, 1),
-    F(dmb_wall_def, bristle_damping, REAL, 1)};
+    F(dmb_wall_def, survey_count, COUNT, 1),   F(dmb_wall_def, origin, REAL, 3),
+    F(dmb_wall_def, direction, REAL, 3),       F(dmb_wall_def, diameter, REAL, 1),
+    F(dmb_wall_def, normal_law, WHOLE, 1),     F(dmb_wall_def, friction_law, WHOLE, 1),
+    F(dmb_wall_def, stiffness, REAL, 1),       F(dmb_wall_def, exponent, REAL, 1),
+    F(dmb_wall_def, restitution, REAL, 1),     F(dmb_wall_def, damping, REAL, 1),
+    F(dmb_wall_def, impact_depth, REAL, 1),    F(dmb_wall_def, approach_speed, REAL, 1),
+    F(dmb_wall_def, mu_static, REAL, 1),       F(dmb_wall_def, mu_dynamic, REAL, 1),
+    F(dmb_wall_def, stribeck_speed, REAL, 1),  F(dmb_wall_def, smoothing_speed, REAL, 1),
+    F(dmb_wall_def, full_speed, REAL, 1),      F(dmb_wall_def, bristle_stiffness, REAL, 1),
+    F(dmb_wall_def, bristle_damping, REAL, 1), F(dmb_wall_def, friction_table_count, COUNT, 1)};
 static void fill_wall(const scene_under_test *s, any_def *def)
 {
     (void)s;

@@ -230,50 +230,6 @@ class TermPart:
         return found
 
 
-class WallPart:
-    """The hole. `stations` takes triples (measured depth [m], inclination [rad], azimuth [rad])."""
-
-    def __init__(self, stations: Any = None, **fields: Any) -> None:
-        super().__init__(**fields)
-        self._stations: list[list[float]] = []
-        if stations is not None:
-            if isinstance(stations, (str, bytes, dict)) or not hasattr(stations, "__iter__"):
-                refuse_type("WallDef", "stations", stations, "be triples (depth [m], inclination [rad], azimuth [rad])")
-            self._stations = [reals(triple, "WallDef", f"stations[{i}]", 3) for i, triple in enumerate(stations)]
-            if not self._stations:
-                refuse_value("WallDef", "stations", stations, "be at least 2 triples; leave it out for a straight hole")
-            values = [number for triple in self._stations for number in triple]
-            self.survey_count, self.survey = len(self._stations), (c_double * len(values))(*values)
-
-    def describe(self, every: bool = False) -> dict[str, Any]:
-        """The fields as plain Python, `stations` as given."""
-        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        found.pop("survey_count", None)
-        if self._stations:
-            found["stations"] = [list(triple) for triple in self._stations]
-        return found
-
-
-class SpringPart:
-    """A spring and damper between two points. `table` takes pairs (elongation [m], force [N]) or two sequences."""
-
-    def __init__(self, table: Any = None, **fields: Any) -> None:
-        super().__init__(**fields)
-        self._table: list[tuple[float, float]] = []
-        if table is not None:
-            lengths, forces = points(table, "SpringDef")
-            self.table_count, self._table = len(lengths), list(zip(lengths, forces))
-            self.table_elongation, self.table_force = (c_double * len(lengths))(*lengths), (c_double * len(forces))(*forces)
-
-    def describe(self, every: bool = False) -> dict[str, Any]:
-        """The fields as plain Python, `table` as given."""
-        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        found.pop("table_count", None)
-        if self._table:
-            found["table"] = list(self._table)
-        return found
-
-
 class PairsPart:
     """A struct with columns of fixed length, each two of which one key takes as pairs."""
     PAIRS: ClassVar[dict[str, tuple[str, str, str]]] = {}  #: key: names of its count and columns
@@ -301,6 +257,58 @@ class PairsPart:
                 found.pop(name, None)
             if getattr(self, count):
                 found[key] = list(zip(getattr(self, one), getattr(self, other)))[:getattr(self, count)]
+        return found
+
+
+class WallPart(PairsPart):
+    """The hole. `stations` takes triples (measured depth [m], inclination [rad], azimuth [rad]); `friction_table` up to 8 pairs (speed of sliding
+    [m/s], coefficient [-])."""
+    PAIRS = {"friction_table": ("friction_table_count", "friction_table_speed", "friction_table_mu")}
+    friction_table_count: int
+    friction_table_mu: Any
+
+    def __init__(self, stations: Any = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        if self.friction_table_count and not {"mu_static", "mu_dynamic"} & set(fields):
+            self.mu_static, self.mu_dynamic = self.friction_table_mu[0], self.friction_table_mu[self.friction_table_count - 1]
+        self._stations: list[list[float]] = []
+        if stations is not None:
+            if isinstance(stations, (str, bytes, dict)) or not hasattr(stations, "__iter__"):
+                refuse_type("WallDef", "stations", stations, "be triples (depth [m], inclination [rad], azimuth [rad])")
+            self._stations = [reals(triple, "WallDef", f"stations[{i}]", 3) for i, triple in enumerate(stations)]
+            if not self._stations:
+                refuse_value("WallDef", "stations", stations, "be at least 2 triples; leave it out for a straight hole")
+            values = [number for triple in self._stations for number in triple]
+            self.survey_count, self.survey = len(self._stations), (c_double * len(values))(*values)
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `stations` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        found.pop("survey_count", None)
+        for key in ("mu_static", "mu_dynamic") if self.friction_table_count else ():  # the table says them
+            found.pop(key, None)
+        if self._stations:
+            found["stations"] = [list(triple) for triple in self._stations]
+        return found
+
+
+class SpringPart:
+    """A spring and damper between two points. `table` takes pairs (elongation [m], force [N]) or two sequences."""
+
+    def __init__(self, table: Any = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._table: list[tuple[float, float]] = []
+        if table is not None:
+            lengths, forces = points(table, "SpringDef")
+            self.table_count, self._table = len(lengths), list(zip(lengths, forces))
+            self.table_elongation, self.table_force = (c_double * len(lengths))(*lengths), (c_double * len(forces))(*forces)
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `table` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        found.pop("table_count", None)
+        if self._table:
+            found["table"] = list(self._table)
         return found
 
 

@@ -127,12 +127,12 @@ class WallDef(WallPart, Sized):
     cut_spacing: float
     cut_start: float
     cut_end: float
-    friction_count: int
+    friction_table_count: int
     reserved: int
-    friction_speed: 'Array[c_double]'
-    friction_mu: 'Array[c_double]'
+    friction_table_speed: 'Array[c_double]'
+    friction_table_mu: 'Array[c_double]'
     if TYPE_CHECKING:
-        def __init__(self, stations: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_count: int = ..., friction_speed: Iterable[float] = ..., friction_mu: Iterable[float] = ...) -> None: ...
+        def __init__(self, stations: Any = ..., friction_table: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_table_count: int = ..., friction_table_speed: Iterable[float] = ..., friction_table_mu: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("survey_count", c_uint32),
@@ -159,10 +159,10 @@ class WallDef(WallPart, Sized):
         ("cut_spacing", c_double),
         ("cut_start", c_double),
         ("cut_end", c_double),
-        ("friction_count", c_uint32),
+        ("friction_table_count", c_uint32),
         ("reserved", c_uint32),
-        ("friction_speed", c_double * 8),
-        ("friction_mu", c_double * 8),
+        ("friction_table_speed", c_double * 8),
+        ("friction_table_mu", c_double * 8),
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
@@ -189,9 +189,9 @@ class WallDef(WallPart, Sized):
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
         "cut_start": ("m", "measured depth of the first of these stations and"),
         "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
-        "friction_count": ("-", "points of a table of the coefficient against the speed of sliding, 2 .. 8, of the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed: its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
-        "friction_speed": ("m/s", "the first one 0, strictly increasing, shape (friction_count). Static until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
-        "friction_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_count)"),
+        "friction_table_count": ("-", "points of a table of the coefficient against the speed of sliding, 2 .. 8, of the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed: its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
+        "friction_table_speed": ("m/s", "the first one 0, strictly increasing, shape (friction_table_count). Static until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
+        "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
     }
 
 

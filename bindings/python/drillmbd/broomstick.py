@@ -51,7 +51,9 @@ def _scaled(scene: Scene, factor: float) -> Scene | None:
     if not any("mu_dynamic" in one for one in sections):
         return None
     usual = WallDef()
-    changes: dict[str, Any] = {f"hole.{key}": factor * float(hole.get(key, getattr(usual, key))) for key in ("mu_static", "mu_dynamic")}
+    table = hole.get("friction_table")
+    changes: dict[str, Any] = {"hole.friction_table": [[speed, factor * mu] for speed, mu in table]} if table else {
+        f"hole.{key}": factor * float(hole.get(key, getattr(usual, key))) for key in ("mu_static", "mu_dynamic")}
     changes.update({f"hole.section[{number}].{key}": factor * float(one[key]) for number, one in enumerate(sections)
                     for key in ("mu_static", "mu_dynamic") if key in one})
     return loads(text, changes=changes)

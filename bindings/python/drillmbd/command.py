@@ -118,6 +118,9 @@ def parser() -> argparse.ArgumentParser:
                                  "(default) or Chinese; summary.json stays English")
             command.add_argument("--probability", metavar="FOLDER", help="--output of a study of this scene by drillmbd probability: its "
                                  "estimates become part of the page")
+        if name == "speeds":
+            command.add_argument("--check", nargs="?", type=int, const=12, default=0, metavar="N", help="runs N rotary speeds (12 where no number "
+                                 "is given) in time too and marks those where torque or lateral acceleration swing")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,

@@ -42,13 +42,13 @@ class Model(Handle):
 
     # ---- Life -------------------------------------------------------------------------------------------------------
     def __reduce__(self) -> Any:
-        return _remake, (type(self), self.calls)
+        return remake, (type(self), self.calls)
 
     def __copy__(self) -> Model:
-        return _remake(type(self), self.calls)
+        return remake(type(self), self.calls)
 
     def __deepcopy__(self, memo: Any) -> Model:
-        return _remake(type(self), self.calls)
+        return remake(type(self), self.calls)
 
     def same_scene(self, other: Model) -> bool:
         """True where both were described alike: parts of a kind in the same order, whatever the order of kinds."""
@@ -408,7 +408,7 @@ def map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
     return value
 
 
-def _remake(cls: type[Model], calls: list[tuple[str, tuple[Any, ...]]]) -> Model:
+def remake(cls: type[Model], calls: list[tuple[str, tuple[Any, ...]]]) -> Model:
     """A model by the calls that described another. Ids carry the number of a part and the stamp of its model."""
     model = cls()
     for name, arguments in calls:

@@ -253,12 +253,15 @@ def broomstick(depths: Sequence[float], loads: dict[tuple[str, str], Sequence[fl
 
 
 def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[Any], threshold: float = 1.0,
-             title: str = "") -> Any:
-    """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm."""
+             title: str = "", ranges: Sequence[tuple[float, float]] = ()) -> Any:
+    """Severity over rotary speed [rad/s], the bands to avoid shaded and named in rpm; ranges [rad/s]: bands over a range of the scene, lightly."""
     figure, ((axes,),) = _axes(1, 1, (11, 4.5))
     rpm = [30.0 * speed / math.pi for speed in speeds]
     axes.plot(rpm, values, label="severity", **SINGLE)
     axes.axhline(threshold, **_style(2), linewidth=1.0, label="limit")
+    for number, (low, high) in enumerate(ranges):
+        axes.axvspan(30.0 * low / math.pi, 30.0 * high / math.pi, facecolor="#56B4E9", alpha=0.25, linewidth=0.0,
+                     label="over the range of the scene" if number == 0 else None)
     for band in bands:
         low, high = 30.0 * band.low / math.pi, 30.0 * band.high / math.pi
         axes.axvspan(low, high, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00", linewidth=0.0)
@@ -268,6 +271,33 @@ def severity(speeds: Sequence[float], values: Sequence[float], bands: Sequence[A
     if max(values) > 0.0:
         _log(axes)
     _legend(axes)
+    figure.suptitle(title)
+    return figure
+
+
+def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[float, float], title: str = "", units: Units = SI) -> Any:
+    """Torque with its range, its swing and the lateral acceleration by rotary speed [rpm]. rows: speed, linear verdict, verdict in time,
+    torque [N m], swing [-], acceleration [m/s2]; bands of the linear analysis are shaded, limits are of swing and acceleration."""
+    figure, ((torque,), (swing,), (lateral,)) = _axes(3, 1, (11, 8), sharex=True)
+    known = [row for row in rows if row[3] == row[3]]
+    rpm = [row[0] for row in known]
+    factor, unit = units.axis("N m", [row[3] for row in known])
+    torque.errorbar(rpm, [factor * row[3] for row in known], [factor * abs(row[3]) * row[4] for row in known], fmt="o", capsize=4,
+                    color=COLOURS[1], markersize=4)
+    torque.set_ylabel(f"torque at the rig [{unit}],\nmean and range")
+    acceleration = units.factor("m/s2")
+    for axes, values, limit, label in ((swing, [row[4] for row in known], limits[0], "torque swing [-]"), (
+            lateral, [acceleration * row[5] for row in known], acceleration * limits[1], units.head("lateral acceleration [m/s2]"))):
+        axes.plot(rpm, values, marker="o", markersize=4, label="in time", **SINGLE)
+        axes.axhline(limit, **_style(2), linewidth=1.0, label="limit")
+        axes.set(ylabel=label, yscale="log" if values and min(values) > 0.0 else "linear")
+        _legend(axes)
+    for axes in (torque, swing, lateral):
+        for number, band in enumerate(bands):
+            axes.axvspan(30.0 * band.low / math.pi, 30.0 * band.high / math.pi, facecolor="#E69F00", alpha=0.35, hatch="//", edgecolor="#D55E00",
+                         linewidth=0.0, label="avoid, linear" if number == 0 and axes is swing else None)
+    _legend(swing)
+    lateral.set_xlabel("rotary speed [rpm]")
     figure.suptitle(title)
     return figure
 

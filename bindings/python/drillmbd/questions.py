@@ -5,23 +5,20 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from . import _structs, enums, station
+from . import rotating, station
 from ._optional import need
 from .answers import RPM, Output, count_fatigue, file_name, note_bounces, record, tell_fatigue
 from .enums import Status
+from .critical_speeds import NOTHING_EXCITES
 from .errors import Usage
-from .language import phrase
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, energy_error
 from .running import Bar
 from .sim import Sim
-from .unit_systems import SI, Units
+from .unit_systems import Units
 
 MOST_ROWS = 50_000_000
-NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
-                         "excite the string by a drive, load or force")
-LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
 
 
 def check(scene: Scene, output: Output, options: Any) -> int:
@@ -42,11 +39,16 @@ def check(scene: Scene, output: Output, options: Any) -> int:
 
 
 def to_rest(scene: Scene, sim: Sim, output: Output, linear: bool = False) -> None:
-    """The static state that [static] describes. Linear analyses start from an equilibrium without assumed slip."""
+    """The static state that [static] describes. Natural frequencies are those about an equilibrium without assumed slip."""
     values = scene.fields_of("static")
     if linear and (values.pop("slip_axial", 0.0), values.pop("slip_rotation", 0.0)) != (0.0, 0.0):
         output.note_text("the static state is taken without the slip of [static]: friction that it assumes is gone when "
                          "the string swings")
+    settled(scene, sim, output, values)
+
+
+def settled(scene: Scene, sim: Sim, output: Output, values: dict[str, Any]) -> None:
+    """The static state by these options, its report and what it leaves open."""
     report = sim.static(**values)
     output.note(report.status, "static")
     output.summary["static"] = {**record(report), "status_name": Status(report.status).name}
@@ -239,10 +241,14 @@ def along_pipes(figure: Any) -> Any:
 def response(scene: Scene, output: Output, options: Any) -> int:
     """The causes of vibration and their severity."""
     numpy = need("numpy")
-    with scene.new_sim() as sim:
-        to_rest(scene, sim, output, linear=True)
-        found = sim.response(scene.inputs(), scene.outputs("response"), **scene.fields_of("response"))
+    state, found = rotating.linear(scene, "response", lambda sim, state: settled(state.scene, sim, output, state.static),
+                                   lambda sim, state: sim.response(state.scene.inputs(), state.scene.outputs("response"), **state.options),
+                                   output.note_text)
+    with found:
         names, units = scene.output_names("response"), output.units
+        if state.rotation:
+            output.say(state.words(units))
+        output.summary["linear_state"] = {"rotation_rpm": state.rotation / RPM, "weight_on_bit_N": state.weight_on_bit}
         peaks: dict[str, dict[str, float | None]] = {}
         for index, name in enumerate(names):
             size = numpy.abs(found.transfer(output=index))
@@ -275,60 +281,8 @@ def _response_table(found: Any, names: list[str], output: Output) -> None:
 
 def speeds(scene: Scene, output: Output, options: Any) -> int:
     """Critical rotary speeds."""
-    settings = scene.analyses["speeds"]
-    with scene.new_sim() as sim:
-        to_rest(scene, sim, output, linear=True)
-        values = scene.fields_of("speeds")
-        bands, severity = sim.speeds(scene.orders(), scene.outputs("speeds"), [one["limit"] for one in settings["output"]],
-                                     **values)
-        from ._structs import SpeedsOptions
-        used: Any = SpeedsOptions(**values)
-    grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
-    names = scene.output_names("speeds")
-    limits = [one["limit"] for one in settings["output"]]
-    places = scene.outputs("speeds")
-    for band in bands:
-        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {output.units.head(names[band.output])}, severity "
-                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
-                   + touches(scene, places[band.output], band.severity * limits[band.output], output.units))
-    low, high = used.speed_low / RPM, used.speed_high / RPM
-    if not max(severity) > 0.0:
-        output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
-    elif not bands:
-        output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(severity):.3g} of the limit")
-    output.say(LINEAR)
-    output.summary["speeds_assessed"] = bool(max(severity) > 0.0)
-    output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
-                                 "severity": band.severity, "output": names[band.output]} for band in bands]
-    output.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(grid, severity)])
-    output.picture("speeds.png", lambda plots: plots.severity(grid, severity, bands, used.threshold, scene.title))
-    return output.finish()
-
-
-def touches(scene: Scene, place: Any, amplitude: float, units: Units = SI) -> str:
-    """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
-    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.OUTPUT_DISPLACEMENT else None
-    if clearance is None or amplitude <= clearance:
-        return ""
-    return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "
-            f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear analysis")
-
-
-def clearance_at(scene: Scene, place: Any) -> float | None:
-    """[m] Radial clearance of the pipe at a place of a string; None without hole or pipe."""
-    first = 0
-    if not any(name == "add_wall" for name, _ in scene.model.calls):
-        return None
-    for name, arguments in scene.model.calls:
-        if name != "add_pipes" or arguments[1].get("string", place.place.part) != place.place.part:
-            continue
-        if first <= place.place.pipe < first + arguments[0]:
-            with scene.new_sim() as sim:
-                depth = sim.pose(place.place).depth
-            outer = float(arguments[1].get("outer_diameter", _structs.PipeDef().outer_diameter))
-            return 0.5 * (float(scene.model.hole(depth).diameter) - outer)
-        first += arguments[0]
-    return None
+    from .critical_speeds import speeds as answer
+    return answer(scene, output, options)
 
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:

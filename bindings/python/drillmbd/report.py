@@ -248,7 +248,7 @@ class Study:
         if "speeds" not in self.scene.analyses:
             self.tiles.append(Tile(phrase("Critical speeds"), phrase("not assessed"), phrase("the scene has no [speeds] table"), NOT_ASSESSED))
             return
-        self.speeds = found = speeds(self.scene, self._static)
+        self.speeds = found = speeds(self.scene, self.output.note_text)
         for note in found.notes():
             self.output.note_text(note)
         self.output.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi] for band in found.bands]

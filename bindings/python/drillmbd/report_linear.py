@@ -6,11 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import _structs
 from .answers import RPM, Output
+from .critical_speeds import LINEAR, NOTHING_EXCITES, analyse
 from .language import joined, phrase
 from .operating import Operating
-from .questions import LINEAR, NOTHING_EXCITES
 from .report_figures import Figure, line
 from .scene import Scene
 from .sim import Sim
@@ -72,14 +71,10 @@ class Speeds:
         return [(low, high) for low, high in whole if high > low]
 
 
-def speeds(scene: Scene, to_rest: Callable[[Sim], None]) -> Speeds:
-    """The speeds of [speeds], about the equilibrium at rest."""
-    values, settings = scene.fields_of("speeds"), scene.analyses["speeds"]
-    with scene.new_sim() as sim:
-        to_rest(sim)
-        bands, severity = sim.speeds(scene.orders(), scene.outputs("speeds"), [one["limit"] for one in settings["output"]], **values)
-    used: Any = _structs.SpeedsOptions(**values)
-    return Speeds(bands, severity, [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)])
+def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
+    """The speeds of [speeds], about the string that slides at the rotation of the scene."""
+    found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
+    return Speeds(found.bands, found.severity, found.grid)
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:

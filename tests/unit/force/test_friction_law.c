@@ -157,7 +157,8 @@ static void table_tangents(void **state)
     for (int i = 0; i < 4000; ++i) {
         const dmb_friction_law law = table_law(DMB_FRICTION_STRIBECK, 0.3);
         const double scale = pow(10, draw(&seed, -4, 0)), h = 1e-6 * fmax(scale, 1e-3);
-        const double v[2] = {draw(&seed, -scale, scale), draw(&seed, -scale, scale)}, s = hypot(hypot(v[0], v[1]), 1e-3);
+        const double v[2] = {draw(&seed, -scale, scale), draw(&seed, -scale, scale)},
+                     s = hypot(hypot(v[0], v[1]), 1e-3);
         double F[2], above[2], below[2], dF_dv[4], dF_dN[2];
         dmb_friction_smooth(&law, 10, v, F, dF_dv, dF_dN);
         assert_true(F[0] * v[0] + F[1] * v[1] <= 0.0);
@@ -541,8 +542,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smooth_formulas),       cmocka_unit_test(direction),
-        cmocka_unit_test(smooth_tangents),       cmocka_unit_test(table_values), cmocka_unit_test(table_tangents),
-        cmocka_unit_test(falling_branch),
+        cmocka_unit_test(smooth_tangents),       cmocka_unit_test(table_values),
+        cmocka_unit_test(table_tangents),        cmocka_unit_test(falling_branch),
         cmocka_unit_test(rest_and_nonsense),     cmocka_unit_test(bristle_tangents),
         cmocka_unit_test(bristle_is_continuous), cmocka_unit_test(breaks_away_at_static),
         cmocka_unit_test(bristle_dissipates),    cmocka_unit_test(slider_stops),

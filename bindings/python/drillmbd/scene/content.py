@@ -1,7 +1,7 @@
 """A scene: a compiled model with the names of its parts, and what is to be asked of it."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -44,6 +44,7 @@ class Scene:
     remarks: list[Problem] = field(default_factory=list)   #: what was assumed of the values of the file
     source: Source | None = None   #: the text of the file
     inline: set[str] = field(default_factory=set)          #: programmes that the file gives as a value in the place of a name
+    changed: Callable[[Mapping[str, Any]], Scene] | None = field(default=None, compare=False, repr=False)  #: read again with changes by key
     divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
     progress: Callable[[float], Any] | None = field(default=None, compare=False)  #: of the analyses of its sims, for a terminal
@@ -67,6 +68,9 @@ class Scene:
             values["stress_range"] = 2.0 * values.get("concentration", 1.0) * self.limits["yield_stress"]
         if analysis == "buckling":  # the equilibrium of [static] is one with this friction only
             values = {**{key: value for key, value in self.analyses.get("static", {}).items() if key in SLIPS}, **values}
+        if analysis in ("response", "speeds") and analysis in self.analyses:
+            from ..rotating import options_of
+            values = {**values, **options_of(self, analysis)}
         return values
 
     def inputs(self) -> list[Input]:

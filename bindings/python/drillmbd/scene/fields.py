@@ -22,7 +22,7 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment stands for several fields
-LEFT_OUT = {"struct_size", "survey_count", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
+LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_table_speed", "friction_table_mu", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
             "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 STRAIGHT = {"inclination": Field("inclination", "quantity", "rad", about="of a straight hole, from the downward vertical; in the place of direction"),
             "dip": Field("dip", "quantity", "rad", about="of a straight hole, from the horizontal, up positive; in the place of direction"),
             "azimuth": Field("azimuth", "quantity", "rad", about="of a straight hole, clockwise from north (+x) seen from above; default 0")}
+FRICTION, MOST_POINTS, LAWS = "friction_table", 8, ("stribeck", "bristle")
 SURVEY = ("survey", "survey_file", "survey_columns")
 
 
@@ -25,10 +26,11 @@ def describe(loader: Loader) -> None:
     exponent = table.get("exponent", 1.0)
     power = float(exponent) if isinstance(exponent, (int, float)) and 0 < exponent < 10 else 1.0
     special = {"stiffness": f"N/m^{power + 1.0:g}"}
-    values = loader.read(path, table, {**fields_of(DEFINITIONS["hole"]), **STRAIGHT}, (*SURVEY, "section"), special.get)
+    values = loader.read(path, table, {**fields_of(DEFINITIONS["hole"]), **STRAIGHT}, (*SURVEY, "section", FRICTION), special.get)
     straight = {key: values.pop(key) for key in STRAIGHT if key in values}
     _direction(loader, path, table, straight, values)
     _course(loader, path, table, values)
+    _friction(loader, path, table, values)
     if values.get("stations", ()) is not None:
         loader.add(path, loader.model.add_wall, DEFINITIONS["hole"], values)
     known = fields_of(DEFINITIONS["section"])
@@ -46,6 +48,23 @@ def _course(loader: Loader, path: Path, table: dict[str, Any], values: dict[str,
         values["stations"] = survey.from_file(loader.problems, path + ("survey_file",), table["survey_file"], loader.folder, heads)
     elif "survey_columns" in table:
         loader.problems.add(path + ("survey_columns",), heads, "needs a survey or survey_file")
+
+
+def _friction(loader: Loader, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
+    """The coefficient against the speed of sliding, in the place of the coefficients at its ends."""
+    if FRICTION not in table:
+        return
+    found = len(loader.problems.found)
+    values[FRICTION] = loader.pairs(path + (FRICTION,), table[FRICTION], "m/s", "-", "speed of sliding and friction coefficient")
+    for key in ("mu_static", "mu_dynamic", "stribeck_speed"):
+        if key in table:
+            loader.problems.add(path + (key,), table[key], f"must be left out where there is a {FRICTION}, which says it")
+    if table.get("friction_law", LAWS[0]) not in LAWS:
+        loader.problems.add(path + ("friction_law",), table["friction_law"], f"must be {' or '.join(LAWS)} where there is a {FRICTION}")
+    if not 2 <= len(values[FRICTION]) <= MOST_POINTS and len(loader.problems.found) == found:
+        loader.problems.add(path + (FRICTION,), table[FRICTION], f"must have 2 to {MOST_POINTS} pairs")
+    if len(loader.problems.found) > found:
+        del values[FRICTION]
 
 
 def _direction(loader: Loader, path: Path, table: dict[str, Any], straight: dict[str, float], values: dict[str, Any]) -> None:

@@ -12,7 +12,7 @@ from .problems import meant
 # Tables in the order in which a scene is written, with the struct of their fields and the keys in common use.
 TABLES: dict[str, tuple[str, str]] = {
     "environment": ("environment", "fluid_density gravity lateral_damping flow_rate viscometer"),
-    "hole": ("hole", "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic stiffness"),
+    "hole": ("hole", "diameter survey_file survey survey_columns dip inclination azimuth direction mu_static mu_dynamic friction_table stiffness"),
     "hole.section": ("section", "depth diameter mu_static mu_dynamic"), "string": ("string", "name start_depth"),
     "string.pipes": ("pipes", "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
                               "eccentricity damping_time yield_strength"),
@@ -31,6 +31,8 @@ _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 
          "survey": ("", "", 'rows of depth, inclination and azimuth, as [["0 m", "90 deg", "0 deg"], ...]'),
          "survey_file": ("", "", "file of the survey: CSV, text with blanks, LAS 2.0, Excel"),
          "survey_columns": ("", "", 'heads of the columns in their order, as ["depth [m]", "dip [deg]", "azimuth [deg]"]'),
+         "friction_table": ("", "", 'pairs of speed of sliding and coefficient, as [["0 m/s", 0.5], ["70 mm/s", 0.5], ["80 mm/s", 0.24]] (static until '
+                            "70 mm/s), in the place of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or bristle"),
          "table": ("", "", 'pairs, as [["0 s", "0 kN"], ["2 s", "8 kN"]]')}
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import os
 import pathlib
 import re
@@ -63,7 +64,13 @@ def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[st
         scene, _ = _scene_of(content, problems, folder, name, divided)
     assert scene.source is not None
     scene.source.read(text)
+    scene.changed = functools.partial(_changed, text, name, folder, dict(changes or {}))
     return scene
+
+
+def _changed(text: str, name: str, folder: Any, before: dict[str, Any], changes: Mapping[str, Any]) -> Scene:
+    """The scene of the same text with more changes."""
+    return loads(text, name, folder, {**before, **changes})
 
 
 def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: str,
@@ -393,13 +400,13 @@ class Loader:
         if values.get("kind") == enums.TERM_CALLBACK:
             self.problems.add(path + ("kind",), "callback", "is for programs; a file has tables")
         if "table" in table:
-            values["table"] = self._pairs(path + ("table",), table["table"], "s", unit, "time and value")
+            values["table"] = self.pairs(path + ("table",), table["table"], "s", unit, "time and value")
             values.pop("kind", None)
         elif values.get("kind") == enums.TERM_TABLE:
             self.problems.add(path, None, 'must have a table, as table = [["0 s", "0 m/s"], ["1 s", "0.1 m/s"]]')
         return values if len(self.problems.found) == before else None
 
-    def _pairs(self, path: Path, rows: Any, first: str, second: str, what: str) -> list[tuple[float, float]]:
+    def pairs(self, path: Path, rows: Any, first: str, second: str, what: str) -> list[tuple[float, float]]:
         """A table of pairs in those units."""
         found: list[tuple[float, float]] = []
         if not isinstance(rows, list) or not rows:
@@ -482,11 +489,11 @@ class Loader:
                            special.get)
         for key in fields.DRIVE_PAIRS if kind == "drive" else ():
             if key in table:
-                values[key] = self._pairs(path + (key,), table[key], fields.by_component("m/s, rad/s", component),
+                values[key] = self.pairs(path + (key,), table[key], fields.by_component("m/s, rad/s", component),
                                           fields.by_component("N, N m", component), "speed and force")
         values.update(motor)
         if kind == "spring" and "table" in table:
-            values["table"] = self._pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
+            values["table"] = self.pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
         if kind == "input":
             table["name"] = name
         if kind in NAMED:
@@ -508,7 +515,7 @@ class Loader:
             return {}
         values = self.read(where, given, fields_of(Motor), ("table",))
         if "table" in given:
-            values["table"] = self._pairs(where + ("table",), given["table"], "rad/s", "N m", "speed and torque")
+            values["table"] = self.pairs(where + ("table",), given["table"], "rad/s", "N m", "speed and torque")
         for key in ("gain", "gain_table", "integral_gain", "limit_low", "limit_high"):
             if key in table:
                 self.problems.add(path + (key,), table[key], "must be left out with motor, which says it")

@@ -16,6 +16,7 @@ from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, NAMED, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
+from .hole import FRICTION
 from .lines import Path
 from .source import Source, decorated
 from .terms import PerRevolution
@@ -227,7 +228,11 @@ class Writer:
         power = values.get("exponent", 1.0)
         special = {"stiffness": f"N/m^{power + 1.0:g}"}
         stations = values.get("stations")
-        self._table("hole", values, special.get, ("direction",) if stations else ())
+        table = values.get(FRICTION)
+        said = (("direction",) if stations else ()) + (("mu_static", "mu_dynamic", "stribeck_speed") if table else ())
+        self._table("hole", values, special.get, said)
+        if table:
+            self._key(FRICTION, [[units.text(speed, "m/s"), mu] for speed, mu in table])
         if stations:
             rows: list[Any] = [[units.text(depth, "m"), units.text(inclination, "rad"), units.text(azimuth, "rad")]
                                for depth, inclination, azimuth in stations]

@@ -72,6 +72,8 @@ def schema() -> dict[str, Any]:
         "catalogue": {**_many(_NAME), "description": "files of names of your own, in the form of drillmbd/scene/catalogue.toml"},
         "environment": _object(fields_of(DEFINITIONS["environment"]), viscometer=_VISCOMETER),
         "hole": _object({**fields_of(DEFINITIONS["hole"]), **hole.STRAIGHT}, section=_many(_object(fields_of(DEFINITIONS["section"]))),
+                        friction_table={**_TABLE, "description": "speed of sliding [m/s] and friction coefficient, 2 to 8 pairs, in the place "
+                                        "of mu_static, mu_dynamic and stribeck_speed"},
                         survey={"type": "array", "minItems": 2, "items": row},
                         survey_columns={"type": "array", "items": _NAME, "description": "heads of the columns of survey or of survey_file "
                                         "in their order, where it has none: depth [m], inclination [deg] or dip [deg], azimuth [deg]"},

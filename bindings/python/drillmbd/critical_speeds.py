@@ -1,0 +1,103 @@
+"""Rotary speeds to avoid: bands of the linear analysis, over the range of diameters and friction of the scene, and speeds run in time."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import _structs, enums, rotating, speed_check, speed_range
+from .answers import RPM, Output
+from .errors import Usage
+from .language import phrase
+from .rotating import Linear
+from .scene import Scene
+from .sim import Sim
+from .unit_systems import SI, Units
+
+NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
+                   "excite the string by a drive, load or force")
+LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
+
+
+@dataclass
+class Found:
+    """Bands and severity of one scene."""
+    bands: Any
+    severity: list[float]
+    grid: list[float]        #: [rad/s]
+    threshold: float
+    state: Linear
+
+
+def analyse(scene: Scene, settle: Any, note: Any) -> Found:
+    """Bands about the sliding string. A scene without rotation: about the string that turns at the middle of the range."""
+    settings, values = scene.analyses["speeds"], scene.fields_of("speeds")
+    used: Any = _structs.SpeedsOptions(**values)
+    limits = [one["limit"] for one in settings["output"]]
+
+    def ask(sim: Sim, state: Linear) -> Any:
+        return sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), limits, **state.options)
+
+    state, (bands, severity) = rotating.linear(scene, "speeds", settle, ask, note)
+    grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
+    return Found(bands, severity, grid, used.threshold, state)
+
+
+def speeds(scene: Scene, output: Output, options: Any) -> int:
+    """Critical rotary speeds."""
+    from .questions import settled
+    if options.check and not 2 <= options.check <= speed_check.MOST_SPEEDS:
+        raise Usage(f"--check {options.check} is outside 2 .. {speed_check.MOST_SPEEDS}")
+    found = analyse(scene, lambda sim, state: settled(state.scene, sim, output, state.static), output.note_text)
+    settings = scene.analyses["speeds"]
+    names, limits, places = scene.output_names("speeds"), [one["limit"] for one in settings["output"]], scene.outputs("speeds")
+    output.say(found.state.words(output.units))
+    for band in found.bands:
+        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {output.units.head(names[band.output])}, severity "
+                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
+                   + touches(scene, places[band.output], band.severity * limits[band.output], output.units))
+    low, high = found.grid[0] / RPM, found.grid[-1] / RPM
+    excited = bool(max(found.severity) > 0.0)
+    if not excited:
+        output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
+    elif not found.bands:
+        output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
+    output.say(LINEAR)
+    output.summary["speeds_assessed"] = excited
+    output.summary["linear_state"] = {"rotation_rpm": found.state.rotation / RPM, "weight_on_bit_N": found.state.weight_on_bit}
+    output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
+                                 "severity": band.severity, "output": names[band.output]} for band in found.bands]
+    ranges = speed_range.bands_over_range(scene, output, found) if excited else []
+    output.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(found.grid, found.severity)])
+    output.picture("speeds.png", lambda plots: plots.severity(found.grid, found.severity, found.bands, found.threshold, scene.title, ranges))
+    if options.check:
+        speed_check.check(scene, output, found, options.check)
+    return output.finish()
+
+
+# ---- Beyond the linear range -----------------------------------------------------------------------------------------
+def touches(scene: Scene, place: Any, amplitude: float, units: Units = SI) -> str:
+    """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
+    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.OUTPUT_DISPLACEMENT else None
+    if clearance is None or amplitude <= clearance:
+        return ""
+    return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "
+            f"{units.text(1e3 * clearance, 'mm', '.3g')}: the string touches the wall, beyond the range of the linear analysis")
+
+
+def clearance_at(scene: Scene, place: Any) -> float | None:
+    """[m] Radial clearance of the pipe at a place of a string; None without hole or pipe."""
+    first = 0
+    if not any(name == "add_wall" for name, _ in scene.model.calls):
+        return None
+    for name, arguments in scene.model.calls:
+        if name != "add_pipes" or arguments[1].get("string", place.place.part) != place.place.part:
+            continue
+        if first <= place.place.pipe < first + arguments[0]:
+            with scene.new_sim() as sim:
+                depth = sim.pose(place.place).depth
+            outer = float(arguments[1].get("outer_diameter", _structs.PipeDef().outer_diameter))
+            return 0.5 * (float(scene.model.hole(depth).diameter) - outer)
+        first += arguments[0]
+    return None
+
+

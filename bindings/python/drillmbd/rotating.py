@@ -1,0 +1,157 @@
+"""A scene at one rotation and load on the bit: its programmes replaced, and the state about which a rotating string is linearised."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from . import _structs, enums
+from .errors import Error
+from .model import map_ids, remake
+from .operating import largest_of, operating
+from .scene import Scene
+from .unit_systems import Units
+
+if TYPE_CHECKING:
+    from .sim import Sim
+
+RPM = 2.0 * math.pi / 60.0
+#: Forces that the linear state may leave out of balance, over those that balance in it. The static state of the round string balances
+#: by itself; what is left are its eccentric masses, which turn, and are the excitation.
+UNBALANCED = 1.0
+
+
+# ---- Programmes ------------------------------------------------------------------------------------------------------
+def number_of(part: Any) -> int:
+    """The number of a part among those of its kind."""
+    return int(part.index) & 0xFFFFFF
+
+
+def with_programmes(scene: Scene, terms: dict[int, list[dict[str, Any]]]) -> Scene:
+    """The scene with other terms of the programmes of these numbers."""
+    calls, number = [], 0
+    for name, arguments in scene.model.calls:
+        if name == "add_programme":
+            arguments = tuple(terms.get(number, arguments))
+            number += 1
+        calls.append((name, arguments))
+    return _with_model(scene, remake(type(scene.model), calls))
+
+
+def rebound(scene: Scene) -> Scene:
+    """A scene that came through pickle, with the parts of its own model."""
+    return _with_model(scene, scene.model)
+
+
+def _with_model(scene: Scene, model: Any) -> Scene:
+    return replace(scene, model=model, names=model.own(scene.names), channels=model.own(scene.channels), analyses=model.own(scene.analyses))
+
+
+def drive_at_speed(scene: Scene, component: int) -> int | None:
+    """The number of the programme of the first drive that moves a component at a speed."""
+    for name, arguments in scene.model.calls:
+        if name == "add_drive":
+            given = arguments[0]
+            if (given.get("component", enums.X) == component and given.get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD
+                    and given.get("programme")):
+                return number_of(given["programme"])
+    return None
+
+
+def loads_of_bits(scene: Scene) -> list[int]:
+    """The numbers of the programmes of loads on bits."""
+    return [number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")]
+
+
+def extreme(terms: Any) -> float:
+    """The value of largest magnitude of a programme, with its sign; 0 where a function of the caller gives it."""
+    size = largest_of(terms)
+    if not size:
+        return 0.0
+    values = [float(value) for term in terms for value in (*(one for _, one in term.get("table", ())), term.get("h0", 0.0), term.get("h1", 0.0))]
+    return math.copysign(size, max(values, key=abs))
+
+
+def programmes_of(scene: Scene) -> list[Any]:
+    """The terms of all programmes, by number."""
+    return [terms for name, terms in scene.model.calls if name == "add_programme"]
+
+
+# ---- Linear state ----------------------------------------------------------------------------------------------------
+@dataclass
+class Linear:
+    """How a scene is linearised."""
+    scene: Scene                                            #: with the loads on the bits of the state
+    static: dict[str, Any]                                  #: options of its static state
+    options: dict[str, Any] = field(default_factory=dict)   #: of response and speeds
+    rotation: float = 0.0                                   #: [rad/s] 0: at rest
+    weight_on_bit: float = 0.0                              #: [N]
+
+    def words(self, units: Units) -> str:
+        """A sentence about the state."""
+        if not self.rotation:
+            return "linear about the string at rest" + ("" if self.options.get("friction", 1) else ", friction of the wall left out")
+        load = f" with {units.scaled(self.weight_on_bit, 'N')} on the bit" if self.weight_on_bit else ""
+        return f"linear about the string that slides on the wall at {units.text(self.rotation / RPM, 'rpm')}{load}"
+
+
+def options_of(scene: Scene, analysis: str) -> dict[str, Any]:
+    """The options of response or speeds that the state decides, and those that the scene gives. Rotation: of the scene's spin, of its drive,
+    or of the slip in [static]; speeds of a scene without any take the middle of their range."""
+    given = scene.fields_of(analysis)
+    number = drive_at_speed(scene, enums.RX)
+    described = extreme(programmes_of(scene)[number]) if number is not None else 0.0
+    usual: Any = _structs.SpeedsOptions(**{key: given[key] for key in ("speed_low", "speed_high") if key in given})
+    middle = 0.5 * (usual.speed_low + usual.speed_high) if analysis == "speeds" else 0.0
+    rotation = float(given.get("spin", described or scene.fields_of("static").get("slip_rotation", 0.0) or middle))
+    state: dict[str, Any] = {"spin": rotation, "friction": 1, "equilibrium_tolerance": UNBALANCED} if rotation else {}
+    if rotation and analysis == "response":
+        state["axes"] = int(enums.RESPONSE_AXES_AT_REST)
+    return {**state, **given}
+
+
+def sliding(scene: Scene, analysis: str) -> Linear | None:
+    """The state of a string that turns steadily and slides on the wall (eq:sliding.state): friction carries it up the wall, gravity holds
+    it there, and small motions change direction and size of the friction. None where nothing turns."""
+    options = options_of(scene, analysis)
+    rotation = float(options.get("spin", 0.0))
+    if not rotation:
+        return None
+    programmes = programmes_of(scene)
+    loads = {one: [{"h0": extreme(programmes[one])}] for one in loads_of_bits(scene) if extreme(programmes[one])}
+    return Linear(with_programmes(scene, loads) if loads else scene, {**scene.fields_of("static"), "slip_rotation": rotation}, options, rotation,
+                  operating(scene).weight_on_bit or 0.0 if loads else 0.0)
+
+
+def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:
+    """The state of a string that does not turn. refused: in the place of a sliding state, without friction whatever the scene says."""
+    static = {key: value for key, value in scene.fields_of("static").items() if key not in ("slip_axial", "slip_rotation")}
+    options = scene.fields_of(analysis)
+    if refused:
+        options.update(spin=0.0, friction=0)
+        options.pop("equilibrium_tolerance", None)
+        if analysis == "response":
+            options["axes"] = int(enums.RESPONSE_AXES_AT_REST)
+    return Linear(scene, static, options)
+
+
+def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any],
+           note: Callable[[str], Any]) -> tuple[Linear, Any]:
+    """The answer of a linear analysis about the sliding string where one turns, else at rest; and the state. A sliding state that is
+    refused is replaced by the state at rest, and the reason is noted. settle: computes the static state; ask: the answer."""
+    found = sliding(scene, analysis)
+    if found is not None:
+        try:
+            return found, _ask(found, settle, ask)
+        except Error as error:
+            note(f"{analysis}: the state of the string that slides at {found.rotation / RPM:.4g} rpm is refused ({error.message}); "
+                 "the state at rest without friction takes its place")
+    rest = at_rest(scene, analysis, found is not None)
+    return rest, _ask(rest, settle, ask)
+
+
+def _ask(found: Linear, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any]) -> Any:
+    with found.scene.new_sim() as sim:
+        settle(sim, found)
+        return ask(sim, found)

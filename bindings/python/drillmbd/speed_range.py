@@ -1,0 +1,93 @@
+"""Critical bands over the range of what the scene gives as uncertain in [variability]: diameters, friction and all else that scatters."""
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+from .answers import RPM, Output
+from .errors import Error
+from .scene import Scene, SceneError
+from .unit_systems import SI, TABLE, Units
+
+if TYPE_CHECKING:
+    from .critical_speeds import Found
+
+QUANTILE = 1.6448536269514722  #: of the standard normal distribution, at 95 %
+MOST_CORNERS = 4               #: uncertain values of which all combinations of low and high are computed; more: one after the other
+NO_RANGE = ("range: not assessed, because the scene gives no uncertain diameter or friction; the bands are those of the described values. Give "
+            "[[variability.scatter]] with key = \"hole.diameter\" or \"hole.mu_dynamic\"")
+
+
+def ends_of(marginal: Any) -> tuple[float, float]:
+    """Both ends of a distribution that has them, else its 5 % and 95 %."""
+    if "low" in marginal.values:
+        return marginal.values["low"], marginal.values["high"]
+    from .probability.marginals import Translation
+    translation = Translation(marginal)
+    return float(translation(-QUANTILE)), float(translation(QUANTILE))
+
+
+def corners(scene: Scene) -> list[dict[str, Any]]:
+    """Changes of the scene, one case each. Fields along hole or string have one value along all of it; processes in time are left out."""
+    from .probability.draw import Draw
+    assert scene.variability is not None
+    draw = Draw(scene)
+    middle = draw.values([0.0] * draw.dimension)
+    parts = [*scene.variability.scatters, *scene.variability.fields]
+    ends = {one.name: ends_of(one.marginal) for one in parts}
+    if len(parts) <= MOST_CORNERS:
+        choices = [dict(zip(ends, values)) for values in itertools.product(*ends.values())]
+    else:
+        choices = [{name: value} for name, pair in ends.items() for value in pair]
+    return [draw.changes({name: 0.0 * value + choice.get(name, value) if name in ends else value for name, value in middle.items()})
+            for choice in choices]
+
+
+def union(bands: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Bands that together cover the same speeds, ascending and apart."""
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(bands):
+        if found and low <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], high)
+        else:
+            found.append((low, high))
+    return found
+
+
+def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[float, float]]:
+    """The union of the bands [rad/s] of the described scene and of all corners of its range; it is printed and noted in the summary."""
+    from .critical_speeds import analyse
+    if scene.variability is None or not (scene.variability.scatters or scene.variability.fields) or scene.changed is None:
+        output.say(NO_RANGE)
+        output.summary["speeds_range"] = None
+        return []
+    bands = [(band.low, band.high) for band in found.bands]
+    cases = corners(scene)
+    failed: list[str] = []
+    for changes in cases:
+        try:
+            case = analyse(scene.changed(changes), lambda sim, state: sim.static(**state.static), failed.append)
+            bands += [(band.low, band.high) for band in case.bands]
+        except (Error, SceneError) as error:
+            failed.append(str(error))
+    parts = [*scene.variability.scatters, *scene.variability.fields]
+    told = ", ".join(_words(one, output.units) for one in parts)
+    ranges = union(bands)
+    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or "no critical speed in any of them"
+    how = "all combinations" if len(parts) <= MOST_CORNERS else "one at its end, the others in the middle"
+    output.say(f"over the range of {told} ({len(cases)} cases, {how}): {text}")
+    for one in dict.fromkeys(failed):
+        output.note_text(f"speeds, a case of the range: {one}")
+    if scene.variability.processes:
+        output.say("random processes in time are left out of the range")
+    output.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "notes": len(failed),
+                                      "of": [one.name for one in parts]}
+    return ranges
+
+
+def _words(one: Any, units: Units) -> str:
+    low, high = ends_of(one.marginal)
+    if one.relative:
+        return f"{one.name} (factor {low:.4g} .. {high:.4g})"
+    shown = units if one.unit in TABLE else SI
+    return f"{one.name} ({shown.number(low, one.unit)} .. {shown.text(high, one.unit)})".replace(" -)", ")")

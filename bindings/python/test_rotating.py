@@ -1,0 +1,296 @@
+"""Tests of rotating strings: the linear state of response and speeds against a run in time, critical speeds over a range and in time, and
+the friction table of the wall."""
+import csv
+import math
+import unittest
+
+from shared_tests import FolderTest, needs
+
+needs("numpy")
+
+import numpy  # noqa: E402
+
+import drillmbd as mbd  # noqa: E402
+from drillmbd import rotating, scene as scenes, speed_check, speed_range, station  # noqa: E402
+
+SCENE = """title = "level hole"
+[hole]
+diameter = "94 mm"
+mu_static = 0.30
+mu_dynamic = 0.30
+[[programme]]
+name = "turning"
+term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 12
+length = "1.5 m"
+outer_diameter = "73 mm"
+inner_diameter = "59 mm"
+eccentricity = "0.5 mm"
+[[bit]]
+name = "bit"
+mass = "6 kg"
+diameter = "94 mm"
+load = "0 kN"
+[[drive]]
+name = "feed"
+programme = "0 m/s"
+[[drive]]
+name = "head"
+component = "rx"
+programme = "turning"
+[run]
+step = "1 ms"
+end = "6 s"
+[response]
+frequency_low = "1 Hz"
+frequency_high = "4 Hz"
+points = 31
+[[response.input]]
+kind = "eccentricity"
+[[response.output]]
+name = "middle"
+place = {part = "main", pipe = 6}
+component = "y"
+[speeds]
+speed_low = "60 rpm"
+speed_high = "240 rpm"
+points = 31
+refinement = 0
+threshold = 100
+[[speeds.order]]
+[[speeds.output]]
+name = "middle"
+place = {part = "main", pipe = 6}
+component = "y"
+limit = "1 um"
+"""
+RANGE = """[variability]
+question = "static"
+[[variability.scatter]]
+name = "friction"
+keys = ["hole.mu_dynamic", "hole.mu_static"]
+distribution = "uniform"
+low = 0.2
+high = 0.4
+[[variability.scatter]]
+name = "diameter"
+key = "hole.diameter"
+distribution = "uniform"
+low = "94 mm"
+high = "104 mm"
+"""
+
+
+class LinearStateTest(FolderTest):
+    """One linear state for response and speeds."""
+    SCENE = SCENE
+
+    def test_response_and_speeds_agree(self):
+        """The amplitude of one quantity at one frequency is the same number in both."""
+        for change in ({}, {"programme[0].term.h1": "170 rpm"}, {"bit[0].load": "5 kN"}):
+            scene = scenes.load(self.scene, change)
+            _, response = rotating.linear(
+                scene, "response", lambda sim, state: sim.static(**state.static),
+                lambda sim, state: sim.response(state.scene.inputs(), state.scene.outputs("response"), **state.options), self.fail)
+            state, (bands, severity) = rotating.linear(
+                scene, "speeds", lambda sim, state: sim.static(**state.static),
+                lambda sim, state: sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), [1e-6], **state.options), self.fail)
+            numpy.testing.assert_allclose(numpy.array(severity) * 1e-6, abs(response.transfer(output=0)), rtol=1e-9)
+            self.assertGreater(state.rotation, 10.0)
+
+    def test_a_run_in_time_swings_as_much(self):
+        """At 100 rpm, far below the resonance, the harmonic of the turning in a run is that of the linear state, 0.967 of it across and upwards.
+        At rest without friction the string lies in the middle of the bottom and moves upwards a hundred times less; at rest with friction
+        the wall holds it, and it moves across half as much. Drag damps the start away."""
+        scene = scenes.load(self.write("drag.toml", SCENE.replace("[hole]", '[environment]\nlateral_damping = "60 N s/m2"\n[hole]', 1)))
+        speed, place = 100.0 * rotating.RPM, station(scene.names["main"], 6)
+        outputs = [mbd.output(place, mbd.Y), mbd.output(place, mbd.Z)]
+        state = rotating.sliding(scene, "response")
+        sliding_options = {key: state.options[key] for key in ("spin", "friction", "axes", "equilibrium_tolerance")}
+
+        def linear(static, **options):
+            with scene.new_sim() as sim:
+                sim.static(**static)
+                found = sim.response(scene.inputs(), outputs, frequencies=[speed / (2.0 * math.pi)], **options)
+                return numpy.array([abs(found.transfer(output=k)[0]) for k in range(2)])
+
+        sliding, rest, held = linear(state.static, **sliding_options), linear({}, friction=0, axes=1), linear({})
+        with scene.new_sim() as sim:
+            sim.static()
+            sim.run(3.0, 1e-3)
+            times, points = [], []
+            while sim.time < 4.8 - 1e-9:  # three revolutions
+                sim.step(1e-3)
+                times.append(sim.time)
+                points.append(sim.pose(place).position[1:3])
+        t, x = numpy.array(times), numpy.array(points)
+        columns = numpy.stack([numpy.ones_like(t), t, numpy.cos(speed * t), numpy.sin(speed * t)], axis=1)
+        fit = numpy.linalg.lstsq(columns, x, rcond=None)[0]
+        run = numpy.hypot(fit[2], fit[3])
+        numpy.testing.assert_allclose(sliding, run, rtol=0.05)
+        self.assertLess(rest[1], 0.1 * run[1])
+        self.assertLess(held[0], 0.7 * run[0])
+
+    def test_state_is_said(self):
+        for command in ("response", "speeds"):
+            out = self.ask(command, self.scene)
+            self.assertIn("linear about the string that slides on the wall at 100 rpm", out)
+        still = self.write("still.toml", SCENE.replace('h1 = "100 rpm"', 'h1 = "0 rpm"'))
+        self.assertNotIn("slides", self.ask("response", still))
+        self.assertIn("slides on the wall at 150 rpm", self.ask("speeds", still))  # the middle of the range
+
+    def test_saved_state(self):
+        """A saved scene has the state, and gives the same."""
+        for command in ("response", "speeds"):
+            first = self.ask(command, self.scene)
+            self.ask("save", self.scene, self.folder / "copy.toml")
+            self.assertEqual(self.ask(command, self.folder / "copy.toml"), first)
+        self.assertIn("spin = ", (self.folder / "copy.toml").read_text(encoding="utf-8"))
+
+    def test_a_refused_state_is_replaced(self):
+        """Where the sliding state has no solution both take the state at rest, and say so."""
+        notes = []
+
+        def settle(sim, state):
+            if state.rotation:
+                raise mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")
+            sim.static(**state.static)
+
+        state, _ = rotating.linear(scenes.load(self.scene), "speeds", settle, lambda sim, state: None, notes.append)
+        self.assertEqual((state.rotation, state.options["friction"]), (0.0, 0))
+        self.assertIn("no solution", notes[0])
+
+
+class RangeTest(FolderTest):
+    """Critical bands over what the scene gives as uncertain."""
+    SCENE = SCENE
+
+    def test_union(self):
+        self.assertEqual(speed_range.union([(5.0, 6.0), (1.0, 2.0), (1.5, 3.0), (3.0, 4.0)]), [(1.0, 4.0), (5.0, 6.0)])
+
+    def test_no_range_is_said(self):
+        out, summary = self.answer("speeds")
+        self.assertIn("range: not assessed, because the scene gives no uncertain diameter or friction", out)
+        self.assertIsNone(summary["speeds_range"])
+
+    def test_band_over_range(self):
+        """The band of the range begins where that of its widest hole does, and covers that of each corner."""
+        text = SCENE.replace('threshold = 100', 'threshold = 1000')
+        self.scene = self.write("range.toml", text + RANGE)
+        out, summary = self.answer("speeds")
+        self.assertIn("over the range of friction (0.2 .. 0.4), diameter (0.094 .. 0.104 m) (4 cases, all combinations)", out)
+        ranges = summary["speeds_range"]["bands_rpm"]
+        lows = []
+        for diameter in ("94 mm", "104 mm"):
+            for mu in (0.2, 0.4):
+                corner = self.write("corner.toml", text.replace('"94 mm"', f'"{diameter}"', 1).replace("0.30", str(mu)))
+                self.scene = corner
+                for band in self.answer("speeds")[1]["speeds"]:
+                    lows.append(band["low_rpm"])
+                    self.assertTrue(any(low <= band["low_rpm"] + 1e-6 and band["high_rpm"] <= high + 1e-6 for low, high in ranges))
+        self.assertAlmostEqual(min(low for low, _ in ranges), min(lows), 6)
+        self.assertGreater(max(lows) - min(lows), 5.0)
+
+
+class CheckTest(FolderTest):
+    """Speeds in time."""
+    SCENE = SCENE
+
+    def test_marks(self):
+        """A slow string is steady; one at the resonance of the rod on the bottom of its hole is not. Numbers of the table."""
+        self.scene = self.write("check.toml", SCENE.replace('speed_high = "240 rpm"', 'speed_high = "300 rpm"'))
+        out, summary = self.answer("speeds", "--check", "2")
+        rows = summary["speeds_check"]["speeds"]
+        self.assertEqual([row["time"] for row in rows][0], "steady", out)
+        self.assertIn("torque swings", rows[1]["time"], out)
+        self.assertIn("avoid in time: 300 rpm", out)
+        self.assertIn("s by the clock", out)
+        with open(self.folder / "out" / "speeds_check.csv", encoding="utf-8") as file:
+            table = list(csv.reader(file))
+        self.assertEqual(table[0][:3], ["speed [rpm]", "linear", "in time"])
+        self.assertAlmostEqual(float(table[1][3]), rows[0]["torque_N_m"])
+        self.assertIn("speeds_check.png", summary["files"])
+        weight = 9.81 * (12 * 1.5 * 7850 * math.pi / 4 * (0.073 ** 2 - 0.059 ** 2) + 6)
+        self.assertAlmostEqual(rows[0]["torque_N_m"] / (0.3 * weight / math.sqrt(1.09) * 0.0365), 1.0, 0)
+
+    def test_what_cannot_be_checked(self):
+        self.assertIn("outside 2 .. 100", self.ask("speeds", self.scene, "--check", "1", status=2))
+        load = self.write("load.toml", SCENE.replace('component = "rx"', 'component = "rx"\nkind = "load"').replace("100 rpm", "0 N m").replace(
+            'eccentricity = "0.5 mm"', ""))
+        out = self.ask("speeds", load, "--check")
+        self.assertIn("check in time: not assessed, because no drive turns the string", out)
+
+    def test_a_failed_run_is_no_all_clear(self):
+        failed = speed_check.Result(10.0, error="no solution")
+        self.assertEqual(failed.verdict, speed_check.FAILED)
+        self.assertEqual(speed_check.Result(10.0, 5.0, 0.6, 1.0).verdict, "torque swings")
+        self.assertEqual(speed_check.Result(10.0, 5.0, 0.4, 10.0).verdict, "lateral acceleration")
+
+    def test_own_rotation_is_among_the_speeds(self):
+        scene = scenes.load(self.scene)
+        found = type("Found", (), {"grid": [60.0 * rotating.RPM, 240.0 * rotating.RPM]})
+        courses = speed_check._courses(scene, found, 4, 0)
+        self.assertEqual([round(one.speed / rotating.RPM) for one in courses], [60, 100, 180, 240])
+        period = 4.0 * 18.0 / math.sqrt(2.1e11 / 2.6 / 7850.0)
+        self.assertAlmostEqual(speed_check.slowest_period(scene), period)
+
+
+TABLE = 'friction_table = [["0 m/s", 0.5], ["70 mm/s", 0.5], ["140 mm/s", 0.25]]\n'
+
+
+class FrictionTableTest(FolderTest):
+    """The coefficient of the wall against the speed of sliding."""
+    SCENE = SCENE.replace("mu_static = 0.30\nmu_dynamic = 0.30\n", TABLE)
+
+    def test_written_and_read(self):
+        first = scenes.load(self.scene)
+        self.ask("save", self.scene, self.folder / "copy.toml")
+        self.assertTrue(first.same_as(scenes.load(self.folder / "copy.toml")))
+        wall = mbd.WallDef(**first.model.calls[0][1][0])
+        self.assertEqual((wall.friction_table_count, wall.mu_static, wall.mu_dynamic), (3, 0.5, 0.25))
+        self.assertEqual(first.model.hole(1.0).mu_dynamic, 0.25)
+
+    def test_torque_by_speed(self):
+        """The torque of a string that slides is mu(v) times that of a coefficient of 1, by both laws."""
+        def torque(speed, law, table):
+            text = SCENE.replace("mu_static = 0.30\nmu_dynamic = 0.30\n", f'friction_law = "{law}"\nsmoothing_speed = "0.01 mm/s"\n' + table)
+            scene = scenes.load(self.write("one.toml", text.replace("0.5 mm", "0 mm").replace('mass = "6 kg"\ndiameter = "94 mm"', 'mass = "6 kg"\ndiameter = "73 mm"')))
+            with scene.new_sim() as sim:
+                sim.static(slip_rotation=speed / 0.0365)
+                return abs(sim.drive(scene.names["head"]).force)
+
+        def expected(mu):
+            return torque(1.0, "coulomb", f"mu_static = {mu}\nmu_dynamic = {mu}\n")
+
+        for law in ("stribeck", "bristle"):
+            for speed, mu in ((0.03, 0.5), (0.105, 0.375), (0.5, 0.25)):
+                self.assertAlmostEqual(torque(speed, law, TABLE) / expected(mu), 1.0, 4, (law, speed))
+
+    def test_refusals(self):
+        for old, new, told in (
+                (TABLE, TABLE + "mu_static = 0.4\n", "must be left out where there is a friction_table"),
+                (TABLE, TABLE + 'friction_law = "coulomb"\n', "must be stribeck or bristle"),
+                ('["0 m/s", 0.5], ', "", "friction_table_speed[0] = 0.07"),
+                ('"70 mm/s"', '"170 mm/s"', "friction_table_speed[2]"),
+                ('0.25]]', '0.0]]', "friction_table_mu"),
+                ('["70 mm/s", 0.5]', '["70 mm/s", -0.5]', "friction_table_mu[1]"),
+                (TABLE, 'friction_table = [["0 m/s", 0.5]]\n', "must have 2 to 8 pairs"),
+                ('[[programme]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[programme]]', "mu_static")):
+            text = self.SCENE.replace(old, new, 1)
+            self.assertNotEqual(text, self.SCENE, new)
+            self.assertIn(told, self.ask("check", self.write("wrong.toml", text), status=2))
+
+    def test_sections_scale_it(self):
+        """A section with half the dynamic coefficient has half the static one too."""
+        text = self.SCENE.replace("[[programme]]", '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[programme]]', 1)
+        point = scenes.load(self.write("section.toml", text)).model.hole(5.0)
+        self.assertAlmostEqual(point.mu_static, 0.25)
+        out = self.ask("torque-drag", self.folder / "section.toml", "-o", self.folder / "td")
+        self.assertIn("broomstick: 0.5, 1 and 1.5 times", out)
+
+
+if __name__ == "__main__":
+    unittest.main()
