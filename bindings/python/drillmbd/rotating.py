@@ -81,7 +81,7 @@ def programmes_of(scene: Scene) -> list[Any]:
 # ---- Linear state ----------------------------------------------------------------------------------------------------
 @dataclass
 class Linear:
-    """How a scene is linearised."""
+    """State and options of a linear analysis."""
     scene: Scene                                            #: with the loads on the bits of the state
     static: dict[str, Any]                                  #: options of its static state
     options: dict[str, Any] = field(default_factory=dict)   #: of response and speeds

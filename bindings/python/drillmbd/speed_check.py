@@ -32,7 +32,7 @@ NO_DRIVE = "check in time: not assessed, because no drive turns the string at a 
 
 @dataclass
 class Course:
-    """What one speed is run with."""
+    """Scene and times of the run of one speed."""
     scene: Scene
     speed: float          #: [rad/s]
     settle: float         #: [s] before the window
