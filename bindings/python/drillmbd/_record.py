@@ -283,7 +283,7 @@ class WallPart(PairsPart):
 
     def describe(self, every: bool = False) -> dict[str, Any]:
         """The fields as plain Python, `stations` as given."""
-        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        found: dict[str, Any] = super().describe(every)
         found.pop("survey_count", None)
         for key in ("mu_static", "mu_dynamic") if self.friction_table_count else ():  # the table says them
             found.pop(key, None)

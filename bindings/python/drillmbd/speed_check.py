@@ -6,7 +6,7 @@ import math
 import multiprocessing
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from . import _structs, enums, rotating
@@ -73,7 +73,7 @@ def at_speed(scene: Scene, speed: float, turning: int) -> Scene:
     if feed is not None and rotating.extreme(programmes[feed]):
         terms[feed] = ramp(0.0, rotating.extreme(programmes[feed]))
     terms[turning] = ramp(0.0, speed)
-    return rotating.with_programmes(scene, terms)
+    return replace(rotating.with_programmes(scene, terms), progress=None, changed=None)  # what another process does not need
 
 
 def places_of(scene: Scene) -> list[Any]:
@@ -98,7 +98,7 @@ def run(course: Course) -> Result:
 def _measured(course: Course, scene: Scene, sim: Any) -> Result:
     numpy = need("numpy")
     places = places_of(scene)
-    channels = [(scene.model.own(course.drive), enums.CHANNEL_DRIVE_FORCE)]
+    channels: list[tuple[Any, int]] = [(scene.model.own(course.drive), enums.CHANNEL_DRIVE_FORCE)]
     channels += [(place, enums.CHANNEL_BODY_ACCELERATION + axis) for place in places for axis in (enums.Y, enums.Z)]
     sim.static(**scene.fields_of("static"))
     sim.run(course.settle, course.step)

@@ -33,7 +33,7 @@ def corners(scene: Scene) -> list[dict[str, Any]]:
     assert scene.variability is not None
     draw = Draw(scene)
     middle = draw.values([0.0] * draw.dimension)
-    parts = [*scene.variability.scatters, *scene.variability.fields]
+    parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     ends = {one.name: ends_of(one.marginal) for one in parts}
     if len(parts) <= MOST_CORNERS:
         choices = [dict(zip(ends, values)) for values in itertools.product(*ends.values())]
@@ -70,7 +70,7 @@ def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[f
             bands += [(band.low, band.high) for band in case.bands]
         except (Error, SceneError) as error:
             failed.append(str(error))
-    parts = [*scene.variability.scatters, *scene.variability.fields]
+    parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     told = ", ".join(_words(one, output.units) for one in parts)
     ranges = union(bands)
     text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or "no critical speed in any of them"
