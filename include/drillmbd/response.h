@@ -211,9 +211,9 @@ typedef struct dmb_speeds_options {
     double contact_gap, structural_damping, equilibrium_tolerance; /* [m, -, -] as of a response, same defaults */
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
     const void *unused;        /* NULL */
-    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do.
-                    After a static state with slip_rotation of this speed and with friction 1, the answer is that of a
-                    string that lies on the wall where friction carries it; eccentric masses are out of balance there:
+    double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they
+                    do. After a static state with slip_rotation of this speed and with friction 1, the answer is that of
+                    a string that lies on the wall where friction carries it; eccentric masses are out of balance there:
                     allow it by equilibrium_tolerance */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
