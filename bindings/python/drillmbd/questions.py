@@ -13,7 +13,7 @@ from .critical_speeds import NOTHING_EXCITES
 from .errors import Usage
 from .scene import Scene, words
 from .scene.units import UnitError, parse
-from .run_quality import FirstTenth, LastPart, energy_error
+from .run_quality import FirstTenth, LastPart, TurnAStep, energy_error
 from .running import Bar
 from .sim import Sim
 from .unit_systems import Units
@@ -137,11 +137,14 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         counters = count_fatigue(scene, sim)
         last = LastPart(scene, sim, end, step) if options.verify else None
         first = FirstTenth(sim, sim.time, end) if scene.sim.get("energy_ledger", 1) else None
-        takers = [*counters.values(), *(one for one in (last, first) if one is not None)]
+        turning = TurnAStep(scene, sim, end, step) if step else None
+        takers = [*counters.values(), *(one for one in (last, first, turning) if one is not None)]
         stopped = _go(scene, sim, output, end, step, recorder, takers)
         tell_fatigue(counters, output)
         if first is not None and sim.statistics().steps:
             energy_error(sim, output, first, not stopped)
+        if turning is not None:
+            turning.tell(output)
         _run_answers(scene, sim, output, recorder)
         if last is not None and not stopped:
             last.verify(output)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from . import station
 from .answers import Output
 from .enums import Status
 from .errors import Usage
@@ -13,6 +14,9 @@ PART, LEAST_STEPS = 0.1, 20   #: of the run that is verified; it has as many ste
 NOTABLE = 0.05                #: difference of largest values, of the larger one, above which a note is made
 GROWS, SMALL = 10.0, 1e-4     #: energy error of the last tenth over that of the first, and over the energy, above which a note is made
 MOST_NUMBERS = 50_000_000
+SLOW_WHIRL = 0.69             #: error of the rate of slow whirl over (W h)^2, W the speed of rotation and h the step (physics_rotor_on_joint)
+TURN_NOTABLE = 0.12           #: [rad] W h above which a note is made: an error of 1 %
+SAMPLES = 50                  #: of the rotation of the strings in a run
 
 
 class FirstTenth:
@@ -28,6 +32,41 @@ class FirstTenth:
         if self.balance is None and self.sim.time >= self.until:
             self.balance = self.sim.energy().balance - self.start
         return Status.OK
+
+
+class TurnAStep:
+    """The largest rotation of each string in a step, with which the error of slow whirl and precession grows. Steps that follow an error
+    and strings that move along their axis only have none."""
+
+    def __init__(self, scene: Scene, sim: Sim, end: float, step: float) -> None:
+        info = scene.model.info()
+        bends = info.degrees_of_freedom > 2 * info.nodes
+        self.sim, self.step, self.interval = sim, step, max(step, (end - sim.time) / SAMPLES)
+        self.places = {name: station(scene.names[name], pipes - 1, 1.0) for name, pipes in scene.pipes.items()} if bends else {}
+        self.most = dict.fromkeys(self.places, 0.0)   #: [rad/s]
+        self.time, self.turns = sim.time, self._turns()
+
+    def _turns(self) -> dict[str, float]:
+        return {name: self.sim.rotation(place) for name, place in self.places.items()}
+
+    def take(self) -> int:
+        """The mean speed of rotation since the last sample, as often as samples are due."""
+        passed = self.sim.time - self.time
+        if passed >= self.interval * (1.0 - 1e-6):
+            now = self._turns()
+            for name, turn in now.items():
+                self.most[name] = max(self.most[name], abs(turn - self.turns[name]) / passed)
+            self.time, self.turns = self.sim.time, now
+        return Status.OK
+
+    def tell(self, output: Output) -> None:
+        """A note for each string that turns by more than the bound."""
+        for name, speed in self.most.items():
+            turn = speed * self.step
+            if turn > TURN_NOTABLE:
+                output.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off by up to "
+                                 f"{min(100.0, 100.0 * SLOW_WHIRL * turn * turn):.2g} %; a step of {1e3 * TURN_NOTABLE / speed:.2g} ms gives 1 %. "
+                                 "Rotation about a fixed axis is not affected")
 
 
 class LastPart:
