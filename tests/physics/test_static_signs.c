@@ -1,8 +1,6 @@
 /* Negative eigenvalues that a static state reports, against a dense eigenvalue count of the library's own stiffness,
  * and against closed forms on fine meshes: a deep strip loaded across (lateral buckling) and Euler's column. */
-#include <stdlib.h>
-
-#include "rig.h"
+#include "dense_signs.h"
 
 typedef struct scene {
     rig s;
@@ -49,83 +47,7 @@ static void check_status(const dmb_static_report *report, int32_t status)
 
 /* ---- Dense eigenvalues ------------------------------------------------------------------------------------------- */
 
-/* Symmetric A (n x n) to a tridiagonal matrix d, e by Householder's reflections. */
-static void tridiagonalise(uint32_t n, double *A, double *d, double *e, double *p)
-{
-    for (uint32_t k = 0; k + 1 < n; k++) {
-        double *v = A + (size_t)n * k, norm = 0.0, vv = 0.0, vp = 0.0;
-        for (uint32_t j = k + 1; j < n; j++) norm = hypot(norm, v[j]);
-        d[k] = v[k];
-        e[k] = v[k + 1] > 0.0 ? -norm : norm;
-        if (norm == 0.0) continue;
-        v[k + 1] -= e[k];
-        for (uint32_t j = k + 1; j < n; j++) vv += v[j] * v[j];
-        for (uint32_t i = k + 1; i < n; i++) {
-            p[i] = 0.0;
-            for (uint32_t j = k + 1; j < n; j++) p[i] += A[(size_t)n * i + j] * v[j];
-            p[i] *= 2.0 / vv;
-            vp += v[i] * p[i];
-        }
-        for (uint32_t i = k + 1; i < n; i++) p[i] -= vp / vv * v[i];
-        for (uint32_t i = k + 1; i < n; i++)
-            for (uint32_t j = k + 1; j < n; j++) A[(size_t)n * i + j] -= v[i] * p[j] + p[i] * v[j];
-    }
-    d[n - 1] = A[(size_t)n * n - 1];
-}
-
-/* Eigenvalues below x (Sturm). */
-static int32_t count_below(uint32_t n, const double *d, const double *e, double x)
-{
-    int32_t count = 0;
-    double q = 1.0;
-    for (uint32_t k = 0; k < n; k++) {
-        q = d[k] - x - (k > 0 ? e[k - 1] * e[k - 1] / q : 0.0);
-        if (q == 0.0) q = 1e-300;
-        count += q < 0.0;
-    }
-    return count;
-}
-
-/* K of the state, held rows 0 but for a diagonal of 1. Returns its rows. */
-static uint32_t stiffness_of(const scene *c, double **K)
-{
-    dmb_state_space *space = NULL;
-    dmb_state_space_info info = dmb_state_space_info_default();
-    dmb_state_space_options options = dmb_state_space_options_default();
-    uint64_t count = 0;
-    options.form = DMB_STATE_MATRICES;
-    must(&c->s, dmb_analysis_state_space(c->s.sim, &options, NULL, 0, NULL, 0, &space));
-    must(&c->s, dmb_state_space_get_info(space, &info));
-    must(&c->s, dmb_state_space_sparse(space, DMB_MATRIX_STIFFNESS, NULL, NULL, NULL, &count));
-    uint32_t *rows = malloc(2 * count * sizeof *rows), *columns = rows + count;
-    double *values = malloc(count * sizeof *values);
-    must(&c->s, dmb_state_space_sparse(space, DMB_MATRIX_STIFFNESS, rows, columns, values, &count));
-    *K = calloc((size_t)info.rows * info.rows, sizeof **K);
-    for (uint64_t i = 0; i < count; i++) (*K)[(size_t)info.rows * rows[i] + columns[i]] = values[i];
-    for (uint32_t i = 0; i < 6; i++)
-        for (uint32_t j = 0; j < info.rows; j++)
-            (*K)[(size_t)info.rows * i + j] = (*K)[(size_t)info.rows * j + i] = i == j; /* the clamped end */
-    free(rows);
-    free(values);
-    dmb_state_space_destroy(&space);
-    return info.rows;
-}
-
-/* Eigenvalues below -10 eps |K|; *between: those within +-10 eps |K|. */
-static int32_t dense_count(const scene *c, int32_t *between)
-{
-    double *K = NULL, norm = 0.0;
-    const uint32_t n = stiffness_of(c, &K);
-    double *d = malloc(3 * (size_t)n * sizeof *d);
-    tridiagonalise(n, K, d, d + n, d + 2 * (size_t)n);
-    for (uint32_t k = 0; k < n; k++) norm = fmax(norm, fabs(d[k]));
-    const double bound = 10.0 * 2.220446049250313e-16 * norm;
-    const int32_t below = count_below(n, d, d + n, -bound);
-    *between = count_below(n, d, d + n, bound) - below;
-    free(K);
-    free(d);
-    return below;
-}
+#define TEN_EPS 2.220446049250313e-15
 
 static dmb_pipe_def strip_pipe(uint32_t elements, double GJ, double EI)
 {
@@ -148,20 +70,20 @@ static void counts_agree_with_dense_ones(void **state)
     uint32_t compared = 0, unstable = 0;
     for (uint32_t k = 0; k < sizeof meshes / sizeof meshes[0]; k++) {
         scene c;
-        int32_t status, between;
+        int32_t status;
         const double GJ = draw_between(&seed, 10.0, 200.0), EI = draw_between(&seed, 10.0, 200.0);
         const double part = draw_between(&seed, 0.3, 6.0), along = draw_between(&seed, -1.0, 1.0);
         const dmb_pipe_def pipe = strip_pipe(meshes[k], GJ, EI);
         const double force[3] = {along * EI, part * strip_load(GJ, EI), 0.0};
         open_string(&c, 1, &pipe, force);
         const dmb_static_report report = report_of(&c, &status);
-        const int32_t wanted = dense_count(&c, &between);
+        const dense_signs wanted = dense_signs_of(&c.s, TEN_EPS);
         check_status(&report, status);
-        assert_int_equal(between, 0);
-        assert_int_equal(report.negative, wanted);
+        assert_int_equal(wanted.between, 0);
+        assert_int_equal(report.negative, wanted.negative);
         assert_int_equal(report.unresolved, 0);
         compared++;
-        unstable += wanted > 0;
+        unstable += wanted.negative > 0;
         rig_close(&c.s);
     }
     print_message("    %u of %u states are unstable\n", unstable, compared);

@@ -115,6 +115,8 @@ typedef struct dmb_static_search {
     double residual;     /* [-] relative, last */
     double moved;        /* [-] largest correction before it, in length scales */
     double moved_before; /* [-] the one before that */
+    uint32_t at_rounding; /* iterations in a row whose residual is of rounding size */
+    uint32_t reserved;
     double caution;      /* [-] the relaxation's corrections are this much shorter */
     double edge;         /* [-] 1 - cos RZ, largest on the way of joints whose RX and RY are needed; 0: of none */
     uint32_t edge_joint; /* which one it was */

@@ -43,11 +43,14 @@ static int is_still(const dmb_static_search *search)
     return now <= 10.0 * DMB_NO_MOVE && before <= DMB_SMALL_MOVE && now * now <= DMB_NO_MOVE_LEFT * before;
 }
 
-/* 0: in equilibrium, 1: not yet, < 0: failed */
+/* 0: in equilibrium, 1: not yet, < 0: failed. A motion that nothing resists never comes to rest at rounding: so many
+ * iterations there are enough. */
 static int32_t judge(dmb_static_search *search)
 {
     const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
     search->residual = norm.relative;
+    search->at_rounding = norm.converged ? search->at_rounding + 1 : 0;
+    if (norm.converged && search->at_rounding > DMB_MOVES_ENOUGH) return 0;
     if (norm.converged == DMB_CONVERGED || (norm.converged && is_still(search))) return 0;
     return 1;
 }
@@ -111,6 +114,7 @@ int32_t dmb_static_newton(dmb_static_search *search)
 {
     search->evaluation.extrapolated = 0;
     search->moved = search->moved_before = (double)INFINITY;
+    search->at_rounding = 0;
     int32_t status = dmb_static_evaluate(search);
     for (uint32_t k = 0; status >= 0; k++) {
         status = judge(search);
@@ -155,15 +159,18 @@ static int32_t solve_downhill(dmb_static_search *search, double *rate)
     dmb_block_weakest weakest;
     double taken = *rate;
     int32_t negative = 1;
+    int singular = 0;
     for (int k = 0; k < DMB_HEAVIER_TRIES; k++, taken *= DMB_HEAVIER) {
         int32_t status = k > 0 ? dmb_static_evaluate(search) : DMB_OK; /* the factors are in its place */
         if (status < 0) return status;
         add_pseudo_mass(search->sim, taken);
         dmb_system_iteration_matrix(&search->evaluation);
         status = look_at_factors(search, dmb_stiffness_factor(search->sim, &weakest, &negative), &weakest);
-        if (status < 0) return status;
-        if (negative == 0) break;
+        singular = status == DMB_ERR_SINGULAR;
+        if (status < 0 && !singular) return status;
+        if (negative == 0 && !singular) break;
     }
+    if (singular) return DMB_ERR_SINGULAR;
     dmb_solve_correction(search->sim);
     dmb_static_correct_spins(search);
     search->iterations++;
@@ -189,18 +196,34 @@ static double longest_move(const dmb_scene *scene)
 typedef struct correction_size {
     double along, across; /* [m] in the axes of the nodes; all of what only slides is along */
     double turn;          /* [rad] */
+    double bend;          /* [rad] across the axes of chains that meet the wall, which moves their nodes towards it */
 } correction_size;
 
+static void add_chain(const dmb_sim *sim, const dmb_chain *chain, int meets_wall, correction_size *size)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
+        const double *z = sim->correction + scene->layout.row[i];
+        if (meets_wall) size->along = fmax(size->along, fabs(z[0]));
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        const double bend = fmax(fabs(z[4]), fabs(z[5]));
+        size->turn = fmax(size->turn, fmax(fabs(z[3]), bend));
+        if (!meets_wall) continue;
+        size->across = fmax(size->across, fmax(fabs(z[1]), fabs(z[2])));
+        size->bend = fmax(size->bend, bend);
+    }
+}
+
+/* Of chains without a ring only turns count: nothing stops them on their way. */
 static correction_size size_of_correction(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    correction_size size = {0.0, 0.0, 0.0};
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const double *z = sim->correction + scene->layout.row[i];
-        size.along = fmax(size.along, fabs(z[0]));
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
-        size.across = fmax(size.across, fmax(fabs(z[1]), fabs(z[2])));
-        size.turn = fmax(size.turn, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
+    const uint32_t sites = dmb_node_sites(scene); /* in the order of their nodes */
+    correction_size size = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t c = 0, s = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        while (s < sites && scene->sites[s].node < chain->first) s++;
+        add_chain(sim, chain, s < sites && scene->sites[s].node < chain->first + chain->count, &size);
     }
     return size;
 }
@@ -214,12 +237,12 @@ static double reach(const dmb_static_search *search, double limit)
 {
     const dmb_scene *scene = search->sim->scene;
     const correction_size size = size_of_correction(search->sim);
-    if (isfinite(limit)) {
-        const double across = fmax(size.across, size.turn * scene->length_scale) / limit;
-        return search->caution * fmax(across, size.along / (DMB_LONGEST_SLIDE * scene->length_scale));
-    }
     const double apart = scene->cluster_count ? sqrt(0.5 * search->moved * size.turn / DMB_LONGEST_GAP) : 0.0;
-    return search->caution * fmax(size.turn / DMB_LONGEST_TURN, apart);
+    const double turn = fmax(size.turn / DMB_LONGEST_TURN, apart);
+    if (!isfinite(limit)) return search->caution * turn;
+    const double across = fmax(size.across, size.bend * scene->length_scale) / limit;
+    const double along = size.along / (DMB_LONGEST_SLIDE * scene->length_scale);
+    return search->caution * fmax(turn, fmax(across, along));
 }
 
 /* The residual's work along the last correction, over that of the one before it: -1 to 0 where the correction led
@@ -244,6 +267,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     double rate = 1e4, last = 1.0, work = 0.0;
     search->evaluation.extrapolated = 0;
     search->moved = search->moved_before = (double)INFINITY;
+    search->at_rounding = 0;
     for (uint32_t k = 0;; k++) {
         int32_t status = evaluate(search);
         if (status <= 0) return status;
