@@ -63,10 +63,11 @@ typedef struct dmb_static_report {
     uint32_t line_searches; /* [-] corrections that were shortened by a line search */
     int32_t negative;  /* [-] negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC:
                           exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is
-                          known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: real negative ones
-                          among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two
-                          at once may have come of a complex pair, without the determinant having passed 0);
-                          -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
+                          known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative
+                          ones (two at once may have come of a complex pair, without the determinant having passed 0):
+                          all up to 400 coordinates, else all within reach of the symmetric part, or if they are some,
+                          those among the 108 nearest 0; -1: none was found there, and others further out could not
+                          be excluded. Of a state that moves (`steady`): of the
                           stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
                           all the same, or damping not (dmb_analysis_modes) */
     int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was judged */

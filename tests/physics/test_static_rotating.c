@@ -65,14 +65,16 @@ static answer solve(const well *w)
     (void)rig_start(&s, NULL);
     options.slip_axial = w->slip_axial, options.slip_rotation = w->slip_rotation;
     const dmb_static_report report = find_equilibrium(&s, &options);
-    assert_int_equal(report.negative, 0);
+    /* With friction eigenvalues far from 0 cannot always be excluded: not counted then, and never 0 by chance. */
+    if (report.negative != 0) assert_int_equal(report.stiffness, DMB_STIFFNESS_UNSYMMETRIC);
+    assert_true(report.negative == 0 || report.negative == -1);
     must(&s, dmb_query_reaction(s.sim, string, reaction));
     found.hook = -reaction[0], found.torque = reaction[3], found.iterations = report.iterations;
     print_message(
-        "  %u elements, mu %.2f, wall %g, drive %g rad/s, slip %g m/s, %g rad/s: %u iterations, hook load %.6g N, "
-        "torque %.6g N m\n",
-        w->elements, w->mu, w->stiffness, w->speed, w->slip_axial, w->slip_rotation, report.iterations, found.hook,
-        found.torque);
+        "  %u elements, mu %.2f, wall %g, drive %g rad/s, slip %g m/s, %g rad/s: %u iterations, %d negative, hook "
+        "load %.6g N, torque %.6g N m\n",
+        w->elements, w->mu, w->stiffness, w->speed, w->slip_axial, w->slip_rotation, report.iterations, report.negative,
+        found.hook, found.torque);
     rig_close(&s);
     return found;
 }

@@ -131,19 +131,22 @@ static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
     }
 }
 
-/* *none: 1 if H + rho D has no negative eigenvalue, 0: it has some, a block is singular before its turn, or no friction
- * can be turned; the blocks are used up. Errors: those of dmb_static_evaluate, DMB_ERR_NO_MEMORY. */
+/* *none: 1 if K has no real eigenvalue below -rho, since H + rho D (friction_turned: that of W K, rho less by 1 -
+ * |f|/2) has no negative one; 0: it has some, a block is singular before its turn, or no friction can be turned. The
+ * blocks are used up. Errors: those of dmb_static_evaluate, DMB_ERR_NO_MEMORY. */
 static int32_t look_at_symmetric_part(dmb_static_search *state, double rho, int friction_turned, int *none)
 {
     dmb_sim *sim = state->sim;
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
+    double most = 0.0;
     const int32_t status = dmb_static_evaluate(state);
     *none = 0;
     if (status < 0) return status;
     dmb_system_iteration_matrix(&state->evaluation);
-    const int32_t turned = friction_turned ? dmb_stability_turn_friction(&state->evaluation) : 1;
+    const int32_t turned = friction_turned ? dmb_stability_turn_friction(&state->evaluation, &most) : 1;
     if (turned <= 0) return turned;
+    rho *= 1.0 - 0.5 * most;
     raise_diagonal(sim, rho, 0);
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].jointed)
@@ -355,6 +358,7 @@ static int determinant_is_negative(const dmb_sim *sim)
 #define DMB_DIVERGENCE_FIRST 12
 #define DMB_DIVERGENCE_THOROUGH 36
 #define DMB_DIVERGENCE_MOST 108
+#define DMB_DIVERGENCE_ALL 400 /* coordinates of which all eigenvalues are found, if the nearest ones leave it open */
 #define DMB_DIVERGENCE_TOLERANCE 1e-8
 
 typedef struct search {
@@ -373,6 +377,13 @@ typedef struct search {
 static size_t most_vectors(uint32_t rows)
 {
     return (size_t)fmax(DMB_DIVERGENCE_LEAST, sqrt(DMB_DIVERGENCE_WORK / rows));
+}
+
+/* Whether a symmetric part says that there is none below -rho; the factors are gone then. */
+static int32_t look_for_none(dmb_static_search *state, double rho, int *none)
+{
+    const int32_t status = look_at_symmetric_part(state, rho, 0, none);
+    return status < 0 || *none ? status : look_at_symmetric_part(state, rho, 1, none);
 }
 
 /* The iteration matrix and its factors once more. */
@@ -408,16 +419,16 @@ static int32_t look(search *s)
     const double last = found.count ? hypot(found.re[found.count - 1], found.im[found.count - 1]) : 0.0;
     dmb_krylov_release(&found);
     s->complete = s->wanted >= s->dimension;
-    const int32_t looked =
-        s->complete || !(last > 0.0) ? DMB_OK : look_at_symmetric_part(s->state, 1.0 / last, 0, &s->complete);
+    const int32_t looked = s->complete || !(last > 0.0) ? DMB_OK : look_for_none(s->state, 1.0 / last, &s->complete);
     return looked < 0 ? looked : factor_again(s->state);
 }
 
-/* Whether a symmetric part says that there is none; the factors are gone then. */
-static int32_t look_for_none(dmb_static_search *state, double rounding, int *none)
+/* All eigenvalues. */
+static int32_t look_at_all(search *s)
 {
-    const int32_t status = look_at_symmetric_part(state, rounding, 0, none);
-    return status < 0 || *none ? status : look_at_symmetric_part(state, rounding, 1, none);
+    s->wanted = s->dimension;
+    const int32_t status = look(s);
+    return status == DMB_ERR_NO_CONVERGENCE ? DMB_OK : status;
 }
 
 static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_stability *out)
@@ -443,7 +454,10 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
         agrees = (s.negative & 1) == s.odd;
         if (s.complete || agrees) out->negative = s.negative;
     }
-    return DMB_OK;
+    if (!thorough || s.complete) return DMB_OK;
+    status = s.dimension <= DMB_DIVERGENCE_ALL ? look_at_all(&s) : DMB_OK;
+    out->negative = s.complete || s.negative > 0 ? s.negative : -1;
+    return status;
 }
 
 /* ---- Judgement -----------------------------------------------------------------------------------------------------

@@ -88,7 +88,7 @@ static void turn_chain(dmb_sim *sim, const dmb_chain *chain, const double *field
     }
 }
 
-int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation)
+int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation, double *most)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -98,6 +98,7 @@ int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation)
     if (field.E == NULL) return DMB_ERR_NO_MEMORY;
     field.rings = (uint32_t *)(void *)(field.E + ENTRIES * (size_t)scene->node_count);
     gather_rings(evaluation, &field);
+    *most = field.most;
     const int done = field.most > 0.0 && field.most < DMB_FRICTION_MOST;
     for (uint32_t c = 0; c < scene->chain_count && done; c++)
         if (!scene->chains[c].jointed) turn_chain(sim, scene->chains + c, field.E);

@@ -112,9 +112,9 @@ typedef struct dmb_static_search {
     uint32_t block;    /* block found singular */
     int32_t loose;     /* 1: nothing seems to hold loose_block in the starting pose */
     uint32_t loose_block;
-    double residual;     /* [-] relative, last */
-    double moved;        /* [-] largest correction before it, in length scales */
-    double moved_before; /* [-] the one before that */
+    double residual;      /* [-] relative, last */
+    double moved;         /* [-] largest correction before it, in length scales */
+    double moved_before;  /* [-] the one before that */
     uint32_t at_rounding; /* iterations in a row whose residual is of rounding size */
     uint32_t reserved;
     double caution;      /* [-] the relaxation's corrections are this much shorter */
@@ -265,7 +265,9 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
  * none: by Krylov subspaces on x -> K^-1 D x, as many vectors as some hundreds of millions of products allow, until the
  * symmetric part H leaves none further out: mu >= -rho where H + rho D is positive definite, x.Hx = mu x.Dx; or so many
  * have been seen, and the sign of det K agrees with their number. The sign alone would not do: what is round diverges
- * in two directions at once. Flutter is not looked for: it depends on mass and damping (modes). */
+ * in two directions at once. Of a state that was asked for, up to 400 coordinates have all their eigenvalues found;
+ * beyond, none found among the nearest is not counted (-1) unless the symmetric part excludes others. Flutter is not
+ * looked for: it depends on mass and damping (modes). */
 
 typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */
@@ -297,16 +299,16 @@ int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *
  *
  *     W = I - f n^T,      W (n + f) n^T = n n^T,
  *
- * K x = mu D x has no real mu below -rounding/(1 - |f|/2) if
+ * K x = mu D x has no real mu below -rho/(1 - |f|/2) if
  *
- *     sym(W K) + rounding D     is positive definite, |f| < 2 in the weights D:
+ *     sym(W K) + rho D     is positive definite, |f| < 2 in the weights D:
  *
- * then so is sym(W (K + rho D)) for rho beyond that, and K + rho D is regular. f n^T of nodes without contact is taken
- * between those of their neighbours, since a W that is the same for neighbours leaves the stiffness between them nearly
- * symmetric. */
+ * sym(W D) >= (1 - |f|/2) D, so sym(W (K + s D)) is positive definite for s beyond that, and K + s D is regular. f n^T
+ * of nodes without contact is taken between those of their neighbours, since a W that is the same for neighbours leaves
+ * the stiffness between them nearly symmetric. */
 
-/* Multiplies the rows of chains without joints in the iteration matrix, which is not factored, by W. 1: done; 0: no
- * ring slips, or |f| is too large, and the matrix is left as it is; DMB_ERR_NO_MEMORY. */
-int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation);
+/* Multiplies the rows of chains without joints in the iteration matrix, which is not factored, by W. 1: done, *most is
+ * the largest |f|; 0: no ring slips, or |f| is too large, and the matrix is left as it is; DMB_ERR_NO_MEMORY. */
+int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation, double *most);
 
 #endif
