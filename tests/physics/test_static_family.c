@@ -1,6 +1,6 @@
-/* Families of statics far from their start. Whatever is reported as stable with status 0 has no negative eigenvalue in
- * dense matrices either and does not accelerate; where the search ends on an unstable state or cannot count, the status
- * says so. DMB_SEEDS=n draws more. */
+/* Families of statics far from their start. A state that is reported as stable with status 0 has no negative eigenvalue
+ * in dense matrices either and does not accelerate; where the search ends on an unstable state or cannot count, the
+ * status says so. DMB_SEEDS=n draws more. */
 #include <stdlib.h>
 
 #include "dense_signs.h"
@@ -73,7 +73,8 @@ static void open_slack(const slack *c, rig *s, dmb_id *string)
     (void)rig_start(s, &options);
 }
 
-/* What bends within (EI/w)^(1/3) = 11 m of a clamp and where a slack string turns back leaves the chain by so much. */
+/* Bending within (EI/w)^(1/3) = 11 m of a clamp, and where a slack string turns back, takes it off the chain by so
+ * much. */
 static void check_slack(const slack *c)
 {
     rig s;
