@@ -8,8 +8,9 @@ enum { TOPIC_BENT = TOPIC_OF_RELATION + 70 };
 #define BENT_MESH 0.05 /* of the push, twice the elements */
 #define BENT_WALL 0.02 /* of the push, a wall four times as stiff */
 #define BENT_PATH 1e-3 /* of the push, an event of the path; a dip is closed in to this */
-/* Dips from 0.5 to this may not count with another mesh: the path goes on to the next one. */
-#define BENT_SHALLOW 0.65
+/* A shallower dip is a string that bends off gradually: with another mesh another minimum may be the first that counts.
+ */
+#define BENT_SHALLOW 0.92
 
 typedef struct bent {
     double outer, inner, clearance; /* [m] */
@@ -217,7 +218,7 @@ static void hold_alike(trial *t, const char *what, const bent *other, const said
         return;
     }
     if (is_shallow(a) || is_shallow(&c)) {
-        left_out(t, "a dip that hardly counts");
+        left_out(t, "a string that bends off gradually");
         return;
     }
     hold(t, what, fabs(c.push / a->push - 1.0), tolerance);

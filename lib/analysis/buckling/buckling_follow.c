@@ -37,6 +37,7 @@ typedef struct follower {
     double estimate; /* [unit of the factor] where stability is expected to end, by the last linearisation */
     double target;   /* [unit of the factor] where it is linearised again */
     double arc;
+    double longest; /* [m] step so far */
     dmb_dip dip;
     dmb_vector steps;         /* arc_step of this run */
     const dmb_vector *longer; /* of a run whose steps are halved; NULL: none */
@@ -226,10 +227,11 @@ static int32_t look_ahead(follower *f)
 
 /* A step past a bifurcation may come down on the path that crosses, which is stable, and one past a limit point on
  * another one: the direction has turned. It is taken again in shorter ones, until it is a corner, where a contact
- * opens. */
+ * opens: after so many, or where steps are so short beside the longest, as those are that creep up to a corner. */
 #define DMB_FOLLOW_STRAIGHT 0.9
 #define DMB_FOLLOW_SHORTER 0.25
 #define DMB_FOLLOW_TRIES 8
+#define DMB_FOLLOW_CORNER 1e-5
 
 static int32_t find_next(follower *f, int32_t *event)
 {
@@ -237,7 +239,9 @@ static int32_t find_next(follower *f, int32_t *event)
     for (int k = 0;; k++, f->arc *= DMB_FOLLOW_SHORTER) {
         const int32_t status = dmb_path_find_next(path, &f->arc, event);
         if (status < 0 || *event != DMB_EVENT_NONE || path->next.negative != 0 || k >= DMB_FOLLOW_TRIES) return status;
-        if (dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT) return status;
+        const int straight = dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT;
+        if (straight) f->longest = fmax(f->longest, f->arc);
+        if (straight || f->arc < DMB_FOLLOW_CORNER * f->longest) return status;
     }
 }
 
