@@ -21,6 +21,7 @@ from drillmbd import answers, enums, language, report, report_figures, report_ho
 from drillmbd._structs import SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import Usage, status_text  # noqa: E402
+from drillmbd.scene import words  # noqa: E402
 from drillmbd.frames import SpeedBands  # noqa: E402
 from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating  # noqa: E402
 
@@ -134,7 +135,7 @@ class CatalogueTest(unittest.TestCase):
         for part in CATALOGUE.values():
             for english, other in part.items():
                 left = set(re.findall(r"[A-Za-z]+", re.sub(r"\{[^{}]*\}|\[+[\w. ]*\]+|\\?\"[^\"]*\"", " ", other)))
-                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size outer diameter".split()) | {"load"}
+                allowed = LATIN | set("NULL NaN Ctrl C elements eccentricity damping time stress range struct size outer diameter follow".split()) | {"load"}
                 self.assertEqual(left - allowed, set(), (english, other))
 
     def test_messages_are_those_of_the_library(self):
@@ -423,6 +424,8 @@ class OperatingTest(unittest.TestCase):
         self.assertAlmostEqual(plan.rotation * 30.0 / math.pi, 200.0, 9)
         self.assertAlmostEqual(plan.feed, 0.01, 12)
         self.assertAlmostEqual(plan.weight_on_bit, 2960.0, 6)
+        rig = scene.load(HERE.parents[1] / "examples" / "scenes" / "reference_rig.toml")
+        self.assertIn("feed 10 mm/s, rotation 200 rpm, 2.96 kN on the bit", words.describe(rig, 1.0))
 
 
 class PageTest(FolderTest):

@@ -6,13 +6,11 @@ import math
 from typing import Any
 
 from .. import enums
-from .._structs import Term
 from ..language import Phrase, joined, phrase
 from .content import Scene
 from .fields import DEFINITIONS
+from .largest import largest_of
 from .survey import dogleg
-
-_STEPS = (enums.TERM_STEP, enums.TERM_STEP5)
 
 
 def describe(scene: Scene, mass: float) -> list[str]:
@@ -135,13 +133,13 @@ def _operation(calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
 
 
 def _speeds(calls: dict[str, list[tuple[Any, ...]]]) -> list[tuple[int, float]]:
-    """Component and last value of the drives that prescribe a motion."""
-    return [(one.get("component", int(enums.X)), _last(calls, one["programme"])) for one, in calls.get("add_drive", [])
+    """Component and largest speed of the drives that prescribe a motion."""
+    return [(one.get("component", int(enums.X)), _largest(calls, one["programme"])) for one, in calls.get("add_drive", [])
             if "programme" in one and one.get("kind", int(enums.DRIVE_MOTION)) != enums.DRIVE_LOAD]
 
 
 def _bit_load(calls: dict[str, list[tuple[Any, ...]]], bit: dict[str, Any]) -> float:
-    return _last(calls, bit["load"]) if "load" in bit else 0.0
+    return _largest(calls, bit["load"]) if "load" in bit else 0.0
 
 
 def _ever(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> bool:
@@ -151,14 +149,7 @@ def _ever(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> bool:
                or any(value for _, value in one.get("table", ())) for one in terms)
 
 
-def _last(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> float:
-    """The value at which a programme ends; swings count by their middle."""
+def _largest(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> float:
+    """The largest magnitude of a programme; of one with a function of Python that of the rest."""
     terms = calls["add_programme"][programme.index & 0xFFFFFF]
-    total = 0.0
-    for one in terms:
-        if one.get("table"):
-            total += one["table"][-1][1]
-        elif "function" not in one:
-            term = Term(**one)
-            total += term.h1 if term.kind in _STEPS else term.h0
-    return total
+    return largest_of([one for one in terms if one.get("function") is None and one.get("kind") != enums.TERM_CALLBACK]) or 0.0
