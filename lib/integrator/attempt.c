@@ -12,7 +12,7 @@
 #include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
 #include "system/constrain/rotor.h"
 #include "system/system.h"
@@ -379,7 +379,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     dmb_system_accept(&attempt->evaluation);
     if (!attempt->deferred) dmb_factor_reuse_end(sim, attempt, &sim->trial);
     dmb_prediction_note(sim, attempt);
-    if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
+    if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation, attempt->released);
     dmb_bounces_accept(&attempt->evaluation, attempt->bounced);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;

@@ -18,6 +18,7 @@
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
 
 void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_described_pipe *out)

@@ -10,6 +10,7 @@
 #include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"

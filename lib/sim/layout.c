@@ -8,7 +8,7 @@
 
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
-    uint64_t n, r, s, p, sb, pb, st, e, d, k, load, history, diagonal, link, backup;
+    uint64_t n, r, s, p, sb, pb, pf, st, e, d, k, law, load, history, diagonal, link, backup;
     uint64_t act, delay, cut, ns, u, ur, held, input, event, force, stuck, f, ro, j, c, cluster, column, raw, jacobian,
         tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain, piece;
@@ -31,6 +31,8 @@ typedef struct field_counts {
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
     const uint64_t sparse_block = (of)->sparse_block;                                                               \
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
+    const uint64_t pf = (of)->pf, law = (of)->law;                                                                  \
+    (void)pf, (void)law;                                                                                            \
     const uint64_t act = (of)->act, delay = (of)->delay, cut = (of)->cut;                                           \
     (void)act, (void)delay, (void)cut;                                                                              \
     const uint64_t f = (of)->f, ro = (of)->ro, chain = (of)->chain, piece = (of)->piece;                            \
@@ -104,6 +106,8 @@ static field_counts counts_of(const dmb_scene *scene)
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
+    c.pf = scene->friction_law.kind != DMB_FRICTION_NONE ? c.p : 0;
+    c.law = scene->law_count;
     c.st = dmb_scene_has_touch(scene) ? c.s : 0;
     c.e = scene->element_count;
     c.d = scene->drive_count;

@@ -2,14 +2,14 @@
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
- * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; st = s
- * with damping that jumps at touch, else 0; u = unilateral_count, ur = r where there are any, else 0; ns = n where
- * there are contact sites or any of those, else 0; piece = most pieces of one run (sim/parts); k = bit_count, act =
- * actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count, cut = stations at
- * which cutters widen the hole, held = held_count, input = input_count, event = event_count, history = history_count,
- * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
- * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
- * the clusters, block, value, pivots = of the reduced system. */
+ * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; pf = p
+ * with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u = unilateral_count, ur = r
+ * where there are any, else 0; ns = n where there are contact sites or any of those, else 0; piece = most pieces of one
+ * run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count,
+ * stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
+ * event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
+ * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
+ * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -47,6 +47,7 @@
     X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall\
                                             acts as at in a static state; 0: those of the nodes */                    \
     X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
+    X(double, path_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps system/assemble/ledger_work */ \
     X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
     X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
     /* system/assemble/drives, from programmes and velocity: */                                                       \
@@ -63,10 +64,16 @@
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
+    X(double, bit_force, 4 * k, NUMBERS) /* [N, N m] of the rock, along the axis, about it, across it:                 \
+                                            system/assemble/bit; at jumps system/assemble/ledger_work */               \
+    X(double, bit_speed, 4 * k, NUMBERS) /* [m/s, rad/s] the same directions: system/assemble/bit; at jumps            \
+                                            system/assemble/ledger_work */                                             \
     /* system/assemble/bounces, of stops and springs that may open: */                                              \
     X(double, bounce_place, u, NUMBERS)           /* [m, rad] coordinate of the joint, elongation of the spring */    \
     X(double, bounce_force, u, NUMBERS)           /* [N, N m] force of the law there, against growing coordinates */  \
     X(double, bounce_speed, u, NUMBERS)           /* [m/s, rad/s] of the coordinate */                                \
+    X(double, law_speed, law, NUMBERS) /* [m/s, rad/s] of coordinates with a law: system/assemble/springs; at jumps   \
+                                          system/assemble/ledger_work */                                               \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
     X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_motion */   \
@@ -80,8 +87,8 @@
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/attempt, integrator/step, system/start; \
-                                     powers: system/assemble/energy */                                                 \
-    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                        \
+                                     powers: system/assemble/ledger */                                                 \
+    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/ledger */                        \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/attempt, integrator/step, system/start, \
                                               system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
                                               system/constrain/cluster */                                              \
@@ -91,7 +98,7 @@
     X(uint32_t, site_age, s, AGES)    /* [-] steps since touch: system/bounce_end, system/assemble/bounces */          \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
-    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                 \
+    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                 \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each  \
@@ -173,6 +180,7 @@
     X(double, bounce_taken, ur) /* [m/s2, rad/s2] M^-1 of those forces: system/bounce_end */                          \
     X(double, bounce_given, ur) /* [m/s2, rad/s2] M^-1 of the laws' forces: system/bounce_end */                      \
     X(double, bounce_rows, ur) /* [N, N m] residual: system/bounce_end, system/assemble/bounces */                    \
+    X(double, released_power, 1) /* [W] of friction that opens, by the part of the step behind it: system/jump */     \
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/jump */             \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \

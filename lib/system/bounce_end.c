@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "system/assemble/bounces.h"
-#include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/solve/solve.h"
 
 /* [-] (k h^2 + c h)/m of a contact up to which steps resolve it. */

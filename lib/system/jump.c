@@ -12,6 +12,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
@@ -63,17 +64,6 @@ static double open_part(const dmb_sim *sim, uint32_t s)
     return d1 / (d1 - d0);
 }
 
-/* The force that the last step ended with: in the steps about touch not that of the law. */
-static void take_weighted(const dmb_sim *sim, uint32_t s, dmb_site_force *f)
-{
-    const double normal = sim->scene->sites[s].length * force_of(&sim->now, s);
-    const double ratio = f->normal_force > 0.0 ? normal / f->normal_force : 0.0;
-    f->normal_force = normal;
-    f->friction[0] *= ratio;
-    f->friction[1] *= ratio;
-    f->along *= ratio;
-}
-
 /* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the node. */
 static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
 {
@@ -81,8 +71,9 @@ static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
     double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
-    if (dmb_scene_has_touch(sim->scene)) take_weighted(sim, s, &f);
+    dmb_site_take_weighted(sim, &sim->now, s, &f);
     sim->site_return[s] = fmax(-f.rate, 0.0);
+    *sim->released_power += part * (f.friction[0] * f.slip[0] + f.friction[1] * f.slip[1]);
     dmb_vec3_cross(f.tangent, f.normal, b);
     dmb_vec3_scale(-f.normal_force, f.normal, force);
     dmb_vec3_axpy(f.friction[0], f.tangent, force);
@@ -101,6 +92,7 @@ static void gather_released(dmb_sim *sim, double *rows, double *part)
 {
     memset(rows, 0, sim->scene->row_count * sizeof(double));
     memset(part, 0, sim->scene->node_count * sizeof(double));
+    *sim->released_power = 0.0;
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
         double *of_node = part + sim->scene->sites[s].node;
         if (!opens(sim, s)) continue;

@@ -12,6 +12,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 

@@ -80,6 +80,10 @@ typedef struct dmb_site_force {
 /* Force of one site in a finished configuration (bristles as they are). */
 void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
                        dmb_site_force *out);
+/* Its forces as the step had them that ends in the configuration, which in steps about touch are not those of the law.
+ */
+void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t site,
+                            dmb_site_force *force);
 /* The same for a PATH site; normal_force by Johancsik. */
 void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
                             dmb_site_force *out);

@@ -213,6 +213,9 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     dmb_apply_wrench(sim, node, wrench);
     evaluation->power[DMB_POWER_LOADS] -= load * m.speed;
     evaluation->power[DMB_POWER_ROCK] -= r.weight_on_bit * m.speed + r.torque_on_bit * m.spin;
+    const double force[4] = {-r.weight_on_bit, -r.torque_on_bit, 0.0, 0.0}, speed[4] = {m.speed, m.spin, 0.0, 0.0};
+    memcpy(sim->trial.bit_force + 4 * (size_t)k, force, sizeof force);
+    memcpy(sim->trial.bit_speed + 4 * (size_t)k, speed, sizeof speed);
     if (!evaluation->tangent) return;
     dmb_vec3_scale(axial, m.axis, wrench);
     add_tangent(evaluation, k, &m, &r, wrench);
@@ -271,6 +274,8 @@ static void gather_side(dmb_evaluation *evaluation, uint32_t k)
         0.0, side.force[0], side.force[1], 0.0, -bit->arm * side.force[1], bit->arm * side.force[0]};
     dmb_apply_wrench(sim, bit->node, wrench);
     evaluation->power[DMB_POWER_ROCK] += side.force[0] * v[0] + side.force[1] * v[1];
+    memcpy(sim->trial.bit_force + 4 * (size_t)k + 2, side.force, 2 * sizeof(double));
+    memcpy(sim->trial.bit_speed + 4 * (size_t)k + 2, v, sizeof v);
     count_side_rounding(evaluation, k, &side);
     if (evaluation->tangent) add_side_tangent(evaluation, k, &side);
 }

@@ -46,31 +46,7 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
 void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                          double load[2]);
 
-/* ---- Ledger ------------------------------------------------------------------------------------------------------ */
-
-/* Energy ledger: work of each class of force by the trapezoidal rule over accepted steps. At every accepted instant the
- * powers of all forces sum to zero (residual times velocity), so what is missing between their integrals and the
- * energies is what the time integration took out; nothing is set by closing the balance. */
-
 /* [J] kinetic energy and all that is stored. */
 double dmb_energy_stored(const dmb_sim *sim, const dmb_configuration *configuration);
-/* [J] what went in less what was spent and what is stored, of which there is `stored` now; 0 in continuous time. */
-double dmb_ledger_balance(const dmb_ledger *ledger, double stored);
-/* [J] the same at an earlier time, from the balances that are kept; 0 before the first of them. */
-double dmb_ledger_balance_before(const dmb_ledger *ledger, double time);
-/* Sets the ledger to zero at the present state (now) with the powers of the evaluation. */
-void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
-/* The powers of the evaluation hold from now on; nothing is added. */
-void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
-/* Losses of an impact between two steps [J]: kinetic energy of bodies, and stored energy that is let go. */
-void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
-/* [J] that the wall stored where cutters have widened the hole: it goes with the rock. */
-void dmb_ledger_take_rock(dmb_sim *sim, double stored);
-/* The caller has changed what stores energy, and the poses store this much more [J]: work of loads. */
-void dmb_ledger_take_change(dmb_sim *sim, double stored);
-/* [J] of the powers in `kind` that the trapezoidal rule has beyond what the step did: work of potential forces. */
-void dmb_ledger_move(dmb_sim *sim, int kind, double excess);
-/* Adds the step from now to trial; before the swap. */
-void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
 
 #endif

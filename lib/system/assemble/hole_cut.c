@@ -4,6 +4,7 @@
 
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/ledger.h"
 
 /* [m] measured depth of a cutter's face when it has cut up to `bottom`, which it leads by the intrusion depth. */
 static double face_at(const dmb_scene *scene, uint32_t k, double bottom)

@@ -325,6 +325,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         evaluation->power[DMB_POWER_DAMPING] += law.damper * f->speed[i];
         evaluation->power[DMB_POWER_FRICTION] += law.friction * f->speed[i];
         evaluation->power[DMB_POWER_IMPACT] += law.stop_damper * f->speed[i];
+        evaluation->sim->trial.law_speed[joint->law + (uint32_t)i] = f->speed[i];
     }
 }
 

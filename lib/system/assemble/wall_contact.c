@@ -224,6 +224,18 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     evaluation->power[DMB_POWER_FRICTION] = job.friction;
 }
 
+void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
+{
+    if (!dmb_scene_has_touch(sim->scene)) return;
+    const double whole = c->site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_FORCE];
+    const double normal = sim->scene->sites[s].length * fmax(whole, 0.0);
+    const double ratio = f->normal_force > 0.0 ? normal / f->normal_force : 0.0;
+    f->normal_force = normal;
+    f->friction[0] *= ratio;
+    f->friction[1] *= ratio;
+    f->along *= ratio;
+}
+
 void dmb_contacts_accept(dmb_evaluation *evaluation)
 {
     own_laws laws;

@@ -105,8 +105,10 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     const double N =
         side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
     memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
+    memset(sim->trial.path_friction + 2 * p, 0, 2 * sizeof(double));
     if (!evaluation->dynamic && !evaluation->slipping) return;
     friction(evaluation, p, N, v, F, dv, dN);
+    if (evaluation->dynamic) memcpy(sim->trial.path_friction + 2 * p, F, sizeof F);
     const double wrench[6] = {F[0], 0.0, 0.0, site->radius * F[1], 0.0, 0.0};
     dmb_apply_wrench(sim, site->node, wrench);
     evaluation->power[DMB_POWER_FRICTION] += evaluation->dynamic ? F[0] * v[0] + F[1] * v[1] : 0.0;
