@@ -25,6 +25,7 @@ EXAMPLES = """examples:
   drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
   drillmbd torque-drag rig.toml --units field -o out   in ft, lbf, ft-lbf, psi; or --units mine; or [output] units
   drillmbd torque-drag rig.toml --measured log.csv -o out   the friction that explains measured hook loads
+  drillmbd rod-by-rod rig.toml --make-up "2 kN m" -o out   thrust, torque and make-up torque for each number of rods
   drillmbd speeds rig.toml                    rotary speeds to avoid, by [speeds]
   drillmbd buckle rig.toml                    critical factors by [buckling], thrusts that buckle the string
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
@@ -88,6 +89,7 @@ def parser() -> argparse.ArgumentParser:
                        ("response", "computes the linear response to excitations about the static equilibrium"),
                        ("speeds", "computes rotary speeds to avoid"), ("buckle", "computes critical factors, and thrusts at which the string buckles"),
                        ("torque-drag", "computes hook load and torque by depth as a soft string, reach of the rig, friction from measurements"),
+                       ("rod-by-rod", "computes thrust, pull, torque and make-up torque for each number of rods in the hole"),
                        ("stuck", "computes pull, push and torque that arrive at a stuck bit, and the free point by stretch"),
                        ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
@@ -107,12 +109,16 @@ def parser() -> argparse.ArgumentParser:
         if name == "torque-drag":
             command.add_argument("--depths", metavar="N|LIST", default="20", help='number of depths up to the described one '
                                  '(default %(default)s), or depths as "100 m,200 m"')
+        if name == "rod-by-rod":
+            command.add_argument("--make-up", metavar="TORQUE", help='of the joints of the rods, as "2 kN m"; left out: not assessed')
+        if name in ("torque-drag", "rod-by-rod"):
             command.add_argument("--weight-on-bit", metavar="FORCE", help='while drilling and sliding, as "20 kN"; left out: that of the scene')
             command.add_argument("--torque-on-bit", metavar="TORQUE", help='while drilling, as "500 N m"; left out: estimated from the load')
-            command.add_argument("--frictions", metavar="LIST", help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
-            command.add_argument("--measured", metavar="FILE", help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
             command.add_argument("--block-weight", metavar="FORCE", help='of block and top drive, added to the hook loads')
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
+        if name == "torque-drag":
+            command.add_argument("--frictions", metavar="LIST", help="coefficients of the broomstick picture, as 0.2,0.3,0.4")
+            command.add_argument("--measured", metavar="FILE", help="table of depth, pick_up, slack_off, rotate, torque: drawn, friction fitted")
         if name == "report":
             command.add_argument("--language", choices=LANGUAGES, default="en", help="of the page and of the lines on the terminal: English "
                                  "(default) or Chinese; summary.json stays English")
@@ -126,7 +132,7 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "stuck", "report"])
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")

@@ -302,6 +302,27 @@ def speeds_in_time(rows: Sequence[Any], bands: Sequence[Any], limits: tuple[floa
     return figure
 
 
+def rods(rows: Sequence[Any], limits: dict[str, float], title: str = "", units: Units = SI) -> Any:
+    """Thrust, pull and torque by the number of rods in the hole, with the limits of the rig and of the joints. rows: of drillmbd.rod_by_rod."""
+    figure, grid = _axes(3, 1, (11, 8), sharex=True)
+    numbers = [row.rods for row in rows]
+    for (axes,), (key, word, unit) in zip(grid, (("push", "thrust", "N"), ("pull", "pull", "N"), ("torque", "torque", "N m"))):
+        values = [row.loads[key].value for row in rows]
+        lines = {name: limits[one] for one, name in ((key, "limit of the rig"), *((("make_up", "make-up torque"),) if key == "torque" else ())) if one in limits}
+        factor, head = units.axis(unit, values, lines.values())
+        axes.plot(numbers, [factor * one if math.isfinite(one) else math.nan for one in values], marker=".", label=word, **SINGLE)
+        for number, (name, limit) in enumerate(lines.items()):
+            axes.axhline(factor * limit, **_style(2 + number), linewidth=1.0, label=name)
+        locked = [number for number, one in zip(numbers, values) if math.isinf(one)]
+        if locked:
+            axes.axvspan(locked[0], numbers[-1], color="#D55E00", alpha=0.2, label="locks up")
+        axes.set_ylabel(f"{word} [{head}]")
+        _legend(axes)
+    grid[-1][0].set_xlabel("rods in the hole")
+    figure.suptitle(title)
+    return figure
+
+
 def buckling(shape: Any, along: Any, factor: float, title: str = "", units: Units = SI) -> Any:
     """A buckling shape, shape (n, 6), over the string [m]."""
     figure, ((axes,),) = _axes(1, 1, (11, 4))

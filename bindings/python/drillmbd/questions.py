@@ -312,6 +312,12 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
     return answer(scene, output, options)
 
 
+def rod_by_rod(scene: Scene, output: Output, options: Any) -> int:
+    """Loads of the rig for each number of rods."""
+    from .rod_by_rod import rod_by_rod as answer
+    return answer(scene, output, options)
+
+
 QUESTIONS: dict[str, Callable[[Scene, Output, Any], int]] = {
     "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
-    "torque-drag": torque_drag, "buckle": buckle, "stuck": stuck}
+    "torque-drag": torque_drag, "buckle": buckle, "stuck": stuck, "rod-by-rod": rod_by_rod}

@@ -49,7 +49,7 @@ class Curves:
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """All results of the soft string by depth and operation."""
-    settings = _settings(scene, options, output.units)
+    settings = settings_of(scene, options, output.units)
     output.summary["block_weight_N"] = settings.block_weight
     output.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
                                            "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
@@ -78,7 +78,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
 
 
 # ---- Settings --------------------------------------------------------------------------------------------------------
-def _settings(scene: Scene, options: Any, units: Units) -> Settings:
+def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
     plan, notes = operating(scene), []
     if options.weight_on_bit is not None:
         plan = with_weight(scene, plan, quantity(options.weight_on_bit, "N", "--weight-on-bit"))
@@ -101,7 +101,7 @@ def _settings(scene: Scene, options: Any, units: Units) -> Settings:
     drill = operations[enums.OPERATION_DRILL]
     notes.append(f"drilling at {units.text(drill.rotary_speed / RPM, 'rpm')} and {units.text(1e3 * drill.axial_speed, 'mm/s')}"
                  + ("" if plan.rotation and plan.feed else " (usual values where the scene gives none)"))
-    return Settings(plan, operations, block, friction_option(options), _frictions(options.frictions), ["; ".join(notes)])
+    return Settings(plan, operations, block, friction_option(options), _frictions(getattr(options, "frictions", None)), ["; ".join(notes)])
 
 
 def _frictions(text: str | None) -> list[float]:

@@ -1,0 +1,118 @@
+"""Tests of rod-by-rod: each number of rods against a scene that has only these, limits, lock-up, units."""
+import csv
+import math
+import unittest
+
+from shared_tests import FolderTest, needs
+
+needs("numpy")
+
+from drillmbd import rig_limits, rod_by_rod, scene as scenes  # noqa: E402
+
+SCENE = """title = "curved hole"
+[hole]
+diameter = "94 mm"
+survey = [["0 m", "80 deg", "0 deg"], ["20 m", "85 deg", "3 deg"], ["60 m", "95 deg", "0 deg"]]
+mu_static = 0.30
+mu_dynamic = 0.30
+[[programme]]
+name = "turning"
+term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+[[string]]
+name = "main"
+start_depth = "2 m"
+[[string.pipes]]
+count = 8
+length = "1.5 m"
+outer_diameter = "73 mm"
+inner_diameter = "59 mm"
+[[string.pipes]]
+count = 2
+length = "3 m"
+outer_diameter = "80 mm"
+inner_diameter = "40 mm"
+[[bit]]
+name = "bit"
+mass = "6 kg"
+diameter = "94 mm"
+load = "5 kN"
+[[drive]]
+name = "feed"
+programme = "10 mm/s"
+[[drive]]
+name = "head"
+component = "rx"
+programme = "turning"
+"""
+
+
+class RodsTest(FolderTest):
+    """The command."""
+    SCENE = SCENE
+
+    def test_each_number_of_rods(self):
+        """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they reach."""
+        out, summary = self.answer("rod-by-rod")
+        rows = summary["rod_by_rod"]["main"]["rods"]
+        self.assertEqual([row["depth_m"] for row in rows], [5.0, 8.0, 9.5, 11.0, 12.5, 14.0, 15.5, 17.0, 18.5, 20.0])
+        for rods in (1, 2, 5, 10):
+            text = SCENE.replace("count = 2", f"count = {min(rods, 2)}")
+            text = text.replace("count = 8", f"count = {rods - 2}") if rods > 2 else text.replace(
+                text[text.index("[[string.pipes]]\ncount = 8"):text.index("[[string.pipes]]\ncount = " + str(min(rods, 2)))], "")
+            with scenes.load(self.write("few.toml", text)).new_sim() as sim:
+                from drillmbd.operating import operating, operations_of
+                found = sim.torque_drag(operations_of(operating(scenes.load(self.folder / "few.toml")))).rows[0]
+            row = rows[rods - 1]
+            self.assertAlmostEqual(found[0].depth, row["depth_m"], 9)
+            self.assertAlmostEqual(max(one.torque for one in found), row["torque_N_m"], 6)
+            self.assertAlmostEqual(max(-one.hook_load for one in found), row["push_N"], 6)
+            self.assertAlmostEqual(max(max(one.hook_load for one in found), 0.0), row["pull_N"], 6)
+            self.assertEqual(row["make_up_above_N_m"], row["torque_N_m"])
+        self.assertIn("number of rods within limits: not assessed", out)
+        self.assertIn("make-up torque: not assessed, because none is given", out)
+        self.assertIn("rods_main.png", summary["files"])
+
+    def test_limits(self):
+        _, free = self.answer("rod-by-rod")
+        torque = [row["torque_N_m"] for row in free["rod_by_rod"]["main"]["rods"]]
+        between = 0.5 * (torque[5] + torque[6])
+        out, summary = self.answer("rod-by-rod", "--make-up", f"{between!r} N m")
+        found = summary["rod_by_rod"]["main"]
+        self.assertEqual(found["rods_within_limits"], 6)
+        self.assertEqual([row["verdict"] for row in found["rods"]][6:], ["OVER"] * 4)
+        self.assertIn("6 rods stay within the given limits, bit at 14 m; rod 7 exceeds make-up torque", out)
+        self.scene = self.write("limits.toml", SCENE + '[limits]\ntorque = "100 kN m"\npush = "100 kN"\npull = "100 kN"\n')
+        out, summary = self.answer("rod-by-rod", "--make-up", "100 kN m")
+        self.assertIn("all 10 rods stay within the given limits", out)
+        self.assertNotIn("torque: not assessed", out)
+        self.assertIn("must be > 0", self.ask("rod-by-rod", self.scene, "--make-up", "0 N m", status=2))
+        self.assertIn("--make-up", self.ask("rod-by-rod", self.scene, "--make-up", "2 kN", status=2))
+
+    def test_lock_up(self):
+        """A string that locks up is over any limit, and without one too."""
+        loads = {key: rig_limits.Load(math.inf if key == "push" else 0.0, "slide") for key, _, _ in rig_limits.QUANTITIES}
+        free = {key: rig_limits.Load(1.0, "drill") for key, _, _ in rig_limits.QUANTITIES}
+        rows = [rod_by_rod.Row(1, 3.0, free), rod_by_rod.Row(2, 6.0, loads)]
+        for limits in ({}, {"torque": 5.0}):
+            self.assertEqual(rows[1].verdict(limits), "OVER")
+            self.assertEqual(rod_by_rod.within(rows, limits), 1)
+            self.assertIn("with rod 2 the string locks up (slide)", rod_by_rod._reach(rows, limits, rod_by_rod.Units()))
+
+    def test_units(self):
+        out, summary = self.answer("rod-by-rod", "--units", "field")
+        self.assertEqual(summary["units"], "field")
+        with open(self.folder / "out" / "rods_main.csv", encoding="utf-8") as file:
+            table = list(csv.reader(file))
+        self.assertEqual(table[0][:3], ["rods", "depth of the bit [ft]", "thrust [lbf]"])
+        self.assertAlmostEqual(float(table[1][1]), 5.0 / 0.3048)
+        self.assertIn("ft-lbf", out)
+
+    def test_sweep(self):
+        self.ask("sweep", self.scene, "rod-by-rod", "--vary", "hole.mu_dynamic=0.2,0.3", "-o", self.folder / "sweep", "-q")
+        with open(self.folder / "sweep" / "sweep.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["status"] for row in rows], ["ok", "ok"])
+
+
+if __name__ == "__main__":
+    unittest.main()
