@@ -304,6 +304,15 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(made.rows[0][1:3], ("100 kN", tiles["Thrust at the rig"].value))
         self.assertEqual(made.rows[4][1], "2 kN: more is not assessed")
 
+    def test_stress_of_the_estimated_torque(self):
+        """Its shear stress is added to those of stiff string and run, by hand: pipes of 73 x 61 mm."""
+        made, tiles = self.study(SCENE)
+        bare, _ = self.study(SCENE, _bit_torque=lambda: None)
+        outer, inner = 0.073, 0.061
+        shear = made.plan.torque_on_bit * 0.5 * outer / (math.pi / 32.0 * (outer ** 4 - inner ** 4))
+        self.assertAlmostEqual(made.demands["yield_stress"].value - bare.demands["yield_stress"].value, math.sqrt(3.0) * shear, 3)
+        self.assertIn("by the estimated torque of the bit", tiles["Von Mises stress"].text)
+
     def test_buckling_in_the_hole(self):
         self.assertEqual(self.study(SCENE.replace('"2 kN"', '"900 kN"'))[1]["Buckling in the hole"].verdict, "OVER")
         self.assertEqual(self.study(SCENE.replace('load = "2 kN"\n', ''))[1]["Buckling in the hole"].verdict, "NOT ASSESSED")

@@ -14,7 +14,7 @@ from .answers import Output, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .language import Foreign, Phrase, joined, phrase
-from .operating import Operating, has_rock_law, operating, operations_of
+from .operating import Operating, has_rock_law, operating, operations_of, polar_moduli
 from .plots import COLOURS
 from .profile import Profile, values_of
 from .questions import columns_of
@@ -46,6 +46,7 @@ class Study:
         self.demands = {key: Demand(title, unit, self.limits.get(key), units=self.units) for key, title, unit in (
             ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"), ("torque", phrase("Torque at the rig"), "N m"),
             ("yield_stress", phrase("Von Mises stress"), "Pa"))}
+        self.soft: list[str] = []                    # analyses that have the torque of the bit
         self.stresses: list[tuple[float, str]] = []  # [Pa] of moments of the run
         self.tiles: list[Tile] = []
         self.figures: list[Figure] = []
@@ -66,6 +67,7 @@ class Study:
         self._attempt(phrase("soft string"), everything[:3], self._torque_drag)
         self._attempt(phrase("stiff string"), everything, self._operations)
         self._attempt(phrase("run in time"), everything, self._run)
+        self._bit_torque()
         self._missing_loads()
         self._other_strings()
         self.tiles[:0] = [demand.tile() for demand in self.demands.values()]
@@ -80,6 +82,18 @@ class Study:
             self.tiles += self.probability.tiles(self.units)
             self.figures += self.probability.figures()
         self.output.summary["verdicts"] = [vars(tile) for tile in self.tiles]
+
+    def _bit_torque(self) -> None:
+        """Stiff string and run lack a torque of the bit that is estimated. The von Mises stress is a norm of the stresses, so that theirs and
+        that of the torque, sqrt(3) T r/J in the weakest pipe, bound the stress of both together."""
+        if not self.plan.estimated:
+            return
+        more = math.sqrt(3.0) * self.plan.torque_on_bit / min(polar_moduli(self.scene), default=math.inf)
+        demand = self.demands["yield_stress"]
+        stress = shown(more, "Pa", self.units)
+        demand.found = [(value, source) if source in self.soft else
+                        (value + more, phrase("{source}, and {stress} by the estimated torque of the bit", source=source, stress=stress))
+                        for value, source in demand.found]
 
     def _other_strings(self) -> None:
         """Analyses of one string see the first one only."""
@@ -197,6 +211,7 @@ class Study:
             self.demands["pull" if row.hook_load > 0.0 else "push"].add(abs(row.hook_load), source)
             self.demands["torque"].add(row.torque, source)
             self.demands["yield_stress"].add(strength * row.yield_share, source)
+            self.soft.append(source)
 
     def _yield_strength(self) -> float:
         """[Pa] of all pipes; NaN where they differ or one has none: then no stress follows from the share."""
