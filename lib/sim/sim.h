@@ -25,7 +25,7 @@
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
        by system/constrain/cluster_projection, system/constrain/cluster_assembly; at the start and at jumps by         \
-       system/start, system/jump, system/bounce_end: */                                                                \
+       system/constrain/cluster_placement, system/start, system/jump, system/bounce_end: */                            \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
@@ -152,7 +152,7 @@
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
                                system/constrain/cluster_projection, at the start system/constrain/cluster_assembly,    \
-                               prescribed system/assemble/drives; of statics                                           \
+                               system/constrain/cluster_placement, prescribed system/assemble/drives; of statics        \
                                analysis/static/static_move */                                                         \
     X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of   \
                                                     each piece: system/assemble/evaluation */                         \
