@@ -172,9 +172,8 @@ static void refit_rotor(const dmb_sim *sim, const dmb_generalized_alpha *c, doub
     const double ratio = dmb_step_motion_ratio(sim, h), kept = 1.0 - sim->released_part[node];
     const double *from = sim->rotor_step[rotor].start;
     dmb_step_motion to = dmb_step_motion_of(sim);
-    double gone[6];
+    const double *gone = sim->correction + row; /* in axes of the end of the step already */
     to.velocity += row, to.acceleration += row, to.pseudo_acceleration += row;
-    dmb_rotor_carry(sim, rotor, sim->correction + row, gone);
     for (uint32_t k = 0; k < 6; k++) {
         const double dv = from[6 + k] - gone[k], a0 = dv + kept * ratio * (from[12 + k] - from[6 + k]);
         const start s = {sim->increment[row + k], from[k], dv, a0};

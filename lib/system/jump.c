@@ -14,6 +14,7 @@
 #include "system/assemble/energy.h"
 #include "system/assemble/ledger.h"
 #include "system/constrain/constrain.h"
+#include "system/constrain/rotor.h"
 #include "system/solve/solve.h"
 
 /* ---- Contacts that open ------------------------------------------------------------------------------------------ */
@@ -101,6 +102,7 @@ static void gather_released(dmb_sim *sim, double *rows, double *part)
         if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], open);
         subtract_force(sim, s, open, rows);
     }
+    dmb_rotors_carry_wrenches(sim, rows);
 }
 
 /* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would

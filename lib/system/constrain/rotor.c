@@ -37,12 +37,27 @@ void dmb_rotor_enter(const dmb_sim *sim, uint32_t rotor, const double v[6], doub
     for (int i = 0; i < 6; i++) acceleration[i] += turning[i];
 }
 
-void dmb_rotor_carry(const dmb_sim *sim, uint32_t rotor, const double v[6], double out[6])
+/* A speed or acceleration at the start of the step, in the axes that P(h) leads to; out may be v. */
+static void carry(const dmb_sim *sim, uint32_t rotor, const double v[6], double out[6])
 {
     const dmb_rotor_step *step = sim->rotor_step + rotor;
     double copy[6];
     dmb_vec6_copy(v, copy);
     dmb_adjoint_inverse_apply(step->R, step->x, copy, out);
+}
+
+/* (f; m) <- Ad(P)^T (f; m) = (R^T f; R^T (m - x x f)) */
+void dmb_rotors_carry_wrenches(const dmb_sim *sim, double *rows)
+{
+    for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {
+        const dmb_rotor_step *step = sim->rotor_step + i;
+        double *f = rows + row_of(sim, i), m[3];
+        dmb_vec3_cross(step->x, f, m);
+        dmb_vec3_sub(f + 3, m, m);
+        dmb_mat3_tvec(step->R, m, f + 3);
+        dmb_vec3_copy(f, m);
+        dmb_mat3_tvec(step->R, m, f);
+    }
 }
 
 void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], double acceleration[6],
@@ -85,7 +100,7 @@ static void begin(const dmb_sim *sim, uint32_t rotor, double h)
     dmb_rotor_enter(sim, rotor, v, step->start + 6);
     dmb_rotor_enter(sim, rotor, v, step->start + 12);
     dmb_se3_exp(travel, NULL, step->R, step->x);
-    for (int k = 0; k < 18; k += 6) dmb_rotor_carry(sim, rotor, step->start + k, step->start + k);
+    for (int k = 0; k < 18; k += 6) carry(sim, rotor, step->start + k, step->start + k);
     dmb_vec3_copy(sim->now.displacement + 3 * (size_t)of->node, step->displacement);
     dmb_quat_copy(sim->now.quaternion + 4 * (size_t)of->node, step->quaternion);
     dmb_se3_advance(step->quaternion, step->displacement, travel);

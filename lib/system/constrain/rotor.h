@@ -42,8 +42,8 @@ uint32_t dmb_rotor_on(const dmb_scene *scene, uint32_t node);
 void dmb_rotor_turning(const dmb_sim *sim, uint32_t rotor, const double dv[6], double change[6]);
 /* V' and A in the place of v' and a: adds ad(O) v. */
 void dmb_rotor_enter(const dmb_sim *sim, uint32_t rotor, const double v[6], double acceleration[6]);
-/* An acceleration at the start of the step, in the axes that P(h) leads to; out may be v. */
-void dmb_rotor_carry(const dmb_sim *sim, uint32_t rotor, const double v[6], double out[6]);
+/* Wrenches on rotors at the start of the step, in the rows of their nodes, in the axes that P(h) leads to. */
+void dmb_rotors_carry_wrenches(const dmb_sim *sim, double *rows);
 /* The motion of V, V', A becomes that of v, v', a. */
 void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], double acceleration[6],
                      double pseudo_acceleration[6]);
