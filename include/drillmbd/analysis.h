@@ -166,7 +166,8 @@ typedef struct dmb_buckling_info {
     double
         flutter_root[2]; /* [1/s] its root there, real and imaginary part, the latter 0 without swinging, shape (2) */
     double dip; /* [-] depth of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before;
-                   1 of a perfect string; 0: the end is another one */
+                   1 of a perfect string; below 0.92 the string bends off gradually, and with another mesh another
+                   minimum may be the first that counts; 0: the end is another one */
     double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of
                                 all strings, for comparison with the closed form; NaN without a hole or a factor */
 } dmb_buckling_info;

@@ -906,7 +906,7 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two at once may have come of a complex pair, without the determinant having passed 0); -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
+        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative ones (two at once may have come of a complex pair, without the determinant having passed 0): all up to 400 coordinates, else all within reach of the symmetric part, or if they are some, those among the 108 nearest 0; -1: none was found there, and others further out could not be excluded. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
         "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
@@ -964,7 +964,7 @@ class BucklingInfo(Sized):
         "reached": ("unit of the factor", "last equilibrium on the way before the end"),
         "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
         "flutter_root": ("1/s", "its root there, real and imaginary part, the latter 0 without swinging, shape (2)"),
-        "dip": ("-", "depth of BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before; 1 of a perfect string; 0: the end is another one"),
+        "dip": ("-", "depth of BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before; 1 of a perfect string; below 0.92 the string bends off gradually, and with another mesh another minimum may be the first that counts; 0: the end is another one"),
         "sinusoidal_share": ("-", "at the lowest factor that was followed to: largest PROFILE_SINUSOIDAL_SHARE of all strings, for comparison with the closed form; NaN without a hole or a factor"),
     }
 
