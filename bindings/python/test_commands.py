@@ -99,6 +99,53 @@ class ShippedTest(FolderTest):
         self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
 
 
+class NonsenseTest(FolderTest):
+    """Nonsense is refused by each command with a line that names the fault; nothing is overwritten."""
+    SCENE = SCENE + HEAVY[HEAVY.index("[variability]"):]
+
+    def test_options(self):
+        body = self.write("body.toml", '[[body]]\nmass = "3 kg"\n[run]\nend = "1 ms"\nstep = "1 ms"\n')
+        for told, *words in (("more than 1e+12: give a longer step", "run", "--step", "1e-300 s"), ("rows of 2 numbers", "run", "--until", "1e7 s"),
+                             ("must be a length", "torque-drag", "--depths", "\u00b2"), ("must be >= 0", "torque-drag", "--block-weight", "-1 kN"),
+                             ("must be > 0", "stuck", "--pull", "-1 kN"), ("must be > 0", "stuck", "--torque", "0 N m"),
+                             ("at most 1e+12", "stuck", "--push", "1e300 N"), ("2^63 - 1", "probability", "--seed", "9" * 25),
+                             ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:99999999999"),
+                             ("2 .. 100000", "sweep", "check", "--vary", "hole.diameter=1 m:2 m:1e3"), ("is empty", "check", "-o", "")):
+            with self.subTest(words=words):
+                self.assertIn(told, self.ask(words[0], self.scene, *words[1:], status=2))
+        for command in ("torque-drag", "stuck"):
+            self.assertIn("is about a string, the scene has none", self.ask(command, body, status=2))
+        self.assertNotIn("no rotation", self.ask("check", body))
+        self.assertIn("is empty", self.ask("check", "", status=2))
+
+    def test_unit_replaces_no_device(self):
+        """A target that is no file stays what it is."""
+        import os
+        from drillmbd import fmu
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        with self.assertRaisesRegex(fmu.CannotExport, "folder or a device"):
+            fmu._write(pipe, {"a": b"b"})
+        self.assertTrue(pipe.is_fifo())
+
+    def test_scenes(self):
+        """Numbers without end, devices as files, and what varies along a hole that is not there."""
+        for told, text in (("must be finite", f"[hole]\nmu_dynamic = {'1' * 400}\n"), ("2: the file: has a number of too many digits", f"[hole]\nmu_dynamic = {'1' * 5000}\n"),
+                           ("is a folder or a device", '[hole]\nsurvey_file = "/dev/zero"\n'), ("must be below", 'catalogue = "/dev/zero"\n'),
+                           ("the scene has no [hole]", '[[variability.field]]\nname = "f"\nkeys = ["hole.mu_static"]\nrelative = true\ndistribution = "lognormal"\n'
+                            'mean = 1\ndeviation = "40 %"\ncorrelation_length = "10 m"\nspacing = "5 m"\nto = "300 m"\n')):
+            with self.subTest(text=text[:60]):
+                self.assertIn(told, self.ask("check", self.write("bad.toml", text), status=2))
+
+    def test_missing_tables(self):
+        """The least lines are enough."""
+        bare = SCENE[:SCENE.index("[response]")]
+        for command, more in (("response", ()), ("speeds", ()), ("buckle", ()), ("probability", ("--samples", "1", "--engine", "serial"))):
+            with self.subTest(command=command):
+                lines = self.ask(command, self.write("bare.toml", bare), *more, status=2).split("the least is\n")[1]
+                self.ask(command, self.write("more.toml", bare + lines), *more)
+
+
 class PictureTest(unittest.TestCase):
     """Axes and curves that show what there is, and no rounding."""
 

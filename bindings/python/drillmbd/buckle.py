@@ -10,7 +10,7 @@ from . import enums
 from ._structs import TorqueDragRow
 from .analysis import Buckling, usual_operation
 from .answers import Output, file_name
-from .errors import Error, Unanswered, status_text
+from .errors import Error, Unanswered, Usage, status_text
 from .questions import along_pipes, stations_of, to_rest
 from .scene import Scene
 from .sim import Sim
@@ -25,6 +25,8 @@ ENDS = {int(value): value.name.lower() for value in enums.BucklingEnd}
 
 def buckle(scene: Scene, output: Output, options: Any) -> int:
     """Both; status 1 if neither is found."""
+    if not scene.pipes:
+        raise Usage("buckle is about a string, the scene has none")
     reasons: list[str] = []
     with scene.new_sim() as sim:
         soft = [_thrusts(scene, sim, output, name) for name in scene.pipes]

@@ -249,6 +249,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
     options = asked.parse_args(words[:cut])
+    if "" in (getattr(options, "output", None), getattr(options, "scene", None)):
+        return _tell(2, "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave --output out")
     options.more = words[cut + 1:]  # options of the question that a sweep asks
     try:
         from ._progress import INTERRUPTS

@@ -524,6 +524,8 @@ def _write(path: pathlib.Path, files: dict[str, bytes]) -> None:
             entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, data)
+    if path.exists() and not path.is_file():  # a device would be replaced
+        raise CannotExport(f"unit refused: {path} is a folder or a device, must be a file")
     part = path.with_name(path.name + ".part")
     try:
         part.write_bytes(memory.getvalue())

@@ -19,6 +19,7 @@ from .sim import Sim
 from .unit_systems import Units
 
 MOST_ROWS = 50_000_000
+MOST_STEPS = 1e12
 
 
 def check(scene: Scene, output: Output, options: Any) -> int:
@@ -128,9 +129,11 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         if scene.run.get("static", 0):
             to_rest(scene, sim, output)
         interval = scene.output.get("interval", 0.0)
+        if step and end / step > MOST_STEPS:
+            raise Usage(f"{end / step:.3g} steps of {step:g} s to {end:g} s are more than {MOST_STEPS:g}: give a longer step or an earlier end")
         rows = int(end / interval + 2) if interval else int(end / step + 3) if step else 1_000_000
         if rows * (1 + len(scene.channels)) > MOST_ROWS:
-            raise Usage(f"{rows} rows of {1 + len(scene.channels)} numbers are more than {MOST_ROWS}: "
+            raise Usage(f"{float(rows):.4g} rows of {1 + len(scene.channels)} numbers are more than {MOST_ROWS}: "
                         "give a longer [output] interval")
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], rows, interval
                                 ) if scene.channels else None

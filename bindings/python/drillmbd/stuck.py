@@ -15,6 +15,9 @@ from .scene import Scene
 from .sim import Sim
 
 
+MOST = 1e12  #: [N, N m] a limit that no rig has
+
+
 def _solve(of: Callable[[float], float], low: float, high: float) -> float:
     """The zero of a rising function, by bisection."""
     for _ in range(80):
@@ -70,6 +73,11 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
     limits = {name: quantity(text, unit, f"--{name}") if text is not None else scene.limits.get(name)
               for name, text, unit in (("pull", options.pull, "N"), ("push", options.push, "N"),
                                        ("torque", options.torque, "N*m"))}
+    for name, limit in limits.items():
+        if limit is not None and not 0.0 < limit <= MOST:
+            raise Usage(f"--{name} {getattr(options, name)}: must be > 0 and at most {MOST:g} in SI units")
+    if not scene.pipes:
+        raise Usage("stuck is about a string, the scene has none")
     if (options.overpull is None) != (options.stretch is None):
         raise Usage("--overpull and --stretch belong together")
     more: dict[str, Any] = friction_option(options)

@@ -45,9 +45,9 @@ def _between(text: str) -> list[Any]:
     first, last = _QUANTITY.match(low), _QUANTITY.match(high)
     if first is None or last is None or first.group(2) != last.group(2):
         raise ValueError(f"{text!r}: write LOW:HIGH:COUNT with the same unit twice, as 60 mm:80 mm:5")
+    if not re.fullmatch(r"\s*[0-9]{1,9}\s*", count) or not 2 <= int(count) <= MOST_CASES:
+        raise ValueError(f"{text!r}: COUNT = {count.strip()}, must be a whole number 2 .. {MOST_CASES}")
     n = int(count)
-    if n < 2:
-        raise ValueError(f"{text!r}: COUNT = {n}, must be >= 2")
     a, b = float(first.group(1)), float(last.group(1))
     numbers = [float(f"{a + (b - a) * i / (n - 1):.12g}") for i in range(n)]  # 0.35, not 0.35000000000000003
     return [f"{number!r} {first.group(2)}" if first.group(2) else number for number in numbers]

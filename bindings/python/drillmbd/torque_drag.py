@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from ctypes import c_double
 from dataclasses import dataclass, field
 from typing import Any
@@ -49,6 +50,8 @@ class Curves:
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """All results of the soft string by depth and operation."""
+    if not scene.pipes:
+        raise Usage("torque-drag is about a string, the scene has none")
     settings = settings_of(scene, options, output.units)
     output.summary["block_weight_N"] = settings.block_weight
     output.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
@@ -95,6 +98,8 @@ def settings_of(scene: Scene, options: Any, units: Units) -> Settings:
     elif plan.weight_on_bit:
         notes.append(f"torque on bit 0 {units.unit('N m')}: it is not estimated for a bit with a rock law or without a diameter; give --torque-on-bit")
     block = quantity(options.block_weight, "N", "--block-weight") if options.block_weight is not None else 0.0
+    if block < 0.0:
+        raise Usage(f"--block-weight {options.block_weight}: must be >= 0")
     if block:
         notes.append(f"hook loads include {units.scaled(block, 'N')} of block and top drive")
     operations = operations_of(plan)
@@ -123,7 +128,7 @@ def _frictions(text: str | None) -> list[float]:
 def depths_of(sim: Sim, string: Any, text: str, units: Units = SI) -> list[float]:
     """[m] Depths of the bit: a number of them up to the described one, or a list."""
     first, last = _range(sim, string)
-    if text.strip().lstrip("+-").isdigit():
+    if re.fullmatch(r"\s*[-+]?[0-9]+\s*", text):
         count = int(text)
         if not 1 <= count <= MOST_DEPTHS:
             raise Usage(f"--depths {count} is outside 1 .. {MOST_DEPTHS}; it is a number of depths, depths have units, as \"100 m,200 m\"")

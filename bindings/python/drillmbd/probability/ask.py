@@ -12,13 +12,26 @@ from .._optional import need
 from ..answers import Output
 from ..errors import Usage
 from ..runner import carry_out
-from ..scene import loads
+from ..scene import load
 from . import engines
 from .draw import CannotDraw
 from .estimates import Estimate, Indices, Subset, Surrogate, counted, sobol_indices
 from .points import Points
 from .sample import FAILED, Own, Result, SceneSample
 from .study import Progress, Study, StudyError, StudyFile
+
+
+LEAST = """[variability]
+samples = 100
+[[variability.scatter]]        # what is uncertain
+key = "hole.mu_dynamic"
+distribution = "uniform"
+low = 0.2
+high = 0.4
+[[failure]]                    # what must not happen
+kind = "stress"
+strength = "500 MPa"
+"""
 
 
 def _own(texts: list[str]) -> dict[str, Own]:
@@ -44,11 +57,14 @@ def probability(options: argparse.Namespace) -> int:
     for name in ("samples", "workers", "indices"):
         if getattr(options, name) is not None and getattr(options, name) < 1:
             raise Usage(f"--{name} {getattr(options, name)}: must be >= 1")
-    if options.seed is not None and options.seed < 0:
-        raise Usage(f"--seed {options.seed}: must be >= 0")
+    if options.seed is not None and not 0 <= options.seed < 2 ** 63:
+        raise Usage(f"--seed {options.seed}: must be 0 .. 2^63 - 1")
     path = pathlib.Path(options.scene)
-    text = path.read_text(encoding="utf-8", errors="replace")
-    loads(text, str(path), path.parent)  # SceneError tells what is wrong
+    known = load(path)  # SceneError tells what is wrong
+    if known.variability is None or not known.failures:
+        missing = " and ".join(name for name, there in (("[variability]", known.variability), ("[[failure]]", known.failures)) if not there)
+        raise Usage(f"{path} has no {missing}; the least is\n\n" + LEAST)
+    text = path.read_text(encoding="utf-8-sig")
     sample = SceneSample(text, str(path), str(path.parent.resolve()), _own(options.own))
     try:
         sample.names
@@ -155,11 +171,19 @@ class _Asked:
         self._told("any failure", counted((margins / scales).min(axis=1), self.method, points.replicates, self.confidence))
         if self.options.surrogate:
             z = numpy.array([points.z(number) for number in range(points.samples)])
-            found = Surrogate(z, (margins / scales).min(axis=1) if self.scales else margins[:, self.limit])
-            self._told(f"{self.of}, by a surrogate", found.estimate(self.seed, confidence=self.confidence))
-            self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "
-                            f"{found.tested} margins with the wrong sign")
+            self._surrogate(z, (margins / scales).min(axis=1) if self.scales else margins[:, self.limit])
         self._table(results)
+
+    def _surrogate(self, z: Any, margins: Any) -> None:
+        """The estimate by a polynomial; a reason where the samples allow none."""
+        try:
+            found = Surrogate(z, margins)
+        except ValueError as error:
+            self.output.note_text(f"surrogate: not assessed, because of {error}; compute more samples")
+            return
+        self._told(f"{self.of}, by a surrogate", found.estimate(self.seed, confidence=self.confidence))
+        self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "
+                        f"{found.tested} margins with the wrong sign")
 
     def _subset(self, study: Study) -> None:
         made = Subset(self.seed, self.sample.dimension, max(20, self.samples // self.replicates), self.replicates)

@@ -12,6 +12,7 @@ from typing import Any
 
 from .._optional import need
 from .._progress import INTERRUPTS
+from ..errors import Usage
 from .sample import FAILED, Result
 
 TRIES = 3  #: workers that a sample may kill before it counts as failed
@@ -227,7 +228,10 @@ def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Res
             client = distributed.Client(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None,
                                         local_directory=os.environ.get("TMPDIR", "/tmp"))
         else:
-            client = distributed.Client(address)
+            try:
+                client = distributed.Client(address)
+            except (ValueError, OSError) as error:
+                raise Usage(f"--address {address}: {error}; write HOST:PORT of a scheduler") from error
         with client:
             shared = client.scatter(sample, broadcast=True)
             source, running = iter(tasks), dict[Any, tuple[tuple[int, Any], int]]()  # task and its number of submissions

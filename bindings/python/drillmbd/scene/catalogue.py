@@ -15,7 +15,10 @@ from .asked import LIMITS
 from .fields import DEFINITIONS, fields_of
 from .lines import Path
 from .problems import Problems, meant
+from .read_file import TooLarge, limited
 from .unit_text import plain
+
+MOST_BYTES = 20_000_000
 
 SHIPPED = pathlib.Path(__file__).with_name("catalogue.toml")
 KINDS = ("pipe", "collar", "grade", "class", "rig")
@@ -114,10 +117,14 @@ def _read(path: pathlib.Path) -> tuple[list[Entry], list[tuple[str, str]]]:
     """Entries of a file, and the beginnings of names that are known to have no figures, with the reason."""
     import tomllib
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        content = tomllib.loads(limited(path, MOST_BYTES).decode("utf-8-sig"))
+    except TooLarge as error:
+        raise CatalogueError(f"{path}: {error}") from error
     except OSError as error:
         raise CatalogueError(f"{path}: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except UnicodeDecodeError as error:
+        raise CatalogueError(f"{path.name}: must be text in UTF-8") from error
+    except (ValueError, RecursionError) as error:
         raise CatalogueError(f"{path.name}: is no TOML: {error}") from error
     for key in content:
         if key not in (*KINDS, "source", "missing"):

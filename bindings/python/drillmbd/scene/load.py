@@ -22,6 +22,7 @@ from .divide import Divided, divide
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
 from .problems import Problem, Problems, SceneError, meant
+from .read_file import TooLarge, limited
 from .source import Source
 from .sub import Subs
 from .terms import PerRevolution
@@ -36,9 +37,10 @@ def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
     """The scene of a TOML file; changes: values by their keys, "hole.diameter", in place of what is written. Raises
     SceneError with everything that is wrong, OSError where it cannot be read."""
     path = pathlib.Path(path)
-    if path.stat().st_size > MOST_BYTES:
-        raise SceneError(str(path), [Problem(1, "the file", None, f"must be below {MOST_BYTES} bytes")])
-    data = path.read_bytes()
+    try:
+        data = limited(path, MOST_BYTES)
+    except TooLarge as error:
+        raise SceneError(str(path), [Problem(1, "the file", None, str(error))]) from error
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -56,6 +58,10 @@ def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[st
         match = re.search(r"line (\d+)", str(error))
         line = int(match.group(1)) if match else text.count("\n") + 1
         raise SceneError(name, [Problem(line, "the file", None, f"is no TOML: {error}")]) from error
+    except ValueError as error:  # a whole number longer than Python reads
+        long = re.search(r"\d[\d_]{4000,}", text)
+        line = text.count("\n", 0, long.start()) + 1 if long else 1
+        raise SceneError(name, [Problem(line, "the file", None, "has a number of too many digits")]) from error
     problems = Problems(find_lines(text))
     apply(content, changes or {}, problems)
     catalogue.expand(content, problems, folder)
@@ -298,7 +304,8 @@ class Loader:
                         return None
                     continue
                 written = self.written(path + (name,))
-                text = f"must {error.bound}{unit}" if error.bound and name in values else error.message
+                message = error.message.removeprefix(f"{error.part}: ")
+                text = f"must {error.bound}{unit}" if error.bound and name in values else message
                 self.problems.add(path + (name,) if name in values else path, written if name in values else None, text)
                 if values.pop(name, None) is None:
                     return None

@@ -108,7 +108,7 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
     try:
         found = columns.read(table_file.read(folder / name), COLUMNS, heads)
     except (OSError, ImportError, ValueError, KeyError, EOFError) as error:
-        problems.add(path, name, f"could not be read: {error}" if not isinstance(error, table_file.TableError) else str(error))
+        problems.add(path, name, f"could not be read: {getattr(error, 'strerror', None) or error}" if not isinstance(error, table_file.TableError) else str(error))
         return None
     by_dip = "dip" in found.heads and "inclination" not in found.heads
     if not by_dip and "inclination" not in found.heads and not found.faults:

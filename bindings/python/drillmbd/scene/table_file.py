@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 from .._optional import need
+from .read_file import TooLarge, limited
 
 MOST_BYTES = 100_000_000
 _COMMENT = re.compile(r"\s*(?:#|//|%|\*|!|')")
@@ -38,9 +39,12 @@ def read(path: pathlib.Path) -> Table:
     """The table of a file. Raises TableError, OSError, ImportError (Excel without openpyxl)."""
     if path.suffix.lower() in (".xlsx", ".xlsm"):
         return _excel(path)
-    if path.stat().st_size > MOST_BYTES:
-        raise TableError(f"must be below {MOST_BYTES} bytes")
-    data = path.read_bytes()
+    if path.exists() and not path.is_file():
+        raise TableError("is a folder or a device, must be a file")
+    try:
+        data = limited(path, MOST_BYTES)
+    except TooLarge as error:
+        raise TableError(str(error)) from error
     if data[:4] == b"PK\x03\x04":
         raise TableError("is an Excel file; its name must end with .xlsx")
     if data[:8] == b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1":

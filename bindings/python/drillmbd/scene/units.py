@@ -112,7 +112,7 @@ def interpret(value: Any, wanted: str) -> Reading:
     if not isinstance(value, str):
         if "-" not in options and value != 0:
             raise UnitError(f"must have a unit: {_wanted(options)}")
-        return Reading(float(value))
+        return Reading(scaled(Decimal(value), Decimal(1)) if isinstance(value, int) else value)
     return _of_text(value, options)
 
 

@@ -308,7 +308,7 @@ class Reader:
     def _base(self, key: str) -> float | None:
         """The value in the scene, or the default."""
         path = path_of_key(key)
-        holder: Any = self._holder(path)
+        holder: Any = self._holder(path) or {}
         unit = unit_of_key(self.loader, path) or "-"
         if path[-1] in holder:
             try:
@@ -360,6 +360,9 @@ class Reader:
         if not all(along) or (len(keys) > 1 and not relative) or len(set(keys)) < len(keys):
             self.problems.add(path + ("keys" if "keys" in table else "key",), keys, "must be different ones of "
                               + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + "; several need relative = true")
+            return None
+        if "hole" not in self.loader.content:
+            self.problems.add(path + ("keys" if "keys" in table else "key",), keys, "vary along the hole, and the scene has no [hole]")
             return None
         if self.loader.table(("hole",)).get("section"):
             self.problems.add(path, None, "the hole has [[hole.section]] already; a field makes sections of its own")

@@ -34,7 +34,7 @@ def trivial(scene: Scene) -> list[str]:
     calls = _calls(scene)
     found: list[str] = []
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
-    if not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
+    if pipes and not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
             one.get("component") == enums.RX and _ever(calls, one.get("programme")) for one, in calls.get("add_drive", [])):
         found.append(phrase("no rotation: torque, whirl and critical speeds are not excited"))
     if pipes and not any(one.eccentricity or one.eccentricity_spread for one in pipes):
