@@ -52,7 +52,7 @@ h1{font-size:1.5em;margin:.3em 0}h2{font-size:1.2em;margin:1.4em 0 .4em}.made{co
 pre{overflow:auto;font-size:12px}.nogl .turning{display:none}.nogl .still{display:block}
 @media screen and (max-width:600px){body{padding:.6em}.figure{min-height:300px}.wide{display:none}.narrow{display:block}
 .limits td,.limits th{padding:3px 4px;font-size:13px}.limits tr:first-child th{font-size:12px}.limits{table-layout:fixed;width:100%}.limits .verdict{white-space:normal;padding:0 .2em;font-size:11px}
-.limits th:first-child{width:20%}.limits th:nth-child(2){width:28%}.limits th:nth-child(4){width:26%}}
+.limits th:first-child{width:18%}.limits th:nth-child(2){width:28%}.limits th:nth-child(4){width:23%}}
 @page{size:A4;margin:15mm}
 @media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.3}h2{margin:1em 0 .3em}.modebar-container{display:none}h1,h2,h2+p{break-after:avoid}section,.card,tr,.wide,.still{break-inside:avoid}
 .cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow:visible}
