@@ -141,7 +141,7 @@ enum {
     DMB_FRICTION_COULOMB = 0,  /* mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2) */
     DMB_FRICTION_AMBROSIO = 1, /* 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond */
     DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB */
-    DMB_FRICTION_BRISTLE = 3   /* elastic bristle that truly sticks, breaking away at mu(v) */
+    DMB_FRICTION_BRISTLE = 3   /* elastic bristle that sticks; breaks away at mu_static, one step late (order 1) */
 };
 
 typedef struct dmb_wall_def {
@@ -155,7 +155,10 @@ typedef struct dmb_wall_def {
     double diameter;          /* [m] of the hole, > 0; default 0.094 */
     int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_HUNT_CROSSLEY */
     int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
-    double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7 */
+    double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not
+                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (largest energy
+                                 of a ball over its first at h w = 10: 1.9 with HUNT_CROSSLEY 0.4, 16 with 5 times the
+                                 critical damping); dmb_statistics.bounces counts them */
     double exponent;          /* [-] n, 1 .. 3; default 1 */
     double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4. EXACT returns this speed ratio,
                                  HUNT_CROSSLEY 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
