@@ -309,7 +309,7 @@ class CommandTest(FolderTest):
         self.assertIn("broomstick: 0.5, 1 and 1.5 times the wall's friction at each depth", out)
         log = self.write("log.csv", f"depth [m],pick-up [N]\n8,{weight * 4 * (0.3 + 0.4):.6f}\n")
         out, summary = self.answer("torque-drag", "--depths", "8 m", "--measured", log)
-        self.assertIn("one coefficient is fitted for all sections of the hole", out)
+        self.assertIn("first one coefficient for all sections of the hole, then one for each section", out)
         self.assertAlmostEqual(summary["measured"]["main"]["pick-up"]["friction"], 0.35, 4)
         out, summary = self.answer("torque-drag", "--depths", "8 m", "--friction", "0.2")
         self.assertEqual(summary["broomstick"]["main"]["friction"], [0.1, 0.2, 0.3])
