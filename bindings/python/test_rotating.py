@@ -3,6 +3,7 @@ the friction table of the wall."""
 import csv
 import math
 import unittest
+import unittest.mock
 
 from shared_tests import FolderTest, needs
 
@@ -160,8 +161,30 @@ class LinearStateTest(FolderTest):
             sim.static(**state.static)
 
         state, _ = rotating.linear(scenes.load(self.scene), "speeds", settle, lambda sim, state: None, notes.append)
-        self.assertEqual((state.rotation, state.options["friction"]), (0.0, 0))
+        self.assertEqual((state.rotation, state.options["friction"], state.refused), (0.0, 0, True))
         self.assertIn("no solution", notes[0])
+
+    def test_a_refused_state_is_no_all_clear(self):
+        """The command, its range and the report say not assessed where the sliding state has no solution and no band was found."""
+        self.scene = self.write("high.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + RANGE)
+        self.assertIn("no critical speed between", self.ask("speeds", self.scene))
+        static = mbd.Sim.static
+
+        def refusing(sim, *arguments, **fields):
+            if fields.get("slip_rotation"):
+                raise mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")
+            return static(sim, *arguments, **fields)
+
+        with unittest.mock.patch.object(mbd.Sim, "static", refusing):
+            out, summary = self.answer("speeds")
+            self.assertIn("speeds of the string that turns: not assessed", out)
+            self.assertIn("(4 cases, all combinations): not assessed", out)
+            self.assertNotIn("no critical speed", out)
+            self.assertFalse(summary["speeds_assessed"])
+            from drillmbd.operating import operating
+            from drillmbd.report_linear import speeds, speeds_tile
+            scene = scenes.load(self.scene)
+            self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
 
 
 class RangeTest(FolderTest):

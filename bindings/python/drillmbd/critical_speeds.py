@@ -59,10 +59,13 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     excited = bool(max(found.severity) > 0.0)
     if not excited:
         output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
+    elif found.state.refused:
+        output.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
+                   f"Of the string at rest the severity is at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
     elif not found.bands:
         output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
     output.say(LINEAR)
-    output.summary["speeds_assessed"] = excited
+    output.summary["speeds_assessed"] = excited and not found.state.refused
     output.summary["linear_state"] = {"rotation_rpm": found.state.rotation / RPM, "weight_on_bit_N": found.state.weight_on_bit}
     output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]

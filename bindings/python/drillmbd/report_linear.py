@@ -26,6 +26,7 @@ class Speeds:
     bands: Any
     severity: Sequence[float]
     grid: list[float]
+    refused: bool = False  #: the sliding state has no solution, that at rest takes its place
 
     @property
     def assessed(self) -> bool:
@@ -74,7 +75,7 @@ class Speeds:
 def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
     """The speeds of [speeds], about the string that slides at the rotation of the scene."""
     found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
-    return Speeds(found.bands, found.severity, found.grid)
+    return Speeds(found.bands, found.severity, found.grid, found.state.refused)
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:
@@ -99,7 +100,9 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     silent = int(found.bands.report.silent_orders)
     if silent:
         told = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=told)
-    return Tile(title, value, told, OVER if inside else NEAR if near else NOT_ASSESSED if silent else OK)
+    if found.refused:
+        told = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=told)
+    return Tile(title, value, told, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.refused else OK)
 
 
 def speeds_figure(found: Speeds) -> Figure:

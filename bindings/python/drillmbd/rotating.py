@@ -87,6 +87,7 @@ class Linear:
     options: dict[str, Any] = field(default_factory=dict)   #: of response and speeds
     rotation: float = 0.0                                   #: [rad/s] 0: at rest
     weight_on_bit: float = 0.0                              #: [N]
+    refused: bool = False                                   #: at rest in the place of a sliding state, which has no solution
 
     def words(self, units: Units) -> str:
         """A sentence about the state."""
@@ -133,7 +134,7 @@ def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:
         options.pop("equilibrium_tolerance", None)
         if analysis == "response":
             options["axes"] = int(enums.RESPONSE_AXES_AT_REST)
-    return Linear(scene, static, options)
+    return Linear(scene, static, options, refused=refused)
 
 
 def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], ask: Callable[[Sim, Linear], Any],

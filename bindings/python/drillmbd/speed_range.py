@@ -64,23 +64,28 @@ def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[f
     bands = [(band.low, band.high) for band in found.bands]
     cases = corners(scene)
     failed: list[str] = []
+    lost = 0
     for changes in cases:
         try:
             case = analyse(scene.changed(changes), lambda sim, state: sim.static(**state.static), failed.append)
             bands += [(band.low, band.high) for band in case.bands]
+            lost += case.state.refused
         except (Error, SceneError) as error:
             failed.append(str(error))
+            lost += 1
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     told = ", ".join(_words(one, output.units) for one in parts)
     ranges = union(bands)
-    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or "no critical speed in any of them"
+    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else "no critical speed in any of them")
+    if lost:
+        text += f"; {lost} of the {len(cases)} cases are not assessed"
     how = "all combinations" if len(parts) <= MOST_CORNERS else "one at its end, the others in the middle"
     output.say(f"over the range of {told} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):
         output.note_text(f"speeds, a case of the range: {one}")
     if scene.variability.processes:
         output.say("random processes in time are left out of the range")
-    output.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "notes": len(failed),
+    output.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "not_assessed": lost,
                                       "of": [one.name for one in parts]}
     return ranges
 
