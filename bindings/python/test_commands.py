@@ -19,7 +19,7 @@ SHIPPED = [*sorted((ROOT / "examples" / "scenes").glob("*.toml")), *sorted((ROOT
 SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "points = 5"), (r'"2 s"(?=\s*#? ?\n|$)', '"2 s"'),
          (r'(?m)^from = "2 s"', 'from = "5 ms"'))
 COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",), ("buckle",),
-            ("torque-drag", "--depths", "2"), ("rod-by-rod",), ("stuck", "--pull", "20 kN"), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
+            ("torque-drag", "--depths", "2"), ("rod-by-rod",), ("stuck", "--pull", "20 kN"), ("rod-by-rod",), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
             ("probability", "--samples", "1", "--method", "monte-carlo", "--engine", "serial"))
 LOOSE = SCENE.replace('[[drive]]\nname = "feed"\nprogramme = "0 m/s"\n', "")  # nothing holds the string along its axis
 HEAVY = SCENE.replace("count = 8", "count = 3000").replace('end = "20 ms"', 'end = "200 s"') + """[buckling]
@@ -235,6 +235,17 @@ class EndTest(FolderTest):
             self.assertEqual((found["command"], found["status"]), (name, 130))
             self.assertIn("stopped by Ctrl-C", found["notes"][-1])
             self.assertGreater(found["elapsed_s"], 0.0)
+
+    def test_stopped_within_an_exec(self):
+        """Python ends by the signal where Ctrl-C came within an exec, though it was dealt with; the command has its own status still."""
+        for end, status in (("program()", 130),):  # sys.exit(main()) has -2 there by Python 3.11
+            self.write("stopped.py", "import sys\nfrom drillmbd import questions\nfrom drillmbd.command import main, program\n"
+                       f"questions.QUESTIONS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
+            process = subprocess.run([COMMAND[0], "-m", "stopped", "check", self.scene, "-o", self.folder / "out"], capture_output=True, text=True,
+                                     env=ENVIRONMENT, cwd=self.folder)
+            self.assertEqual((process.returncode, process.stderr), (status, ""))
+            self.assertIn("stopped by Ctrl-C", process.stdout)
+            self.assertEqual(self.summary()["status"], 130)
 
     def test_elapsed(self):
         """The time of the whole command, by the clock."""

@@ -2,8 +2,8 @@
 import sys
 
 try:
-    from .command import main
-    sys.exit(main())
+    from .command import program
+    program()
 except KeyboardInterrupt:  # while packages are loaded
     print("drillmbd: stopped by Ctrl-C", file=sys.stderr)
     sys.exit(130)

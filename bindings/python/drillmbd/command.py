@@ -261,6 +261,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 3
 
 
+def program() -> None:
+    """The command as a program, which ends here with its exit status."""
+    status = main()
+    if status == exit_status.STOPPED:  # Python would end by the signal itself if Ctrl-C came within an exec, as of a dataclass
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    sys.exit(status)
+
+
 def _guarded(ask: Callable[[], int]) -> int:
     try:
         return ask()
