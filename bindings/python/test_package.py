@@ -91,7 +91,7 @@ class NamesTest(unittest.TestCase):
                     static = inspect.getattr_static(getattr(mbd, name), member)
                     if not member.startswith("_") and (inspect.isfunction(static) or isinstance(static, property)):
                         self.assertTrue(inspect.getdoc(static), f"{name}.{member}")
-        self.assertEqual(mbd.FRICTION_BRISTLE.__doc__, "elastic bristle that truly sticks, breaking away at mu(v)")
+        self.assertEqual(mbd.FRICTION_BRISTLE.__doc__, "elastic bristle that sticks; breaks away at mu_static, one step late (order 1)")
         self.assertTrue(mbd.CHANNEL_VELOCITY_X.__doc__.startswith("[m/s]"))
         self.assertIn("STRIBECK: mu_d", mbd.FrictionLaw.__doc__)
         self.assertIn("output (Channel)", mbd.EventDef.__doc__)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from . import _structs, enums
 from .errors import Error
-from .model import map_ids, remake
-from .operating import largest_of, operating
+from .model import remake
+from .operating import operating
 from .scene import Scene
+from .scene.largest import largest_of
 from .unit_systems import Units
 
 if TYPE_CHECKING:
