@@ -55,7 +55,7 @@ class GuideTest(unittest.TestCase):
                 self.assertTrue(pathlib.Path("out", "run.csv").exists())
             finally:
                 os.chdir(before)
-        self.assertIn("warnings: none", told["check"])
+        self.assertIn("warnings of the model: none; notes on the scene: 2, above", told["check"])
         self.assertIn("displacement up to 10.5", told["static"])
         self.assertRegex(told["torque-drag"], r"rotate at 90 m: .*torque 79\.\d+ N m|rotate at 90 m: .*torque 80")
 
