@@ -64,12 +64,10 @@ typedef struct dmb_static_report {
     int32_t negative;  /* [-] negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC:
                           exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is
                           known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative
-                          ones (two at once may have come of a complex pair, without the determinant having passed 0):
-                          all up to 400 coordinates, else all within reach of the symmetric part, or if they are some,
-                          those among the 108 nearest 0; -1: none was found there, and others further out could not
-                          be excluded. Of a state that moves (`steady`): of the
-                          stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
-                          all the same, or damping not (dmb_analysis_modes) */
+                          ones: all up to 400 coordinates, else all within reach of the symmetric part, or if there
+                          are any, those among the 108 nearest 0; -1: none was found, and others could not be
+                          excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with
+                          centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes) */
     int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was judged */
     int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
@@ -160,14 +158,12 @@ typedef struct dmb_buckling_info {
     int32_t end;       /* DMB_BUCKLING_... */
     int32_t flutter;   /* DMB_FLUTTER_... */
     double estimate;   /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
-    double linearised_at;  /* [unit of the factor] state that the shapes and further factors were linearised about */
-    double reached;        /* [unit of the factor] last equilibrium on the way before the end */
-    double flutter_factor; /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
-    double
-        flutter_root[2]; /* [1/s] its root there, real and imaginary part, the latter 0 without swinging, shape (2) */
-    double dip; /* [-] depth of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before;
-                   1 of a perfect string; below 0.92 the string bends off gradually, and with another mesh another
-                   minimum may be the first that counts; 0: the end is another one */
+    double linearised_at;   /* [unit of the factor] state that the shapes and further factors were linearised about */
+    double reached;         /* [unit of the factor] last equilibrium on the way before the end */
+    double flutter_factor;  /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
+    double flutter_root[2]; /* [1/s] its root there, real and imaginary part, 0 without swinging, shape (2) */
+    double dip; /* [-] of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string;
+                   below 0.92 it bends off gradually, and another mesh may give another minimum; 0: another end */
     double sinusoidal_share; /* [-] at the lowest factor that was followed to: largest DMB_PROFILE_SINUSOIDAL_SHARE of
                                 all strings, for comparison with the closed form; NaN without a hole or a factor */
 } dmb_buckling_info;

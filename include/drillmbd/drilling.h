@@ -1,8 +1,7 @@
 /* libdrillmbd - torque and drag: what a string needs at the rig to be moved steadily in its hole, at any depth. The
  * soft string of Johancsik, Friesen, Dawson 1984 in three dimensions: weight, wall and axial force in balance, no
  * bending stiffness, full friction against the motion. For the stiff string ask dmb_analysis_static with slip_axial and
- * slip_rotation, and hold the two against each other. Pressures of
- * circulation and tripping. Fatigue of places during a run. */
+ * slip_rotation. Pressures of circulation and tripping. Fatigue of places during a run. */
 #ifndef DRILLMBD_DRILLING_H
 #define DRILLMBD_DRILLING_H
 
@@ -113,20 +112,17 @@ typedef struct dmb_hydraulics {
     double bit_loss;            /* [Pa] through nozzle_area */
     double annulus_loss;        /* [Pa] up the annulus, by friction */
     double pump_pressure;       /* [Pa] sum of the three and of the difference of the columns; motors are left out */
-    double circulating_density; /* [kg/m3] equivalent circulating density at the far end: fluid_density +
-                                   annulus_loss/(g vertical_depth); NaN where vertical_depth is not > 0 */
-    double trip_pressure; /* [Pa] below the closed string while it moves at the trip speed without circulation: more
-                             than at rest going in (surge), less coming out (swab) */
-    double surge_density; /* [kg/m3] equivalent density of fluid_density and trip_pressure going in; NaN likewise */
-    double swab_density;  /* [kg/m3] coming out; NaN likewise */
-    double reynolds;      /* [-] largest of bore, annulus and trip */
+    double circulating_density; /* [kg/m3] fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0 */
+    double trip_pressure;       /* [Pa] of the closed string at the trip speed, more going in, less coming out */
+    double surge_density;       /* [kg/m3] fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0 */
+    double swab_density;        /* [kg/m3] fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0 */
+    double reynolds;            /* [-] largest of bore, annulus and trip */
 } dmb_hydraulics;
 DMB_SIZED_STRUCT(dmb_hydraulics)
 /* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by
- * at most its length: the string hangs together with its pipes counted from the far end, as for torque and drag. Steady
- * flow: trip speeds [m/s], 0 .. 10, without acceleration and gel strength; Burkhardt's clinging constants (1961).
- * Errors: DMB_ERR_UNSUPPORTED without a flow_rate or an input of it, DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE.
- * Allocates nothing. O(length / 2 m). */
+ * at most its length, with the pipes of dmb_analysis_torque_drag. Steady flow: trip speeds [m/s], 0 .. 10, without
+ * acceleration and gel strength (Burkhardt 1961). Errors: DMB_ERR_UNSUPPORTED without a flow_rate or an input of it,
+ * DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE. Allocates nothing. O(length / 2 m). */
 DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer);
 
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------

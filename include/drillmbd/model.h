@@ -62,13 +62,11 @@ typedef struct dmb_environment_def {
     uint32_t struct_size;
     uint32_t reserved;
     double gravity[3];      /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
-    double fluid_density;   /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool
-                               joints, and of bodies and bits by their displaced_volume; default 0 */
+    double fluid_density;   /* [kg/m3] inside and outside of pipes and tool joints, for buoyancy; default 0 */
     double lateral_damping; /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
     double axial_damping;   /* [N s/m2] the same along the pipe; default 0 */
     double torsional_damping; /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
-    double inner_density;     /* [kg/m3] of the mud inside pipes and tool joints, where fluid_density is that outside of
-                                 them:     weight and pressure by both; 0 .. ; -1 (default): as outside */
+    double inner_density;     /* [kg/m3] inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside */
     double added_mass; /* [-] of the mud outside pipes that goes along sideways over what they displace (1: far from any
                           wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972).
                           Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings
@@ -77,16 +75,13 @@ typedef struct dmb_environment_def {
     double flow_rate;  /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
                           annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
                           nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests */
-    double consistency;   /* [Pa s] K of the mud (Pa s^n): shear stress = yield_stress + K (shear rate)^n (Herschel,
-                             Bulkley); > 0 with a flow_rate; default 0 */
-    double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): K is the viscosity, Newtonian without a yield_stress,
-                             Bingham's fluid with one */
-    double yield_stress;  /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
-    double nozzle_area;   /* [m2] of the bit in all; 0 (default): the last pipe is open */
-    double
-        flow_eccentricity; /* [-] of the annulus that mud flows back in, everywhere: distance of the axes over half the
-                              difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes
-                              of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it */
+    double consistency; /* [Pa s] K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0 */
+    double flow_exponent;     /* [-] n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress */
+    double yield_stress;      /* [Pa] of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only */
+    double nozzle_area;       /* [m2] of the bit in all; 0 (default): the last pipe is open */
+    double flow_eccentricity; /* [-] of the annulus, everywhere: distance of the axes over half the difference of the
+                                 diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9
+                                 hole diameters only. For pressures and drag; poses have no part in it */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -156,9 +151,8 @@ typedef struct dmb_wall_def {
     int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_HUNT_CROSSLEY */
     int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
     double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not
-                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (largest energy
-                                 of a ball over its first at h w = 10: 1.9 with HUNT_CROSSLEY 0.4, 16 with 5 times the
-                                 critical damping); dmb_statistics.bounces counts them */
+                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (1.9 times that
+                                 of a ball at h w = 10 and HUNT_CROSSLEY 0.4); dmb_statistics.bounces counts them */
     double exponent;          /* [-] n, 1 .. 3; default 1 */
     double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4. EXACT returns this speed ratio,
                                  HUNT_CROSSLEY 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
@@ -182,14 +176,12 @@ typedef struct dmb_wall_def {
                                  most 2^18 stations. 0 (default): the hole stays as described */
     double cut_start;         /* [m] measured depth of the first of these stations and */
     double cut_end;           /* [m] of the last one, >= three spacings apart: beyond, nothing is cut; default 0 */
-    uint32_t friction_table_count; /* [-] points of a table of the coefficient against the speed of sliding, 2 .. 8, of
-                                the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed:
-                                its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections
+    uint32_t friction_table_count; /* [-] points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first
+                                coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections
                                 of the hole give mu_dynamic alone, and the table acts in proportion */
     uint32_t reserved;
-    double friction_table_speed[8]; /* [m/s] the first one 0, strictly increasing, shape (friction_table_count). Static
-                                 until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static,
-                                 mu_dynamic */
+    double friction_table_speed[8]; /* [m/s] of sliding, from 0, strictly increasing, shape (friction_table_count);
+                                 static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic */
     double friction_table_mu[8]; /* [-] coefficients there, >= 0, the last one > 0; straight between, constant beyond,
                               shape (friction_table_count) */
 } dmb_wall_def;
@@ -333,9 +325,8 @@ typedef struct dmb_bit_def {
                     at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter,
                     length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder
                     ahead. Weight on bit, torque and other driller's channels are those of the bit alone */
-    double
-        inner_radius; /* [m] b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core
-                         of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
+    double inner_radius; /* [m] b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit;
+                            0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
     double added_mass[2]; /* [kg] likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default
                              0, shape (2) */
 } dmb_bit_def;
@@ -377,8 +368,7 @@ typedef struct dmb_drive_def {
     double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
     double curve_force[8]; /* [N, N m] >= 0: the most that it pushes towards > 0 at a speed, straight between points,
                               constant beyond; the same mirrored towards < 0; shape (curve_count) */
-    uint32_t
-        gain_count; /* [-] points of a table of CONTROL in the place of `gain`, which is 0 then: 0 (none) or 2 .. 16 */
+    uint32_t gain_count;   /* [-] points of a table of CONTROL in the place of `gain`, then 0: 0 (none) or 2 .. 16 */
     int32_t reserved3;
     double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
     double gain_force[16]; /* [N, N m] in the place of kp (v* - v), straight between points, constant beyond, shape

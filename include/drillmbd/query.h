@@ -246,20 +246,16 @@ typedef struct dmb_flow_state {
     double column;           /* [Pa] of the mud outside over that inside, far end under rig end */
     double drag;             /* [N] of the flow along the string, towards the rig, in its effective axial force */
     double thrust;           /* [N] rho Q V of nozzles or open end, on the far end towards the rig */
-    double pressure_stretch; /* [m] that the true axial force and the pressures on the walls of flexible and
-                                axial-torsional pipes stretch the string beyond what N_e does, and poses show */
+    double pressure_stretch; /* [m] by true axial force and pressures on the walls, beyond that of N_e and of poses */
     double bore_reynolds;    /* [-] largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955) */
-    double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low: by 7 % at
-                                3e5, 15 % at 1e6 */
-    double motor_loss; /* [Pa] through mud motors at the far end, mud_pressure times the torque that they give now; in
-                          pump_pressure, and in the pressure inside the string */
+    double annulus_reynolds; /* [-] largest; beyond 1e5 the smooth wall's law is low: 7 % at 3e5, 15 % at 1e6 */
+    double motor_loss;       /* [Pa] through mud motors at the far end at their present torque; in pump_pressure */
 } dmb_flow_state;
 DMB_SIZED_STRUCT(dmb_flow_state)
 /* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for
- * pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic
- * heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus and the motion
- * of the string. The annulus has the flow_eccentricity of the environment, 0 unless given: where the string lies does
- * not move it, though its loss there is less than half. O(elements). */
+ * pressure_stretch of mud at rest. Kinetic heads, steps between diameters, bodies, bits and rings in the annulus and
+ * the motion of the string are neglected. The annulus has the flow_eccentricity of the environment, wherever the string
+ * lies. O(elements). */
 DMB_API int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow);
 
 /* ---- Profiles: a string's state over its length ------------------------------------------------------------------

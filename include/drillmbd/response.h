@@ -212,9 +212,8 @@ typedef struct dmb_speeds_options {
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
     const void *unused;        /* NULL */
     double spin; /* [rad/s] strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they
-                    do. After a static state with slip_rotation of this speed and with friction 1, the answer is that of
-                    a string that lies on the wall where friction carries it; eccentric masses are out of balance there:
-                    allow it by equilibrium_tolerance */
+                    do. After a static state with slip_rotation of this speed and friction 1, the string lies where
+                    friction carries it; eccentric masses are out of balance there (equilibrium_tolerance) */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
 

@@ -85,18 +85,18 @@ class EnvironmentDef(Sized):
     ]
     field_docs = {
         "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
-        "fluid_density": ("kg/m3", "mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints, and of bodies and bits by their displaced_volume; default 0"),
+        "fluid_density": ("kg/m3", "inside and outside of pipes and tool joints, for buoyancy; default 0"),
         "lateral_damping": ("N s/m2", "external damping force per metre of pipe and m/s of sideways speed; default 0"),
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
-        "inner_density": ("kg/m3", "of the mud inside pipes and tool joints, where fluid_density is that outside of them: weight and pressure by both; 0 .. ; -1 (default): as outside"),
+        "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside"),
         "added_mass": ("-", "of the mud outside pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings have that of what they displace beyond the pipe; bodies and bits have fields of their own. 0 (default): mud has no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
-        "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress = yield_stress + K (shear rate)^n (Herschel, Bulkley); > 0 with a flow_rate; default 0"),
-        "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): K is the viscosity, Newtonian without a yield_stress, Bingham's fluid with one"),
+        "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
+        "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
         "yield_stress": ("Pa", "of the mud, >= 0; 0 (default): power law; with flow_eccentricity = 0 only"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
-        "flow_eccentricity": ("-", "of the annulus that mud flows back in, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it"),
+        "flow_eccentricity": ("-", "of the annulus, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it"),
     }
 
 
@@ -172,7 +172,7 @@ class WallDef(WallPart, Sized):
         "diameter": ("m", "of the hole, > 0; default 0.094"),
         "normal_law": ("", "NORMAL_..., default NORMAL_HUNT_CROSSLEY"),
         "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
-        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (largest energy of a ball over its first at h w = 10: 1.9 with HUNT_CROSSLEY 0.4, 16 with 5 times the critical damping); dmb_statistics.bounces counts them"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (1.9 times that of a ball at h w = 10 and HUNT_CROSSLEY 0.4); dmb_statistics.bounces counts them"),
         "exponent": ("-", "n, 1 .. 3; default 1"),
         "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4. EXACT returns this speed ratio, HUNT_CROSSLEY 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
         "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
@@ -189,8 +189,8 @@ class WallDef(WallPart, Sized):
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
         "cut_start": ("m", "measured depth of the first of these stations and"),
         "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
-        "friction_table_count": ("-", "points of a table of the coefficient against the speed of sliding, 2 .. 8, of the laws STRIBECK and BRISTLE in the place of mu_static, mu_dynamic and stribeck_speed: its first coefficient is mu_static, its last one mu_dynamic; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
-        "friction_table_speed": ("m/s", "the first one 0, strictly increasing, shape (friction_table_count). Static until a threshold speed v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
+        "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
+        "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
         "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
     }
 
@@ -817,10 +817,10 @@ class FlowState(Sized):
         "column": ("Pa", "of the mud outside over that inside, far end under rig end"),
         "drag": ("N", "of the flow along the string, towards the rig, in its effective axial force"),
         "thrust": ("N", "rho Q V of nozzles or open end, on the far end towards the rig"),
-        "pressure_stretch": ("m", "that the true axial force and the pressures on the walls of flexible and axial-torsional pipes stretch the string beyond what N_e does, and poses show"),
+        "pressure_stretch": ("m", "by true axial force and pressures on the walls, beyond that of N_e and of poses"),
         "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
-        "annulus_reynolds": ("-", "likewise; beyond 1e5 the law of the smooth wall is low: by 7 % at 3e5, 15 % at 1e6"),
-        "motor_loss": ("Pa", "through mud motors at the far end, mud_pressure times the torque that they give now; in pump_pressure, and in the pressure inside the string"),
+        "annulus_reynolds": ("-", "largest; beyond 1e5 the smooth wall's law is low: 7 % at 3e5, 15 % at 1e6"),
+        "motor_loss": ("Pa", "through mud motors at the far end at their present torque; in pump_pressure"),
     }
 
 
@@ -906,7 +906,7 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative ones (two at once may have come of a complex pair, without the determinant having passed 0): all up to 400 coordinates, else all within reach of the symmetric part, or if they are some, those among the 108 nearest 0; -1: none was found there, and others further out could not be excluded. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
+        "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative ones: all up to 400 coordinates, else all within reach of the symmetric part, or if there are any, those among the 108 nearest 0; -1: none was found, and others could not be excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes)"),
         "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
@@ -963,8 +963,8 @@ class BucklingInfo(Sized):
         "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about"),
         "reached": ("unit of the factor", "last equilibrium on the way before the end"),
         "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
-        "flutter_root": ("1/s", "its root there, real and imaginary part, the latter 0 without swinging, shape (2)"),
-        "dip": ("-", "depth of BUCKLING_DIP: 1 - lowest eigenvalue over the largest value that it had before; 1 of a perfect string; below 0.92 the string bends off gradually, and with another mesh another minimum may be the first that counts; 0: the end is another one"),
+        "flutter_root": ("1/s", "its root there, real and imaginary part, 0 without swinging, shape (2)"),
+        "dip": ("-", "of BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string; below 0.92 it bends off gradually, and another mesh may give another minimum; 0: another end"),
         "sinusoidal_share": ("-", "at the lowest factor that was followed to: largest PROFILE_SINUSOIDAL_SHARE of all strings, for comparison with the closed form; NaN without a hole or a factor"),
     }
 
@@ -1475,10 +1475,10 @@ class Hydraulics(Sized):
         "bit_loss": ("Pa", "through nozzle_area"),
         "annulus_loss": ("Pa", "up the annulus, by friction"),
         "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
-        "circulating_density": ("kg/m3", "equivalent circulating density at the far end: fluid_density + annulus_loss/(g vertical_depth); NaN where vertical_depth is not > 0"),
-        "trip_pressure": ("Pa", "below the closed string while it moves at the trip speed without circulation: more than at rest going in (surge), less coming out (swab)"),
-        "surge_density": ("kg/m3", "equivalent density of fluid_density and trip_pressure going in; NaN likewise"),
-        "swab_density": ("kg/m3", "coming out; NaN likewise"),
+        "circulating_density": ("kg/m3", "fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0"),
+        "trip_pressure": ("Pa", "of the closed string at the trip speed, more going in, less coming out"),
+        "surge_density": ("kg/m3", "fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0"),
+        "swab_density": ("kg/m3", "fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
         "reynolds": ("-", "largest of bore, annulus and trip"),
     }
 
@@ -2459,7 +2459,7 @@ class BitDef(Sized):
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "likewise of a body"),
         "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
-        "inner_radius": ("m", "b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
+        "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
         "added_mass": ("kg", "likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default 0, shape (2)"),
     }
 
@@ -2544,7 +2544,7 @@ class DriveDef(DrivePart, Sized):
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
         "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
-        "gain_count": ("-", "points of a table of CONTROL in the place of `gain`, which is 0 then: 0 (none) or 2 .. 16"),
+        "gain_count": ("-", "points of a table of CONTROL in the place of `gain`, then 0: 0 (none) or 2 .. 16"),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "in the place of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
         "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
@@ -2887,7 +2887,7 @@ class SpeedsOptions(Sized):
         "equilibrium_tolerance": ("m, -, -", "as of a response, same defaults"),
         "report": ("", "written where the call succeeds; NULL (default): none"),
         "unused": ("", "NULL"),
-        "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and with friction 1, the answer is that of a string that lies on the wall where friction carries it; eccentric masses are out of balance there: allow it by equilibrium_tolerance"),
+        "spin": ("rad/s", "strings turn at this speed in the state, as of dmb_response_options; 0 (default): as they do. After a static state with slip_rotation of this speed and friction 1, the string lies where friction carries it; eccentric masses are out of balance there (equilibrium_tolerance)"),
     }
 
 

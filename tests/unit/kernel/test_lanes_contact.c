@@ -102,7 +102,14 @@ static void draw_sites(uint64_t *seed, int arms, wall_input *in)
 
 static void setup_laws(const wall_case *c, wall_input *in)
 {
-    const dmb_friction_law friction = {c->friction_law, 0, 0.4, 0.25, 0.1, 0.01, 0.6, 1e4, 0.5};
+    const dmb_friction_law friction = {.kind = c->friction_law,
+                                       .mu_static = 0.4,
+                                       .mu_dynamic = 0.25,
+                                       .stribeck_speed = 0.1,
+                                       .smoothing_speed = 0.01,
+                                       .full_speed = 0.6,
+                                       .bristle_stiffness = 1e4,
+                                       .bristle_damping = 0.5};
     in->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = c->normal_law,
                                                         .stiffness = 1e7,
                                                         .exponent = c->exponent,
