@@ -120,9 +120,8 @@ typedef struct dmb_hydraulics {
 } dmb_hydraulics;
 DMB_SIZED_STRUCT(dmb_hydraulics)
 /* Pressures of the mud of the environment with the string's far end at a measured depth [m], beyond its start_depth by
- * at most its length, with the pipes of dmb_analysis_torque_drag. Steady flow: trip speeds [m/s], 0 .. 10, without
- * acceleration and gel strength (Burkhardt 1961). Errors: DMB_ERR_UNSUPPORTED without a flow_rate or an input of it,
- * DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE. Allocates nothing. O(length / 2 m). */
+ * at most its length, in steady flow, without gel strength (Burkhardt 1961); trip speeds 0 .. 10 m/s. Errors:
+ * DMB_ERR_UNSUPPORTED without a flow_rate, DMB_ERR_VALUE, _NOT_FINITE, _NULL, _STRUCT_SIZE. O(length / 2 m). */
 DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer);
 
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------

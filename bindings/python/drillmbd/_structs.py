@@ -90,7 +90,7 @@ class EnvironmentDef(Sized):
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe, and rings have that of what they displace beyond the pipe; bodies and bits have fields of their own. 0 (default): mud has no inertia"),
+        "added_mass": ("-", "of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, rings have that of what they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
         "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
