@@ -32,7 +32,7 @@ class StartingTest(unittest.TestCase):
             target = str(pathlib.Path(folder, "hole.toml"))
             self.assertEqual(said("new", "drainage", "-o", target)[0], 0)
             self.assertEqual(said("new", "drainage", "-o", target)[0], 3)  # never over a file that is there
-        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "at least one")):
+        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--dip", "95"), "within -90 deg .. 90 deg"), (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "at least one")):
             status, _, told = said("new", "drainage", *words)
             self.assertEqual(status, 2)
             self.assertIn(part, told)

@@ -10,7 +10,7 @@
 #include "drillmbd/base.h"
 
 typedef struct dmb_message {
-    char text[256];
+    char text[384];
 } dmb_message;
 
 #if defined(__MINGW32__) && !defined(__clang__) /* printf of that system has no %zu; the formatter has */

@@ -112,6 +112,8 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
         values[name] = _with_unit(values[name], name).replace('"', " in").strip()
     values["course"] = survey_lines or _STRAIGHT.format(dip=values["dip"])
     values.update(_named(given, asked, values, numbers))
+    if abs(numbers["dip"]) > 0.5 * math.pi * (1.0 + 1e-12):
+        raise ValueError(f"--dip {values['dip']} must be within -90 deg .. 90 deg, from the horizontal, up positive")
     if numbers["rod"] >= numbers["hole"] or numbers["bore"] >= numbers["rod"]:
         raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
     count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
