@@ -196,8 +196,8 @@ static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent
  * P = I + c O~^2 and Q = c (U~O~ + O~U~) + e (O.U) O~^2, both symmetric. */
 
 /* out = P a + Q b */
-static inline void dmb_se3_symmetric_apply(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
-                                           const dmb_real a[3], const dmb_real b[3], dmb_real out[3])
+DMB_REAL_INLINE void dmb_se3_symmetric_apply(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
+                                             const dmb_real a[3], const dmb_real b[3], dmb_real out[3])
 {
     const dmb_real *U = h, *O = h + 3;
     dmb_real x[3], y[3], sum[3];
@@ -215,7 +215,7 @@ static inline void dmb_se3_symmetric_apply(const dmb_real h[6], const dmb_so3_in
 }
 
 /* out = b + c O x (O x b) */
-static inline void dmb_so3_symmetric_apply(const dmb_real O[3], dmb_real c, const dmb_real b[3], dmb_real out[3])
+DMB_REAL_INLINE void dmb_so3_symmetric_apply(const dmb_real O[3], dmb_real c, const dmb_real b[3], dmb_real out[3])
 {
     dmb_real x[3];
     dmb_vec3_cross(O, b, x);

@@ -291,9 +291,10 @@ enum {
     DMB_POWER_COUNT = 8
 };
 
-/* Balances are kept at times that grow by this part of the time since the start, as many as reach back by a tenth. */
-#define DMB_LEDGER_SPACING 0.02
-enum { DMB_LEDGER_MARKS = 8 };
+/* Balances are kept at times that grow by this part of the time since the start: the last but one is from before the
+ * last tenth. Each costs the energy of the whole state. */
+#define DMB_LEDGER_SPACING 0.25
+enum { DMB_LEDGER_MARKS = 2 };
 
 typedef struct dmb_ledger {
     double work[8];                    /* [J] integral of each power, trapezoidal */
