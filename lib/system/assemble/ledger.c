@@ -106,7 +106,7 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation, int released
     dmb_ledger_joint_excess(sim, &parts, &friction, &damping);
     friction += dmb_ledger_friction_excess(sim, &parts) + dmb_ledger_wall_excess(sim, &parts, released);
     dmb_ledger_move(sim, DMB_POWER_FRICTION, friction);
-    damping += dmb_ledger_damping_excess(sim, &parts);
+    damping += dmb_ledger_damping_excess(sim, &parts) + dmb_ledger_spring_excess(sim, &parts);
     dmb_ledger_move(sim, DMB_POWER_DAMPING, damping);
     dmb_ledger_move(sim, DMB_POWER_ROCK, dmb_ledger_rock_excess(sim, &parts));
     dmb_ledger_move(sim, DMB_POWER_DRIVES, add_drives(sim, &parts));

@@ -58,6 +58,21 @@ void dmb_ledger_joint_excess(const dmb_sim *sim, const dmb_ledger_parts *parts, 
     }
 }
 
+/* Dampers of springs that act both ways; those of others have their own integration (bounces). */
+double dmb_ledger_spring_excess(const dmb_sim *sim, const dmb_ledger_parts *parts)
+{
+    const dmb_scene *scene = sim->scene;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < scene->spring_count; i++) {
+        dmb_spring_motion a, b;
+        if (scene->springs[i].law.acts != DMB_SPRING_BOTH || !(scene->springs[i].law.damping > 0.0)) continue;
+        dmb_spring_motion_of(scene, &sim->now, i, 1, &a);
+        dmb_spring_motion_of(scene, &sim->trial, i, 1, &b);
+        sum += dmb_ledger_excess(parts, -a.force.damper, a.rate, -b.force.damper, b.rate);
+    }
+    return sum;
+}
+
 /* K d'^2 tau/L of the change of d' over the step, along and about the axis, where elements are stiff. */
 static double element_loss(const dmb_sim *sim, uint32_t e)
 {

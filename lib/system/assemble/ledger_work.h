@@ -19,6 +19,8 @@ static inline double dmb_ledger_excess(const dmb_ledger_parts *parts, double f0,
 
 /* [J] The same of the friction of pipes on the axis. */
 double dmb_ledger_friction_excess(const dmb_sim *sim, const dmb_ledger_parts *parts);
+/* [J] Of the dampers of springs between points. */
+double dmb_ledger_spring_excess(const dmb_sim *sim, const dmb_ledger_parts *parts);
 /* [J] Of the rock on all bits. */
 double dmb_ledger_rock_excess(const dmb_sim *sim, const dmb_ledger_parts *parts);
 /* [J] Of friction and dampers of joints. */
