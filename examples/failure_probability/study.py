@@ -47,7 +47,7 @@ FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250
 def changes(form, model, speed, feed, pipes):
     """Of rig.toml."""
     found = {"run.end": f"{form['end']} s", "string[0].pipes[0].count": pipes, "channel[1].place.pipe": pipes // 2,
-             "speeds.output[0].place.pipe": pipes // 2}
+             "response.output[0].place.pipe": pipes // 2, "speeds.output[0].place.pipe": pipes // 2}
     for i, sign in enumerate((1, -1, -1)):
         found[f"programme[0].term[{i}].h1"] = f"{sign * feed} mm/s"
         found[f"programme[1].term[{i}].h1"] = f"{sign * speed} rpm"

@@ -24,7 +24,8 @@
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
-       by system/constrain/cluster_projection, system/constrain/cluster_assembly; at the start and at jumps by         \
+       by system/constrain/cluster_projection, system/constrain/cluster_assembly, in axes that do not spin with them   \
+       by system/constrain/rotor; at the start and at jumps by                                                         \
        system/constrain/cluster_placement, system/start, system/jump, system/bounce_end: */                            \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
@@ -158,8 +159,9 @@
                                                     each piece: system/assemble/evaluation */                         \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     X(dmb_rotor_step, rotor_step, ro)   /* of bodies on joints that may spin, system/constrain/rotor */                \
-    /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint system/constrain/cluster, \
-       system/constrain/sparse_cluster; torques of free rotations taken out by analysis/static/static_spin;          \
+    /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint                     \
+       system/constrain/cluster, system/constrain/sparse_cluster, of rotors system/constrain/rotor; torques of free  \
+       rotations taken out by analysis/static/static_spin;                                                           \
        factors in their place by system/solve/solve: */                                                              \
     X(double, residual, r)              /* [N, N m] of the trial */                                                   \
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
