@@ -78,12 +78,13 @@ static void add_length(column *c, const double diameter[2], double hole, double 
 
 static void add_part(column *c, const dmb_pipe_def *pipe, int in_tool_joint, double from, double to)
 {
-    const double parts = ceil((to - from) / STEP_MAX - 1e-9), length = (to - from) / parts;
     double diameter[2];
     if (!(to > from)) return;
+    const uint32_t parts = 1 + (uint32_t)((to - from) / STEP_MAX - 1e-9);
+    const double length = (to - from) / parts;
     dmb_pipe_diameters(pipe, in_tool_joint, diameter);
     if (!(c->last_bore > 0.0)) c->last_bore = diameter[1];
-    for (double i = 0.0; i < parts; i += 1.0)
+    for (uint32_t i = 0; i < parts; i++)
         add_length(c, diameter, 2.0 * dmb_hole_radius(&c->scene->hole, to - (i + 0.5) * length), length);
 }
 
