@@ -102,7 +102,7 @@ static int32_t add_string(const bent *b, dmb_model *model, dmb_id *string)
 
 static int32_t open_bent(const bent *b, dmb_model **model, dmb_sim **sim, dmb_id *push)
 {
-    dmb_id string;
+    dmb_id string = {0, 0};
     dmb_load_def load = dmb_load_def_default();
     int32_t status = dmb_model_create(NULL, model);
     if (status >= 0) status = add_hole(b, *model);
