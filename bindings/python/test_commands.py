@@ -19,7 +19,7 @@ SHIPPED = [*sorted((ROOT / "examples" / "scenes").glob("*.toml")), *sorted((ROOT
 SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "points = 5"), (r'"2 s"(?=\s*#? ?\n|$)', '"2 s"'),
          (r'(?m)^from = "2 s"', 'from = "5 ms"'))
 COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",), ("buckle",),
-            ("torque-drag", "--depths", "2"), ("rod-by-rod",), ("stuck", "--pull", "20 kN"), ("rod-by-rod",), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
+            ("torque-drag", "--depths", "2"), ("stuck", "--pull", "20 kN"), ("rod-by-rod",), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
             ("probability", "--samples", "1", "--method", "monte-carlo", "--engine", "serial"))
 LOOSE = SCENE.replace('[[drive]]\nname = "feed"\nprogramme = "0 m/s"\n', "")  # nothing holds the string along its axis
 HEAVY = SCENE.replace("count = 8", "count = 3000").replace('end = "20 ms"', 'end = "200 s"') + """[buckling]

@@ -3,13 +3,12 @@ import json
 import math
 import unittest
 
-from shared_tests import FolderTest
+from shared_tests import FolderTest, needs
 
-try:
-    from drillmbd import scene
-    from drillmbd.scene import viscometer
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+needs("drillmbd")
+
+from drillmbd import scene  # noqa: E402
+from drillmbd.scene import viscometer  # noqa: E402
 
 WELL = """
 [environment]

@@ -5,7 +5,7 @@ import math
 import unittest
 import unittest.mock
 
-from shared_tests import FolderTest, needs
+from shared_tests import DRIVES, FolderTest, needs
 
 needs("numpy")
 
@@ -35,14 +35,7 @@ name = "bit"
 mass = "6 kg"
 diameter = "94 mm"
 load = "0 kN"
-[[drive]]
-name = "feed"
-programme = "0 m/s"
-[[drive]]
-name = "head"
-component = "rx"
-programme = "turning"
-[run]
+""" + DRIVES + """[run]
 step = "1 ms"
 end = "6 s"
 [response]

@@ -6,12 +6,9 @@ import unittest
 
 from shared_tests import FolderTest, needs
 
-needs("numpy", "scipy.stats")
+needs("numpy", "scipy.stats", "drillmbd")
 
-try:
-    from drillmbd import enums, scene, section_fit
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from drillmbd import enums, scene, section_fit  # noqa: E402
 
 WELL = """
 [environment]

@@ -269,6 +269,19 @@ static void stiffness_times_length(void **state)
     CHECK_CLOSE(speed[0], speed[1], 1e-14);
 }
 
+/* The figures at `restitution` of dmb_wall_def and in README: HUNT_CROSSLEY (mu = 3/2 (1 - e)) and EXACT. */
+static void default_law_rebounds_as_stated(void **state)
+{
+    const double wanted[] = {0.7, 0.4, 0.1}, stated[] = {0.768, 0.620, 0.516};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const dmb_wall_def plain = scene_wide_wall(dmb_wall_def_default().normal_law, 1e7, 1.0, wanted[i]);
+        const dmb_wall_def exact = scene_wide_wall(DMB_NORMAL_EXACT, 1e7, 1.0, wanted[i]);
+        CHECK_CLOSE(fly(&plain, 1.0, 1.0).out, stated[i], 1e-3);
+        CHECK_CLOSE(fly(&exact, 1.0, 1.0).out, wanted[i], 1e-4);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -281,6 +294,7 @@ int main(void)
         cmocka_unit_test(impact_law),
         cmocka_unit_test(hertz_sphere),
         cmocka_unit_test(stiffness_times_length),
+        cmocka_unit_test(default_law_rebounds_as_stated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

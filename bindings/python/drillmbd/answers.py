@@ -128,6 +128,11 @@ def note_bounces(sim: Any, output: Output) -> None:
                    " the step and compare", bounces=bounces))
 
 
+def key_of(name: str, unit: str) -> str:
+    """The key of summary.json: the name with its unit, as "hook_load_N" or "surge_density_kg_m3"."""
+    return name if unit in ("", "-") else f"{name}_{unit.replace('/', '_').replace(' ', '_')}"
+
+
 def finite(value: Any) -> Any:
     """The value as JSON has it: no NaN, no infinity."""
     if isinstance(value, float):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ._structs import Hydraulics
-from .answers import Output, file_name
+from .answers import Output, file_name, finite, key_of
 from .sim import Sim
 
 FIELDS = {name: unit for name, (unit, _) in Hydraulics.field_docs.items() if name not in ("struct_size", "reserved")}
@@ -17,20 +17,12 @@ def write(sim: Sim, output: Output, name: str, depths: Sequence[float], trip_spe
     if not sim.flow().rate > 0.0:
         return
     rows = [sim.hydraulics(depth, trip_speed) for depth in depths]
-    columns = {f"{key}{_suffix(unit)}": [_or_none(getattr(row, key)) for row in rows] for key, unit in FIELDS.items()}
-    told: dict[str, Any] = {"trip_speed_m_s": trip_speed, **columns}
-    output.summary.setdefault("hydraulics", {})[name] = told
+    columns = {key_of(key, unit): [finite(getattr(row, key)) for row in rows] for key, unit in FIELDS.items()}
+    results: dict[str, Any] = {"trip_speed_m_s": trip_speed, **columns}
+    output.summary.setdefault("hydraulics", {})[name] = results
     output.table(f"hydraulics_{file_name(name)}.csv", [f"{key.replace('_', ' ')} [{unit or '-'}]" for key, unit in FIELDS.items()],
                  [[getattr(row, key) for key in FIELDS] for row in rows])
     output.say(f"{name}, mud at {output.units.text(rows[-1].depth, 'm')}: {_sentence(rows[-1], output)}")
-
-
-def _suffix(unit: str) -> str:
-    return "_" + unit.replace("/", "_").replace(" ", "_") if unit not in ("", "-") else ""
-
-
-def _or_none(value: Any) -> float | None:
-    return float(value) if math.isfinite(value) else None
 
 
 def _sentence(row: Hydraulics, output: Output) -> str:

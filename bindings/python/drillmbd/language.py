@@ -53,7 +53,7 @@ def phrase(template: str, /, **values: Any) -> Phrase:
 
 
 def joined(separator: str, parts: Iterable[str]) -> Listed:
-    """Sentences with a separator between them, a literal likewise."""
+    """Sentences with a separator between them, literals are separated alike."""
     return Listed(separator, parts)
 
 
@@ -101,11 +101,11 @@ class Language:
 
     def _cells(self, line: str) -> str:
         """Columns of a table are two blanks apart or more; a number needs no translation."""
-        told, wanted = "", 0
+        padded, wanted = "", 0
         for i, cell in enumerate(re.split(r"(\s{2,})", line)):
             wanted += len(cell)
-            told += " " * max(2, wanted - _width(told)) if i % 2 else cell if re.fullmatch(r"[-+\d.e]*", cell) else self(Foreign(cell))
-        return told
+            padded += " " * max(2, wanted - _width(padded)) if i % 2 else cell if re.fullmatch(r"[-+\d.e]*", cell) else self(Foreign(cell))
+        return padded
 
     def all(self, value: Any) -> Any:
         """A structure, as a figure is, with all of its sentences in this language."""

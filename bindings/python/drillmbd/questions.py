@@ -147,7 +147,7 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         if first is not None and sim.statistics().steps:
             energy_error(sim, output, first, not stopped)
         if turning is not None:
-            turning.tell(output)
+            turning.report(output)
         _run_answers(scene, sim, output, recorder)
         if last is not None and not stopped:
             last.verify(output)

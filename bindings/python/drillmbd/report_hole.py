@@ -104,8 +104,8 @@ def turned(move: Sequence[float], azimuth: float, factor: float) -> tuple[float,
 
 # ---- Drawing ---------------------------------------------------------------------------------------------------------
 def _line(points: Sequence[Place], colour: str, width: float, more: str = "") -> str:
-    told = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    return f'<polyline points="{told}" fill="none" stroke="{colour}" stroke-width="{width:g}" {more}/>'
+    text = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    return f'<polyline points="{text}" fill="none" stroke="{colour}" stroke-width="{width:g}" {more}/>'
 
 
 def _text(x: float, y: float, text: str, anchor: str = "start", size: float = 0.0, more: str = "") -> str:
@@ -193,9 +193,9 @@ class Drawing:
             if (nx, ny) != (0.0, 0.0) and across > 1e-6:
                 self.parts.append(_line([(x - nx, y - ny), (x + nx, y + ny)], "#111", 1.0))
             if component == 2:
-                told = f"{number * step:g} {self.view.length_unit}"
+                text = f"{number * step:g} {self.view.length_unit}"
                 upright = abs(ny) < abs(nx)
-                self.parts.append(_text(x - 1.0 * size, y + 0.35 * size, told, "end") if upright else _text(x, y + 1.9 * size, told, "middle"))
+                self.parts.append(_text(x - 1.0 * size, y + 0.35 * size, text, "end") if upright else _text(x, y + 1.9 * size, text, "middle"))
             number += 1
 
     def _plan_marks(self, at: Callable[[Any], Place], upper: float, lower: float) -> None:
@@ -254,11 +254,11 @@ class Drawing:
         x, y = 0.5 * size, top + 1.6 * size
         for number in range(most + 1):
             width, colour = CLASSES[number]
-            told = self.to(phrase("none")) if number == 0 else f"{(number - 1) * view.step:g} – {number * view.step:g}"
-            room = (3.6 + 0.62 * len(told)) * size + (size if number == 0 else 0.0)
+            text = self.to(phrase("none")) if number == 0 else f"{(number - 1) * view.step:g} – {number * view.step:g}"
+            room = (3.6 + 0.62 * len(text)) * size + (size if number == 0 else 0.0)
             if x + room > self.width:
                 x, y = 0.5 * size, y + 1.6 * size
-            self.parts.append(_line([(x, y - 0.35 * size), (x + 2.2 * size, y - 0.35 * size)], colour, width) + _text(x + 2.7 * size, y, told))
+            self.parts.append(_line([(x, y - 0.35 * size), (x + 2.2 * size, y - 0.35 * size)], colour, width) + _text(x + 2.7 * size, y, text))
             x += room
         return y + 0.8 * size
 

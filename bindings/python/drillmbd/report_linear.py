@@ -43,14 +43,14 @@ class Speeds:
     def notes(self) -> list[str]:
         """Parts that the analysis leaves out."""
         report = self.bands.report
-        told: list[str] = []
+        remarks: list[str] = []
         if report.silent_orders:
-            told.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
+            remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
         if report.undamped:
-            told.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
+            remarks.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
         if report.truncated:
-            told.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
-        return told
+            remarks.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
+        return remarks
 
     def _band(self, band: Any) -> str:
         """A band that reaches an end of the range may go on beyond it."""
@@ -96,13 +96,13 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
         return Tile(title, value, phrase("the rotation of {rpm:.4g} rpm is outside the range of [speeds]; {text}", rpm=rpm, text=text), NOT_ASSESSED)
     inside = any(band.low <= planned <= band.high for band in found.bands)
     near = any(band.low * (1.0 - NEAR_BAND) <= planned <= band.high * (1.0 + NEAR_BAND) for band in found.bands)
-    told = phrase("rotation {rpm:.4g} rpm; {text}", rpm=rpm, text=text)
+    remarks = phrase("rotation {rpm:.4g} rpm; {text}", rpm=rpm, text=text)
     silent = int(found.bands.report.silent_orders)
     if silent:
-        told = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=told)
+        remarks = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=remarks)
     if found.refused:
-        told = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=told)
-    return Tile(title, value, told, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.refused else OK)
+        remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=remarks)
+    return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.refused else OK)
 
 
 def speeds_figure(found: Speeds) -> Figure:

@@ -98,8 +98,8 @@ def depths_of_rods(lengths: list[float], last: float) -> list[float]:
 # ---- Results ---------------------------------------------------------------------------------------------------------
 def _write(output: Output, name: str, rows: list[Row], limits: dict[str, float]) -> None:
     units = output.units
-    told = sorted({round(i * (len(rows) - 1) / (MOST_LINES - 1)) for i in range(MOST_LINES)})
-    for row in (rows[i] for i in told):
+    listed = sorted({round(i * (len(rows) - 1) / (MOST_LINES - 1)) for i in range(MOST_LINES)})
+    for row in (rows[i] for i in listed):
         output.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: {_loads(row, units)}, {row.verdict(limits)}")
     output.say(f"{name}: {_reach(rows, limits, units)}")
     if MAKE_UP not in limits:

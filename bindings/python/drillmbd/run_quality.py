@@ -59,7 +59,7 @@ class TurnAStep:
             self.time, self.turns = self.sim.time, now
         return Status.OK
 
-    def tell(self, output: Output) -> None:
+    def report(self, output: Output) -> None:
         """A note for each string that turns by more than the bound."""
         for name, speed in self.most.items():
             turn = speed * self.step

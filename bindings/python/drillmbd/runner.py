@@ -25,14 +25,14 @@ class Meter:
 
     def __init__(self, name: str, stream: IO[str] | None = None) -> None:
         self.name, self.stream = name, sys.stderr if stream is None else stream
-        self.begun = self.told = time.monotonic()
+        self.begun = self.reported = time.monotonic()
         self.width = 0
 
     def __call__(self, fraction: float) -> None:
         now = time.monotonic()
-        if now - self.begun < self.AFTER or now - self.told < self.EVERY:
+        if now - self.begun < self.AFTER or now - self.reported < self.EVERY:
             return
-        self.told = now
+        self.reported = now
         text = f"{self.name}: {100.0 * fraction:3.0f} % of this analysis, {now - self.begun:.0f} s"
         self.stream.write("\r" + text.ljust(self.width))
         self.stream.flush()

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from ._optional import need
-from .answers import Output
+from .answers import Output, finite
 from .measured import CONFIDENCE, KINDS, MOST_FRICTION, Series, label
 from .scene import CannotSave, Scene, loads, saves
 from .scene.units import parse
 from .unit_systems import Units
 
 STEPS, DIFFERENCE, TOLERANCE = 30, 1e-4, 1e-8
-SINGULAR = 1e-6  #: ratio of singular values of the scaled Jacobian below which sections are not told apart
+SINGULAR = 1e-6  #: ratio of singular values of the scaled Jacobian below which sections cannot be separated
 
 
 @dataclass
@@ -112,20 +112,20 @@ def compare(scene: Scene, name: str, output: Output, series: dict[str, Series], 
     except CannotSave:
         return
     sections = sections_of(text)
-    told: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for word, one in series.items():
         reached = [part for part in sections if part.top < max(one.depths)]
         if word == "rotate" or len(reached) < 2:
             continue
         model = Model(text, reached, name, one, operations[KINDS[word]], block_weight)
         found = fit(model.at, one.values, [part.friction for part in reached])
-        told[word] = {"reason": found.reason or None, "scatter": found.scatter if math.isfinite(found.scatter) else None, "sections": [
+        results[word] = {"reason": found.reason or None, "scatter": finite(found.scatter), "sections": [
             {"name": part.name, "from_m": part.top if math.isfinite(part.top) else None,
              "friction": None if found.reason else found.frictions[k], "half_width_95": None if found.reason else found.half_widths[k]}
             for k, part in enumerate(reached)]}
         output.say(f"{name}, measured {label(word)} by section: {_text(reached, found, output.units)}")
-    if told:
-        output.summary.setdefault("measured_by_section", {})[name] = told
+    if results:
+        output.summary.setdefault("measured_by_section", {})[name] = results
 
 
 def _text(sections: list[Section], found: Found, units: Units) -> str:

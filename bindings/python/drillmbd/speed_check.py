@@ -203,8 +203,8 @@ def _tell(results: list[Result], found: Found, output: Output, elapsed: float) -
     failed = [one for one in results if one.error]
     free = [one for one in marked if _linear(found, one.speed) == "free"]
     if marked:
-        told = ", ".join(f"{one.speed / RPM:.0f}" for one in marked)
-        output.say(f"avoid in time: {told} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
+        speeds = ", ".join(f"{one.speed / RPM:.0f}" for one in marked)
+        output.say(f"avoid in time: {speeds} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
                                                    if free else ""))
     elif not failed:
         output.say(f"in time none of the {len(results)} speeds swings; speeds between them were not run")

@@ -74,13 +74,13 @@ def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[f
             failed.append(str(error))
             lost += 1
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
-    told = ", ".join(_words(one, output.units) for one in parts)
+    parts_text = ", ".join(_words(one, output.units) for one in parts)
     ranges = union(bands)
     text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else "no critical speed in any of them")
     if lost:
         text += f"; {lost} of the {len(cases)} cases are not assessed"
     how = "all combinations" if len(parts) <= MOST_CORNERS else "one at its end, the others in the middle"
-    output.say(f"over the range of {told} ({len(cases)} cases, {how}): {text}")
+    output.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):
         output.note_text(f"speeds, a case of the range: {one}")
     if scene.variability.processes:

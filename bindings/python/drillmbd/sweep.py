@@ -94,7 +94,7 @@ class Sweep:
             print(text, flush=True)
 
     def case(self, values: tuple[Any, ...], load: Callable[[dict[str, Any]], Scene], file: str, options: Any) -> None:
-        """One more case; what fails is counted and told in its row."""
+        """One more case; a failure is counted and stated in its row."""
         changes = dict(zip(self.keys, values))
         number = len(self.rows) + 1
         row: dict[str, Any] = {"case": number, **changes, "status": "ok", "message": ""}
@@ -114,8 +114,8 @@ class Sweep:
             self.failed += 1
             self.rows.append(row)
             row.update(status="failed", message=line_of(error))
-        told = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}" for key, value in changes.items())
-        self.say(f"case {number} of {self.count}: {told}: {row['status']}{about}" + (f": {row['message']}" if row["message"] else ""))
+        settings = ", ".join(f"{key} = {value:.10g}" if isinstance(value, float) else f"{key} = {value}" for key, value in changes.items())
+        self.say(f"case {number} of {self.count}: {settings}: {row['status']}{about}" + (f": {row['message']}" if row["message"] else ""))
 
     def _answer(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
         """The summary of a case that is computed now. Raises KeyboardInterrupt where Ctrl-C ended it."""

@@ -10,7 +10,7 @@ from typing import Any
 from . import broomstick, enums, hydraulics, measured, rig_limits, section_fit
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
-from .answers import RPM, Output, file_name, friction_option, quantity
+from .answers import RPM, Output, file_name, finite, friction_option, key_of, quantity
 from .errors import Error, Usage
 from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
 from .profile import values_of
@@ -171,15 +171,6 @@ def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: S
 
 
 # ---- Rows ------------------------------------------------------------------------------------------------------------
-def _key(name: str) -> str:
-    unit = FIELDS[name]
-    return name if unit in ("", "-") else f"{name}_{unit.replace(' ', '_')}"
-
-
-def _or_none(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def _values(curves: Curves, row: TorqueDragRow) -> list[float]:
     return [curves.hook_load(row) if name == "hook_load" else float(getattr(row, name)) for name in FIELDS]
 
@@ -190,13 +181,13 @@ def _write_rows(sim: Sim, output: Output, curves: Curves, settings: Settings) ->
         neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
         output.say(f"{curves.name}, {WORDS[kind]} at {output.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, output.units)}")
         told[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
-                             **{_key(name): _or_none(value) for name, value in zip(FIELDS, _values(curves, row))}}
+                             **{key_of(name, FIELDS[name]): finite(value) for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
         output.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
     output.summary.setdefault("torque_drag", {})[curves.name] = told
     output.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
         word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
-               **{_key(name): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
+               **{key_of(name, FIELDS[name]): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
         for number, word in WORDS.items()}
     heads = ["depth [m]", "operation", "locked", *(f"{name.replace('_', ' ')} [{unit or '-'}]" for name, unit in FIELDS.items())]
     output.table(f"torque_drag_{file_name(curves.name)}.csv", heads,

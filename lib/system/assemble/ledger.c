@@ -5,7 +5,6 @@
 
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
-#include "system/assemble/ledger_work.h"
 
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {

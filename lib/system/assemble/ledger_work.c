@@ -1,4 +1,4 @@
-#include "system/assemble/ledger_work.h"
+#include "system/assemble/ledger.h"
 
 #include <string.h>
 

@@ -538,6 +538,26 @@ static void stick_slip_cycle(void **state)
     CHECK_RELATIVE(twice.period, once.period, 1e-2);
 }
 
+/* The figure at `mu_static` of dmb_wall_def: smoothing takes the top off the Stribeck curve. */
+static void smoothed_curve_reaches_what_is_stated(void **state)
+{
+    const dmb_wall_def wall = dmb_wall_def_default();
+    const dmb_friction_law law = {.kind = DMB_FRICTION_STRIBECK,
+                                  .mu_static = wall.mu_static,
+                                  .mu_dynamic = wall.mu_dynamic,
+                                  .stribeck_speed = wall.stribeck_speed,
+                                  .smoothing_speed = wall.smoothing_speed};
+    double most = 0.0;
+    (void)state;
+    for (int i = 1; i < 100000; i++) {
+        const double v[2] = {1e-6 * i, 0.0};
+        double F[2];
+        smooth_force(&law, 1.0, v, F);
+        most = fmax(most, -F[0]);
+    }
+    assert_true(fabs(most - 0.3237) < 1e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -548,7 +568,7 @@ int main(void)
         cmocka_unit_test(bristle_is_continuous), cmocka_unit_test(breaks_away_at_static),
         cmocka_unit_test(bristle_dissipates),    cmocka_unit_test(slider_stops),
         cmocka_unit_test(incline_sticks),        cmocka_unit_test(no_ratchet),
-        cmocka_unit_test(stick_slip_cycle),
+        cmocka_unit_test(stick_slip_cycle),      cmocka_unit_test(smoothed_curve_reaches_what_is_stated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

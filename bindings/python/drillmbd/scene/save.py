@@ -203,10 +203,10 @@ class Writer:
         usual = [key for key in every if key not in given]
         lines = [(key, self._plain(known[key], every[key], unit_of(key) if unit_of else None)) for key in (*given, *usual)
                  if key in known and key not in left_out and not (key == "name" and struct in NAMED)]
-        told = False
+        explained = False
         for key, value in lines:
-            if key in usual and not told and not order.keys() & set(usual):
-                told = True
+            if key in usual and not explained and not order.keys() & set(usual):
+                explained = True
                 self.lines.append((DEFAULTS, None))
             self._key(key, value)
 
