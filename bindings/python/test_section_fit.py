@@ -74,6 +74,15 @@ class SectionFitTest(FolderTest):
         self.assertIsNone(found["pick-up"]["sections"][0]["friction"])
         (self.folder / "out" / "summary.json").unlink()
 
+    def test_best_coefficients_out_of_range(self):
+        """Loads below those without friction, or beyond those of the largest coefficient, explain no coefficient."""
+        def at(friction):
+            return [100.0 + friction[0] * (1.0 + x) + friction[1] * x * x for x in range(6)]
+        for right, outside in (((0.3, 0.2), False), ((-0.1, 0.2), True), ((0.3, -0.05), True), ((11.0, 0.2), True)):
+            found = section_fit.fit(at, at(right), [0.3, 0.3])
+            self.assertEqual("examine the block weight" in found.reason, outside)
+            self.assertEqual(bool(found.half_widths), not outside)
+
     def test_few_measurements(self):
         _, found = self.by_section([900.0, 1900.0])
         self.assertIn("2 measurements are not more than 2 coefficients", found["pick-up"]["reason"])

@@ -97,6 +97,9 @@ def fit(at: Callable[[list[float]], list[float]], values: list[float], start: li
             break
     else:
         return Found(frictions, [], reason="the fit does not converge; examine the block weight, the sign and the unit")
+    outside = [one for one, step in zip(frictions, change) if (one <= 0.0 and step < -TOLERANCE) or (one >= MOST_FRICTION and step > TOLERANCE)]
+    if outside:
+        return Found(frictions, [], reason="no coefficients between 0 and 10 fit best; examine the block weight, the sign and the unit")
     free = len(values) - len(frictions)
     variance = float(rest @ rest) / free
     quantile = float(need("scipy.stats").t.isf(0.5 * (1.0 - CONFIDENCE), free))
