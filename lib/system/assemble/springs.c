@@ -437,10 +437,15 @@ void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component,
     apply(evaluation, evaluation->sim->scene->joints + j, &f);
 }
 
-static void rest_stops(dmb_sim *sim, const dmb_scene_joint *joint)
+/* Laws of an open joint have no force, and no speed: a speed that stayed from before the joint opened would be that of
+ * an earlier step, and a restored state would not have it. */
+static void rest_laws(dmb_sim *sim, const dmb_scene_joint *joint)
 {
-    if (joint->law == DMB_NONE || sim->scene->unilateral_count == 0) return;
-    for (uint32_t i = 0; i < 6; i++) dmb_bounce_rest(sim, joint->law + i);
+    if (joint->law == DMB_NONE) return;
+    for (uint32_t i = 0; i < 6; i++) {
+        sim->trial.law_speed[joint->law + i] = 0.0;
+        if (sim->scene->unilateral_count > 0) dmb_bounce_rest(sim, joint->law + i);
+    }
 }
 
 static void gather_forces(dmb_evaluation *evaluation)
@@ -451,7 +456,7 @@ static void gather_forces(dmb_evaluation *evaluation)
         coordinate_forces f;
         if (evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) {
             rest_drives(evaluation, j);
-            rest_stops(evaluation->sim, joint);
+            rest_laws(evaluation->sim, joint);
         }
         if (!has_forces(evaluation->sim, joint, j)) continue;
         begin(evaluation, j, &f);
