@@ -34,7 +34,7 @@ def arrow(axes, begin, end, text="", colour=INK, at=None, **options):
     if text:
         dx, dy = end[0] - begin[0], end[1] - begin[1]
         long = max((dx * dx + dy * dy) ** 0.5, 1e-12)
-        place = at or (end[0] + 0.12 * dx / long, end[1] + 0.12 * dy / long)
+        place = at if at is not None else (end[0] + 0.12 * dx / long, end[1] + 0.12 * dy / long)
         axes.text(*place, text, color=colour, ha="center", va="center", zorder=6)
 
 
