@@ -25,10 +25,10 @@ typedef struct dmb_site {
  * In body axes, with n, t, b the contact frame (n outward, t along the hole, b = t x n), V the velocity of the ring's
  * centre and r its radius, three generalised directions carry everything:
  *     j_n = (n; 0)    j_t = (t; -r b)    j_b = (b; r t)          contact speed v_k = j_k . V
- *     wrench on the ring = -N j_n + F_t j_t + F_b j_b
+ *     wrench on the ring = -N j_n + F_t j_t + F_b j_b          (eq:contact.directions, eq:contact.wrench)
  * so drag and torque share one friction force. The tangent follows by the product rule: change of the forces with
  * penetration and speeds, swing of n and b around the axis (the pendulum term N/e), turning of the frame as the ring
- * moves along a bend of the hole, and turning of the body. */
+ * moves along a bend of the hole (eq:hole.advance), and turning of the body (eq:contact.pendulum). */
 
 #define DMB_CONTACT_PINNED 1e-9       /* [m] nearer to the axis than this, n has no swing of its own */
 #define DMB_CONTACT_PENETRATION 1e-15 /* [m] the least that a ring without clearance has */

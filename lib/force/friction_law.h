@@ -31,14 +31,15 @@ typedef struct dmb_friction_law {
 /* Friction as a function of velocity alone. F [as N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
  * dF_dN its derivative with respect to N (2).
  *   COULOMB, STRIBECK: F = -mu(s) N v/s, s = sqrt(|v|^2 + v_eps^2), mu constant (mu_dynamic) or the Stribeck curve
- *   mu_d + (mu_s - mu_d) exp(-s/v_s). BRISTLE gives the STRIBECK result: what the law is once it slides.
- *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond.
+ *   mu_d + (mu_s - mu_d) exp(-s/v_s) (eq:friction.smooth, eq:friction.stribeck). BRISTLE gives the STRIBECK result, to
+ *   which the law comes once it slides.
+ *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond (eq:friction.ambrosio).
  * Zero where v = 0; a law smoothed like this creeps under load, BRISTLE does not. */
 static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
                                        dmb_real *dF_dv, dmb_real dF_dN[2]);
 
 /* Friction with memory: elastic bristles of deflection z [m] that truly stick. One step of length h [s] (>= 0) from
- * deflection z_old and sliding velocity v_old, ends at v:
+ * deflection z_old and sliding velocity v_old, ends at v (eq:friction.bristle):
  *   z* = z_old + h (v_old + v)/2
  *   z  = z* brought back onto the circle |z| <= mu/sigma0
  *   q  = sigma0 z + sigma1 v brought back onto the circle |q| <= mu,   F = -N q
@@ -151,7 +152,8 @@ static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, 
  */
 
 /* Brings a vector back onto the circle |x| <= limit, radially, and its derivative dx (2,2) with it:
- * d(limit x/|x|) = limit/|x| (I - e e^T) dx + e d_limit^T, e = x/|x|. Returns where it had to. */
+ * d(limit x/|x|) = limit/|x| (I - e e^T) dx + e d_limit^T, e = x/|x| (eq:friction.projection). Returns where it had to.
+ */
 static inline dmb_mask dmb_onto_circle(dmb_real x[2], dmb_real dx[4], dmb_real limit, const dmb_real d_limit[2])
 {
     const dmb_real length = dmb_friction_norm(x[0], x[1]);

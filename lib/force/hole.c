@@ -86,7 +86,8 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
     return normalise(from->normal);
 }
 
-/* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n and its two derivatives, r beyond a station, k its curvature */
+/* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n (eq:hole.arc) and its two derivatives, r beyond a station, k its
+ * curvature */
 static void along_arc(const dmb_hole_station *from, double r, double x[3], double t[3], double curvature[3])
 {
     const double angle = from->curvature * r;

@@ -53,7 +53,7 @@ int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const do
  * and azimuth clockwise seen from above, from +x (north) towards -y (east) [rad]. origin [m]: the first station's
  * place. storage: the caller's array of `stations` entries, kept by the hole. A survey without a bend becomes a
  * straight hole. Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the
- * one before above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: Taylor, Mason 1972.
+ * one before above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: eq:hole.arc.
  * O(stations). */
 int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *survey, const double origin[3],
                               double radius, dmb_hole_station *storage);
@@ -69,7 +69,7 @@ void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 
 /* Frame that the axis carries along without any twist about itself, (3,3) row by row: its x axis is the tangent. It is
  * the hole's frame at the first station (a straight hole: everywhere) and turns by t x dt/ds per metre from there on,
- * through the vertical as elsewhere (Bishop, There is more than one way to frame a curve, 1975). Exact along arcs.
+ * through the vertical as elsewhere (eq:hole.carried). Exact along arcs.
  * O(log stations). */
 void dmb_hole_carried_rotation(const dmb_hole *hole, double s, double R[9]);
 
@@ -148,7 +148,7 @@ static inline void dmb_radial_at(const dmb_real x[3], const dmb_real axis_point[
 /* The wall's constants by measured depth: pieces of parabolas, joined without a kink.
  *
  * A ring of radius r at distance e from the axis and depth s goes d = e - (R(s) - r) into the wall, which stores
- *     U = l K(s) d^(n+1)/(n+1).
+ *     U = l K(s) d^(n+1)/(n+1)                                  (eq:hole.section-force).
  * With rho = R'(s) ds/dx, ds/dx = J t, J = 1/(1 - e n.k) on an axis of curvature vector k, the way in grows by
  *     dd = g . dx,   g = n - rho t,
  * so the force of the wall acts along -g, also the damped part, and where K changes there is -J l K' d^(n+1)/(n+1)

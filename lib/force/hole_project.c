@@ -28,9 +28,9 @@ static uint32_t find_segment(const dmb_hole *hole, const double x[3], uint32_t h
     return i;
 }
 
-/* Closest point on the arc of a station, u = x - p, k its curvature: with c = (1 - k u.n)/rho and a = (u.t)/rho,
- * rho = |(1 - k u.n, k u.t)|, the angle is atan2(k a, c), the point p + a t + k a^2/(1 + c) n and the tangent
- * c t + k a n. No term is lost as k goes to 0. */
+/* Closest point on the arc of a station (eq:hole.project), u = x - p, k its curvature: with c = (1 - k u.n)/rho and a =
+ * (u.t)/rho, rho = |(1 - k u.n, k u.t)|, the angle is atan2(k a, c), the point p + a t + k a^2/(1 + c) n and the
+ * tangent c t + k a n. No term is lost as k goes to 0. */
 static void project_on_arc(const dmb_hole_station *from, const double x[3], double *s, double point[3],
                            double tangent[3])
 {

@@ -10,7 +10,7 @@
 
 /* ---- Restitution and damping factor ------------------------------------------------------------------------------
  * One contact under K d^n (1 + mu d'/v0) obeys m v dv/(1 + mu v/v0) = -K d^n dd, so speed in and out do not depend on
- * n:  ln(1 + mu) - mu = ln(1 - mu e) + mu e, called (1).
+ * n:  ln(1 + mu) - mu = ln(1 - mu e) + mu e, called (1) here (eq:contact.exact).
  * mu = 0 solves it for any e; the wanted root is the other one. */
 
 /* (1) divided by mu^2 as a series: sum_{k>=2} mu^(k-2) (e^k - (-1)^k)/k. Free of the root at 0 and of cancellation. */
@@ -85,7 +85,7 @@ double dmb_exact_restitution_factor(double e)
 static double restitution_factor(int32_t kind, double e)
 {
     switch (kind) {
-    case DMB_NORMAL_HUNT_CROSSLEY: /* Hunt, Crossley 1975 */ return 1.5 * (1.0 - e);
+    case DMB_NORMAL_HUNT_CROSSLEY: /* eq:contact.factors */ return 1.5 * (1.0 - e);
     case DMB_NORMAL_LANKARANI_NIKRAVESH: /* Lankarani, Nikravesh 1990 */ return 0.75 * (1.0 - e) * (1.0 + e);
     case DMB_NORMAL_FLORES: /* Flores, Machado, Silva, Martins 2011 */
         return 1.6 * (1.0 - e) / fmax(e, DMB_RESTITUTION_FLOOR);

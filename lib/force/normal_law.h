@@ -1,6 +1,6 @@
 /* Normal contact laws: force over penetration depth and its rate, per metre of pipe.
- * THEORY: K d^n (1 + mu d'/v0) with the damping factor mu of Hunt-Crossley, Lankarani-Nikravesh, Flores or the exact
- * one; Kelvin-Voigt and IMPACT with a damping constant. Pure functions. */
+ * eq:contact.normal with the damping factor mu of Hunt-Crossley, Lankarani-Nikravesh, Flores (eq:contact.factors) or
+ * the exact one; Kelvin-Voigt and IMPACT with a damping constant (eq:contact.kelvin-voigt). Pure functions. */
 #ifndef DMB_FORCE_NORMAL_LAW_H
 #define DMB_FORCE_NORMAL_LAW_H
 
@@ -25,7 +25,8 @@ typedef struct dmb_normal_law {
 dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution);
 
 /* [-] Damping factor mu that makes K d^n (1 + mu d'/v0) give back the restitution e, for any n and v0:
- * mu (1 + e) = ln((1 + mu)/(1 - mu e)). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN) counts as 1e-6. */
+ * mu (1 + e) = ln((1 + mu)/(1 - mu e)) (eq:contact.exact). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN)
+ * counts as 1e-6. */
 double dmb_exact_restitution_factor(double e);
 
 /* d mu/d restitution of a law whose mu is that of the restitution e. */
@@ -77,7 +78,8 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real de
  * radius), so that in the step in which it closes, and in the two behind it, the damping is weighted by w: its impulse,
  * and where that has its centre, are then those of c d' since touch. With p the part of the step that was closed
  *     w1 = 11/6 p    w2 = 11/6 - 5/3 p + p^2/2    w3 = 1 + D/h - (w2 - 1)/2 = 2/3 + 5/6 p - p^2/2 in equal steps
- * D being the time that is missing, h p - h w1/2 at first. No weight jumps as touch goes from step to step. THEORY 5.
+ * (eq:touch.weights), D being the time that is missing, h p - h w1/2 at first (eq:touch.time). No weight jumps as touch
+ * goes from step to step.
  */
 
 #define DMB_TOUCH_FIRST (11.0 / 6.0)

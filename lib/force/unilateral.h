@@ -1,4 +1,4 @@
-/* Force of a one-sided law over a step that touch or release falls into (THEORY 4, "Bounces"): the mean force that
+/* Force of a one-sided law over a step that touch or release falls into (eq:unilateral.mean): the mean force that
  * takes as much energy from the bodies as the law stores. Pure functions. */
 #ifndef DMB_FORCE_UNILATERAL_H
 #define DMB_FORCE_UNILATERAL_H

@@ -1,5 +1,5 @@
 /* The motion at the end of a step once more, from the increments found so far and a history that contacts which open
- * have been taken off (THEORY 4). */
+ * have been taken off (eq:contact.release). */
 #include "integrator/attempt.h"
 #include "integrator/step_motion.h"
 #include "sim/parts.h"

@@ -1,5 +1,5 @@
 /* Accelerations behind a step in which stops or springs touch or open: without the mean forces that the step had
- * (THEORY 4, "Bounces"). */
+ * (eq:unilateral.mean, eq:unilateral.resolved). */
 #include "system/system.h"
 
 #include <math.h>

@@ -106,7 +106,7 @@ static void gather_released(dmb_sim *sim, double *rows, double *part)
 }
 
 /* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would
- * carry on as if the contact still pressed (THEORY 4). */
+ * carry on as if the contact still pressed (eq:contact.release). */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part)
 {
     dmb_sim *sim = evaluation->sim;

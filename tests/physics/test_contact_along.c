@@ -1,5 +1,6 @@
 /* Contact along the element against closed forms (load at which a sagging pipe touches), against a finer mesh
- * (lift-off, modes), runs that settle in the static state, snapshots and state transfer. */
+ * (lift-off, modes), runs that settle in the static state, snapshots and state transfer. Equations: eq:contact.inside.
+ */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* One contact in full simulation: a ball flies against the wall without gravity and leaves it again.
  *
  * Under K d^n (1 + mu d'/v0) the speed of leaving is e v0 with ln(1 + mu) - mu = ln(1 - mu e) + mu e, whatever K, n, m
- * and v0 (THEORY 5). The other laws are compared with a Runge-Kutta solution of m d'' = -F(d, d') made here, and with
- * closed forms where there are any. */
+ * and v0. The other laws are compared with a Runge-Kutta solution of m d'' = -F(d, d') made here, and with
+ * closed forms where there are any. Equations: eq:contact.separation, eq:contact.exact. */
 #include "contact_scene.h"
 
 typedef struct impact {
@@ -137,7 +137,7 @@ static void lankarani_nikravesh(void **state)
 {
     (void)state;
     check_curve(DMB_NORMAL_LANKARANI_NIKRAVESH);
-    /* the table of THEORY 5, given to three digits */
+    /* to three digits */
     CHECK_CLOSE(wanted(DMB_NORMAL_LANKARANI_NIKRAVESH, 0.5), 0.725, 5e-4);
     CHECK_CLOSE(wanted(DMB_NORMAL_LANKARANI_NIKRAVESH, 0.1), 0.665, 5e-4);
 }

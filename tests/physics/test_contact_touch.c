@@ -1,6 +1,7 @@
 /* A ball falls on a wall whose damping jumps at touch (Kelvin-Voigt), in steps that do not know of it, and leaves
  * again; against the closed form. With m d'' = m g - k d - c d' from d = 0, d' = v on, d = m g/k + e^(-b t) (A cos wt +
- * B sin wt),  b = c/2m,  w^2 = k/m - b^2,  A = -m g/k,  B = (v + b A)/w until k d + c d' = 0, from where it flies. */
+ * B sin wt),  b = c/2m,  w^2 = k/m - b^2,  A = -m g/k,  B = (v + b A)/w until k d + c d' = 0, from where it flies.
+ * Equations: eq:touch.weights, eq:touch.half, eq:contact.release. */
 #include "contact_scene.h"
 
 static const double m = 10.0, k = 1e6, c = 1e3, g = 9.81;

@@ -4,7 +4,8 @@
  *
  * Twice: a block of .5 kg on the floor of the hole, pressed on it with 1000 N and drawn by a controlled drive whose
  * integral gain is the spring (a FULL node); and a rotor of .5 kg m2 at the end of an axial-torsional bar of 73 N m/rad
- * whose weight, 1000 N on a radius of 1 m in terms of torque, rubs on the wall (a PATH node). */
+ * whose weight, 1000 N on a radius of 1 m in terms of torque, rubs on the wall (a PATH node). Equations:
+ * eq:friction.smooth, eq:friction.bristle. */
 #include "contact_scene.h"
 
 static const double inertia = 0.5, spring = 73.0, speed = 5.0, held = 300.0, sliding = 200.0;

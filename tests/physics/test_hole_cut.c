@@ -1,6 +1,6 @@
 /* The hole that bits and reamers leave (cut_spacing of dmb_wall_def): where its end is, a stabiliser in it against a
  * hole described like that, the energy of a wall that is cut away under a ring, runs by several ways, another model
- * that goes on in it, and what is refused. */
+ * that goes on in it, and what is refused. Equations: eq:hole.cut. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Places of parts along a hole that turns back or crosses itself: gaps, measured depths, advances of bits, frames of
- * loads, after motion, state transfers and subs too. */
+ * loads, after motion, state transfers and subs too. Equations: eq:hole.foot. */
 #include <string.h>
 
 #include "random_hole.h"

@@ -1,5 +1,6 @@
 /* The hole by sections against closed forms (pipe on two diameters, block over a friction step, ball up a slope, torque
- * and drag with piecewise friction), against the hole without sections, and what is refused. */
+ * and drag with piecewise friction), against the hole without sections, and what is refused. Equations:
+ * eq:hole.section, eq:hole.section-force. */
 #include <stdlib.h>
 #include <string.h>
 

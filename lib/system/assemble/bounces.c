@@ -1,4 +1,4 @@
-/* Stops of joints and springs that may open: the steps in which they touch or let go (THEORY 4, "Bounces"). */
+/* Stops of joints and springs that may open: the steps in which they touch or let go (eq:unilateral.mean). */
 #include "system/assemble/bounces.h"
 
 #include <math.h>

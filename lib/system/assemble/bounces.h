@@ -1,4 +1,4 @@
-/* Stops of joints and springs that may open: how steps treat their touch and release (THEORY 4, "Bounces"). Numbered by
+/* Stops of joints and springs that may open: how steps treat their touch and release (eq:unilateral.mean). Numbered by
  * u: the laws of joints first, then the springs. */
 #ifndef DMB_SYSTEM_ASSEMBLE_BOUNCES_H
 #define DMB_SYSTEM_ASSEMBLE_BOUNCES_H

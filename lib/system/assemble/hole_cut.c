@@ -1,4 +1,4 @@
-/* The hole that cutters leave behind (THEORY 5): at the end of a step the stations that a face has come up to are as
+/* The hole that cutters leave behind (eq:hole.cut): at the end of a step the stations that a face has come up to are as
  * wide as its cutter. The wall that was strained there goes with the rock, and its energy with it. */
 #include <math.h>
 

@@ -1,4 +1,5 @@
-/* Friction laws: formulas, exact tangents, and small simulations with an implicit trapezoidal step. */
+/* Friction laws: formulas, exact tangents, and small simulations with an implicit trapezoidal step. Equations:
+ * eq:friction.smooth, eq:friction.stribeck, eq:friction.ambrosio, eq:friction.bristle, eq:friction.projection. */
 #include "force/friction_law.h"
 
 #include "force_test.h"

@@ -1,4 +1,5 @@
-/* The hole's axis: minimum curvature against known curves, frames, and projection. */
+/* The hole's axis: minimum curvature against known curves, frames, and projection. Equations: eq:hole.tangent,
+ * eq:hole.arc, eq:hole.project, eq:hole.carried. */
 #include "force/hole.h"
 
 #include "force_test.h"

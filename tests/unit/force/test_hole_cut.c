@@ -1,5 +1,5 @@
 /* The widening of a hole by cutters: its derivatives against differences, its shares, its values at stations, beyond
- * the ends and with described sections. */
+ * the ends and with described sections. Equations: eq:hole.section, eq:hole.cut. */
 #include "check.h"
 #include "force/hole.h"
 

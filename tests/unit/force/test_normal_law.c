@@ -1,4 +1,6 @@
-/* Normal laws: every law is integrated through a contact, m d'' = -F, with a fine Runge-Kutta step. */
+/* Normal laws: every law is integrated through a contact, m d'' = -F, with a fine Runge-Kutta step. Equations:
+ * eq:contact.normal, eq:contact.factors, eq:contact.exact, eq:contact.kelvin-voigt, eq:touch.moments, eq:touch.weights,
+ * eq:touch.time. */
 #include "force/normal_law.h"
 
 #include "force_test.h"
@@ -110,7 +112,7 @@ static void restitution_curves(void **state)
             }
 }
 
-/* THEORY 5: what Lankarani-Nikravesh gives, and the exact factors. */
+/* Restitution by the factor of Lankarani and Nikravesh, and the exact factors. */
 static void restitution_table(void **state)
 {
     static const double e[5] = {0.1, 0.3, 0.5, 0.7, 0.9};

@@ -1,5 +1,5 @@
 /* Contact kernels: every width gives the bits of one lane, whichever rings share a group, and rings that do not touch
- * leave no trace. */
+ * leave no trace. Equations: eq:contact.frame. */
 #include <string.h>
 
 #include "check.h"

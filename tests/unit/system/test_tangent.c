@@ -1,5 +1,6 @@
 /* The whole residual of strings with everything on: its tangent by pose, velocity and acceleration against six-point
- * central differences of the residual itself, and its conservative part against the energies. */
+ * central differences of the residual itself, and its conservative part against the energies. Equations:
+ * eq:contact.pendulum, eq:contact.wrench, eq:contact.inside, eq:hole.advance, eq:hole.section-force. */
 #include <stdio.h>
 #include <string.h>
 
