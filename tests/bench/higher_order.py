@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """How much could a method of higher order save where nothing touches?
 
-usage: tests/bench/higher_order.py      (numpy, scipy; 20 s; prints README.md's table of *Saving by a higher order*)
+usage: tests/bench/higher_order.py      (numpy, scipy; 20 s; prints the table of *A higher order* in NOTEBOOK.md)
 
 Scenes C and T as linear finite elements, whose modes are integrated by each method: their exact course is a closed
 form, so the error is that of the method alone. A step of a method with s implicit stages evaluates the forces s times at

@@ -8,7 +8,7 @@ The tube of scenes A to C, 100 m, clamped at one end and free at the other:
   bending   the small force put on at once, 150 s (a period of the first mode) in equal steps, tip deflection at every
             step against the sum over modes; root of the mean square over that of the reference
 
-Scenes C and B are not asked of it: see README.md. Times: of CalculiX, processor time of the whole
+Scenes C and B are not asked of it: see NOTEBOOK.md. Times: of CalculiX, processor time of the whole
 program from deck to answer, one thread; of the library, from the first call of the description to the answer.
 """
 import csv

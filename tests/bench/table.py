@@ -2,7 +2,7 @@
 """Tables and goals of the benchmark. usage: table.py [--fill README.md] FOLDER SCENE...
 
 Reads FOLDER/SCENE.csv, writes the tables of these scenes to FOLDER/tables.md, and prints each goal with what was
-measured. --fill puts the tables, where all of their scenes were given, between the lines
+measured. --fill puts the tables, shortened, where all of their scenes were given, between the lines
 "<!-- table NAME -->" and "<!-- end -->" of a file.
 """
 import math
@@ -374,6 +374,35 @@ def make(data, cards):
     return made
 
 
+# Columns and rows that a filled page does not have; FOLDER/tables.md has them all. Rows are chosen by a cell.
+LEFT_OUT = {"elements": ("spread", "U us"), "features": ("spread", "U us", "model bytes"), "loop": ("in U", "U us"),
+            "joints": ("describe us", "compile us", "spread", "U"), "clusters": ("compile us", "spread", "U"),
+            "settled": ("rejected",), "loaded": ("spread", "U"), "response": ("spread",), "buckling": ("spread",)}
+KEPT = {"joints": ("joints", ("10", "100", "10000")), "clusters": ("bodies", ("3", "10", "21", "100", "321", "1000")),
+        "work": ("fixed steps", ("default", "radius_1", "radius_0", "elements_2", "elements_4")),
+        "loaded": ("elements a pipe", ("1", "4"))}
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def shortened(name, text):
+    """A table without the columns of LEFT_OUT and the rows that KEPT does not choose."""
+    column, values = KEPT.get(name, (None, ()))
+    found, head = [], None
+    for line in text.split("\n"):
+        row = cells(line) if line.startswith("|") else None
+        if row is None:
+            found, head = found + [line], None
+            continue
+        first, head = head is None, head or row
+        if first or row[0].startswith("---") or column not in head or row[head.index(column)] in values:
+            stay = [cell for title, cell in zip(head, row) if title not in LEFT_OUT.get(name, ())]
+            found.append("|" + "---|" * len(stay) if row[0] == "---" else "| " + " | ".join(stay) + " |")
+    return "\n".join(found)
+
+
 def fill(path, made):
     text = path.read_text(encoding="utf-8")
     for name, (content, complete) in made.items():
@@ -383,6 +412,7 @@ def fill(path, made):
         pattern = re.compile(rf"(<!-- table {name} -->\n).*?(<!-- end -->)", re.DOTALL)
         if not pattern.search(text):
             sys.exit(f"{path}: no place for the table {name}")
+        content = shortened(name, content)
         text = pattern.sub(lambda found, content=content: found[1] + content + "\n" + found[2], text)
     path.write_text(text, encoding="utf-8")
 
