@@ -4,6 +4,7 @@ import csv
 import math
 import unittest
 import unittest.mock
+from pathlib import Path
 
 from shared_tests import DRIVES, FolderTest, needs
 
@@ -12,8 +13,9 @@ needs("numpy")
 import numpy  # noqa: E402
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import rotating, scene as scenes, speed_check, speed_range, station  # noqa: E402
+from drillmbd import critical_speeds, no_response, rig_torque, rotating, scene as scenes, speed_check, speed_range, station  # noqa: E402
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 SCENE = """title = "level hole"
 [hole]
 diameter = "94 mm"
@@ -178,6 +180,101 @@ class LinearStateTest(FolderTest):
             from drillmbd.report_linear import speeds, speeds_tile
             scene = scenes.load(self.scene)
             self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+
+
+class RigTorqueTest(FolderTest):
+    """Strings that a torque turns, not a speed: the steady rotation needs what friction takes."""
+    SCENE = SCENE.replace('component = "rx"', 'component = "rx"\nkind = "load"').replace("100 rpm", "5 N m").replace(
+        "[speeds]", '[speeds]\nspin = "100 rpm"').replace("[response]", '[response]\nspin = "100 rpm"')
+
+    def test_torque_of_friction(self):
+        """Of a round string the wall takes T = mu N r, N being all normal forces of the wall; v / sqrt(v^2 + v_eps^2) of it at v = 10 rad/s x r."""
+        text = self.SCENE.replace('eccentricity = "0.5 mm"\n', "").replace('mass = "6 kg"\ndiameter = "94 mm"', 'mass = "6 kg"\ndiameter = "73 mm"')
+        scene = scenes.load(self.write("round.toml", text))
+        turned, torque = rig_torque.balanced(scene, {"slip_rotation": 10.0})
+        with turned.new_sim() as sim:
+            sim.static(slip_rotation=10.0)
+            wall = sim.contact_total().normal_force
+        self.assertGreater(wall, 1000.0)
+        self.assertAlmostEqual(torque * math.hypot(1.0, 1e-3 / 0.365) / (0.3 * wall * 0.0365), 1.0, delta=1e-7)
+
+    def test_same_amplitude_as_by_speed(self):
+        """Lateral amplitudes below the resonance are those of the string that a speed turns to 1 %, the part in which its rotation swings."""
+        severity = {}
+        for name, text in (("torque", self.SCENE), ("speed", SCENE.replace("[speeds]", '[speeds]\nspin = "100 rpm"'))):
+            notes = []
+            found = critical_speeds.analyse(scenes.load(self.write(f"{name}.toml", text)), lambda sim, state: sim.static(**state.static), notes.append)
+            self.assertEqual((notes, found.state.refused, found.state.torque is None), ([], False, name == "speed"))
+            severity[name] = numpy.array(found.severity[:6])
+        numpy.testing.assert_allclose(severity["torque"], severity["speed"], rtol=1e-2)
+
+    def test_said(self):
+        for command in ("speeds", "response"):
+            out, summary = self.answer(command)
+            self.assertRegex(out, r"slides on the wall at 100 rpm, turned by [0-9.]+ N m, which friction takes")
+            self.assertGreater(summary["linear_state"]["torque_N_m"], 5.0)
+
+    def test_shipped_scene(self):
+        """The steered rig turns by a torque: its sliding state is there, at both ends of the range of friction too."""
+        self.scene = EXAMPLES / "steered_rig.toml"
+        _, summary = self.answer("speeds")
+        self.assertTrue(summary["speeds_assessed"])
+        self.assertEqual(summary["speeds_range"]["not_assessed"], 0)
+
+    def test_left_alone(self):
+        """Nothing is balanced where a speed is prescribed, two drives turn, the string does not turn, or the held string has no state."""
+        slip = {"slip_rotation": 10.0}
+        speed, torque = scenes.load(self.write("speed.toml", SCENE)), scenes.load(self.scene)
+        two = scenes.load(self.write("two.toml", self.SCENE + '[[drive]]\nkind = "load"\ncomponent = "rx"\nprogramme = "turning"\n'))
+        for scene, static in ((speed, slip), (two, slip), (torque, {})):
+            self.assertEqual(rig_torque.balanced(scene, static), (scene, None))
+        with unittest.mock.patch.object(mbd.Sim, "static", side_effect=mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")):
+            self.assertEqual(rig_torque.balanced(torque, slip), (torque, None))
+
+
+class NoResponseTest(FolderTest):
+    """An output that only rounding moves has no response, and no all-clear."""
+    SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[programme]]", 'inclination = "0 deg"\n[[programme]]', 1).replace(
+        'eccentricity = "0.5 mm"', "").replace('[[response.input]]\nkind = "eccentricity"', '[[response.input]]\nkind = "drive"\nplace = "head"\n'
+                                               'amplitude = "1 rpm"').replace("[[speeds.order]]", '[[speeds.order]]\nkind = "drive"\nplace = "head"\n'
+                                                                              'amplitude = "1 rpm"')
+
+    def peaks(self, text):
+        self.scene = self.write("one.toml", text)
+        out, summary = self.answer("response")
+        return out, summary["response"]["middle [m]" if "middle [m]" in summary["response"] else "middle [rad]"]
+
+    def test_response(self):
+        """Torsion of an upright string moves no rod across; without an amplitude nothing is excited; the rotation itself responds."""
+        out, peak = self.peaks(self.SCENE)
+        self.assertIn("middle [m]: no response, because the excitation moves the string, but not this output", out)
+        self.assertIsNone(peak["amplitude"])
+        out, peak = self.peaks(self.SCENE.replace("1 rpm", "0 rpm"))
+        self.assertIn("not assessed, because all excitations are zero", out)
+        turning = self.SCENE.replace('component = "y"', 'component = "rz"').replace('"1 um"', '"1 deg"')
+        out, peak = self.peaks(turning)
+        self.assertGreater(peak["amplitude"], 1e-4)
+
+    def test_speeds(self):
+        self.scene = self.write("one.toml", self.SCENE)
+        out, summary = self.answer("speeds")
+        self.assertIn("not assessed, because the orders of [speeds] excite none of its outputs", out)
+        self.assertNotIn("no critical speed", out)
+        self.assertFalse(summary["speeds_assessed"])
+        from drillmbd.operating import operating
+        from drillmbd.report_linear import speeds, speeds_tile
+        scene = scenes.load(self.scene)
+        self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+
+    def test_bounds(self):
+        """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if it is 0."""
+        move, turn = mbd.Output(component=mbd.Y), mbd.Output(component=mbd.RX)
+        force = mbd.Output(kind=mbd.OUTPUT_CONTACT)
+        self.assertIs(no_response._judged(1e-16, move, [(turn, 1e-3)]), no_response.NO_RESPONSE)
+        self.assertIsNone(no_response._judged(1e-11, move, [(turn, 1e-3)]))
+        self.assertIsNone(no_response._judged(1e-16, force, [(turn, 1e-3)]))
+        self.assertIs(no_response._judged(0.0, force, [(turn, 1e-3)]), no_response.NO_RESPONSE)
+        self.assertIs(no_response._judged(0.0, force, [(turn, 0.0)]), no_response.NOTHING_EXCITES)
 
 
 class RangeTest(FolderTest):

@@ -4,17 +4,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from . import _structs, enums, rotating, speed_check, speed_range
+from . import _structs, enums, no_response, rotating, speed_check, speed_range
 from .answers import RPM, Output
 from .errors import Usage
-from .language import phrase
+from .language import Phrase, phrase
 from .rotating import Linear
 from .scene import Scene
 from .sim import Sim
 from .unit_systems import SI, Units
 
-NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
-                   "excite the string by a drive, load or force")
 LINEAR = phrase("The analysis is linear: it does not cover contacts that open or strike, nor stick-slip.")
 
 
@@ -26,6 +24,7 @@ class Found:
     grid: list[float]        #: [rad/s]
     threshold: float
     state: Linear
+    silent: Phrase | None = None   #: why nothing moves the outputs
 
 
 def analyse(scene: Scene, settle: Any, note: Any) -> Found:
@@ -35,11 +34,12 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
     limits = [one["limit"] for one in settings["output"]]
 
     def ask(sim: Sim, state: Linear) -> Any:
-        return sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), limits, **state.options)
+        bands, severity = sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), limits, **state.options)
+        return bands, severity, no_response.of_speeds(sim, state.scene, max(severity), state.options)
 
-    state, (bands, severity) = rotating.linear(scene, "speeds", settle, ask, note)
+    state, (bands, severity, silent) = rotating.linear(scene, "speeds", settle, ask, note)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
-    return Found(bands, severity, grid, used.threshold, state)
+    return Found(bands, severity, grid, used.threshold, state, silent)
 
 
 def speeds(scene: Scene, output: Output, options: Any) -> int:
@@ -56,9 +56,9 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
                    f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
                    + touches(scene, places[band.output], band.severity * limits[band.output], output.units))
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
-    excited = bool(max(found.severity) > 0.0)
+    excited = found.silent is None
     if not excited:
-        output.say(f"speeds: not assessed, because {NOTHING_EXCITES}")
+        output.say(f"speeds: not assessed, because {found.silent}")
     elif found.state.refused:
         output.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
                    f"Of the string at rest the severity is at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
@@ -66,7 +66,7 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
         output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
     output.say(LINEAR)
     output.summary["speeds_assessed"] = excited and not found.state.refused
-    output.summary["linear_state"] = {"rotation_rpm": found.state.rotation / RPM, "weight_on_bit_N": found.state.weight_on_bit}
+    output.summary["linear_state"] = found.state.numbers()
     output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]
     ranges = speed_range.bands_over_range(scene, output, found) if excited else []

@@ -9,8 +9,9 @@ from . import rotating, station
 from ._optional import need
 from .answers import RPM, Output, count_fatigue, file_name, note_bounces, record, tell_fatigue
 from .enums import Status
-from .critical_speeds import NOTHING_EXCITES
 from .errors import Usage
+from .language import Phrase
+from .no_response import NOTHING_EXCITES, of_response
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, TurnAStep, energy_error
@@ -248,20 +249,20 @@ def response(scene: Scene, output: Output, options: Any) -> int:
     """The causes of vibration and their severity."""
     numpy = need("numpy")
     state, found = rotating.linear(scene, "response", lambda sim, state: settled(state.scene, sim, output, state.static),
-                                   lambda sim, state: sim.response(state.scene.inputs(), state.scene.outputs("response"), **state.options),
-                                   output.note_text)
+                                   _respond, output.note_text)
+    found, reasons = found
     with found:
         names, units = scene.output_names("response"), output.units
         if state.rotation:
             output.say(state.words(units))
-        output.summary["linear_state"] = {"rotation_rpm": state.rotation / RPM, "weight_on_bit_N": state.weight_on_bit}
+        output.summary["linear_state"] = state.numbers()
         peaks: dict[str, dict[str, float | None]] = {}
         for index, name in enumerate(names):
             size = numpy.abs(found.transfer(output=index))
             at = int(size.argmax())
-            if not size[at] > 0.0:
+            if reasons[index] is not None:
                 peaks[name] = {"amplitude": None, "frequency_Hz": None}
-                output.say(f"{units.head(name)}: not assessed, because no input of [response] excites it: " + NOTHING_EXCITES)
+                output.say(f"{units.head(name)}: {'not assessed' if reasons[index] is NOTHING_EXCITES else 'no response'}, because {reasons[index]}")
                 continue
             peaks[name] = {"amplitude": float(size[at]), "frequency_Hz": float(found.frequencies[at])}
             output.say(f"{units.head(name)}: largest {size[at] * units.factor_of(name):.4g} at {found.frequencies[at]:.4g} Hz")
@@ -272,6 +273,15 @@ def response(scene: Scene, output: Output, options: Any) -> int:
             _response_table(found, names, output)
         output.picture("response.png", lambda plots: plots.response(found, names, scene.title, units))
     return output.finish()
+
+
+def _respond(sim: Sim, state: rotating.Linear) -> tuple[Any, list[Phrase | None]]:
+    """The response, and for each output None, or why it does not move."""
+    outputs = state.scene.outputs("response")
+    found = sim.response(state.scene.inputs(), outputs, **state.options)
+    sizes = [abs(found.transfer(output=index)) for index in range(len(outputs))]
+    return found, [of_response(sim, state.scene, state.scene.inputs(), one, state.options, float(found.frequencies[int(size.argmax())]))
+                   for one, size in zip(outputs, sizes)]
 
 
 def _response_table(found: Any, names: list[str], output: Output) -> None:

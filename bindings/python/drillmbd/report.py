@@ -24,6 +24,7 @@ from .report_hole import HoleView, hole_view
 from .report_linear import Speeds, buckling_tile, speeds, speeds_figure, speeds_tile
 from .report_page import page
 from .report_probability import Probability, read_probability
+from .rig_torque import balanced
 from .scene import Scene, words
 from .sim import Sim
 from .unit_systems import Units
@@ -163,9 +164,10 @@ class Study:
                              "time 0 s."), self._along("torque", "torque")))
 
     def _operation(self, name: Phrase, key: str, slip: dict[str, float]) -> None:
-        with self.scene.new_sim() as sim:
+        scene, _ = balanced(self.scene, {**self.scene.fields_of("static"), **slip})
+        with scene.new_sim() as sim:
             self._static(sim, **slip)
-            found = self.operations[name] = sim.profile(self.part, self.pipes)
+            found = self.operations[name] = sim.profile(scene.names[self.string], self.pipes)
         axial = float(found.axial_force[0])
         at_rig = {"push": -axial, "pull": axial, "torque": abs(float(found.torque[0]))}[key]
         source = phrase("stiff string, {operation}, loads of time 0 s", operation=name)

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .answers import RPM, Output
-from .critical_speeds import LINEAR, NOTHING_EXCITES, analyse
-from .language import joined, phrase
+from .critical_speeds import LINEAR, analyse
+from .language import Phrase, joined, phrase
+from .no_response import NOTHING_EXCITES
 from .operating import Operating
 from .report_figures import Figure, line
 from .scene import Scene
@@ -27,11 +28,12 @@ class Speeds:
     severity: Sequence[float]
     grid: list[float]
     refused: bool = False  #: the sliding state has no solution, that at rest takes its place
+    silent: Phrase | None = None  #: why nothing moves the outputs
 
     @property
     def assessed(self) -> bool:
-        """False where nothing excites the string."""
-        return max(self.severity) > 0.0
+        """False where nothing excites the outputs."""
+        return self.silent is None and max(self.severity) > 0.0
 
     def avoid(self) -> str:
         """The bands in words."""
@@ -75,7 +77,7 @@ class Speeds:
 def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
     """The speeds of [speeds], about the string that slides at the rotation of the scene."""
     found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
-    return Speeds(found.bands, found.severity, found.grid, found.state.refused)
+    return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent)
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:
@@ -83,7 +85,7 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     nothing."""
     title = phrase("Critical speeds")
     if not found.assessed:
-        return Tile(title, phrase("not assessed"), NOTHING_EXCITES, NOT_ASSESSED)
+        return Tile(title, phrase("not assessed"), found.silent or NOTHING_EXCITES, NOT_ASSESSED)
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     value = phrase("avoid {bands}", bands=found.avoid()) if found.bands else phrase("none found")
     text = phrase("assessed between {low:.0f} and {high:.0f} rpm, severity at most {severity:.3g}. {linear}", low=low, high=high,

@@ -8,8 +8,8 @@ from typing import Any
 
 from .answers import Output, file_name, quantity
 from .errors import Usage
+from .remade import number_of
 from .rig_limits import QUANTITIES, Load, loads_at
-from .rotating import number_of
 from .scene import Scene
 from .torque_drag import WORDS, depths_of, settings_of
 from .unit_systems import Units

@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from . import _structs, enums
 from .errors import Error
-from .model import remake
 from .operating import operating
+from .remade import number_of, programmes_of, with_programmes
+from .rig_torque import balanced
 from .scene import Scene
 from .scene.largest import largest_of
 from .unit_systems import Units
@@ -24,31 +25,6 @@ UNBALANCED = 1.0
 
 
 # ---- Programmes ------------------------------------------------------------------------------------------------------
-def number_of(part: Any) -> int:
-    """The number of a part among those of its kind."""
-    return int(part.index) & 0xFFFFFF
-
-
-def with_programmes(scene: Scene, terms: dict[int, list[dict[str, Any]]]) -> Scene:
-    """The scene with other terms of the programmes of these numbers."""
-    calls, number = [], 0
-    for name, arguments in scene.model.calls:
-        if name == "add_programme":
-            arguments = tuple(terms.get(number, arguments))
-            number += 1
-        calls.append((name, arguments))
-    return _with_model(scene, remake(type(scene.model), calls))
-
-
-def rebound(scene: Scene) -> Scene:
-    """A scene that came through pickle, with the parts of its own model."""
-    return _with_model(scene, scene.model)
-
-
-def _with_model(scene: Scene, model: Any) -> Scene:
-    return replace(scene, model=model, names=model.own(scene.names), channels=model.own(scene.channels), analyses=model.own(scene.analyses))
-
-
 def drive_at_speed(scene: Scene, component: int) -> int | None:
     """The number of the programme of the first drive that moves a component at a speed."""
     for name, arguments in scene.model.calls:
@@ -74,11 +50,6 @@ def extreme(terms: Any) -> float:
     return math.copysign(size, max(values, key=abs))
 
 
-def programmes_of(scene: Scene) -> list[Any]:
-    """The terms of all programmes, by number."""
-    return [terms for name, terms in scene.model.calls if name == "add_programme"]
-
-
 # ---- Linear state ----------------------------------------------------------------------------------------------------
 @dataclass
 class Linear:
@@ -88,6 +59,7 @@ class Linear:
     options: dict[str, Any] = field(default_factory=dict)   #: of response and speeds
     rotation: float = 0.0                                   #: [rad/s] 0: at rest
     weight_on_bit: float = 0.0                              #: [N]
+    torque: float | None = None                             #: [N m] of the drive at the rig, where it gives a torque: what friction takes
     refused: bool = False                                   #: at rest in the place of a sliding state, which has no solution
 
     def words(self, units: Units) -> str:
@@ -95,7 +67,12 @@ class Linear:
         if not self.rotation:
             return "linear about the string at rest" + ("" if self.options.get("friction", 1) else ", friction of the wall left out")
         load = f" with {units.scaled(self.weight_on_bit, 'N')} on the bit" if self.weight_on_bit else ""
-        return f"linear about the string that slides on the wall at {units.text(self.rotation / RPM, 'rpm')}{load}"
+        torque = f", turned by {units.text(self.torque, 'N m')}, which friction takes" if self.torque is not None else ""
+        return f"linear about the string that slides on the wall at {units.text(self.rotation / RPM, 'rpm')}{load}{torque}"
+
+    def numbers(self) -> dict[str, float | None]:
+        """For the summary."""
+        return {"rotation_rpm": self.rotation / RPM, "weight_on_bit_N": self.weight_on_bit, "torque_N_m": self.torque}
 
 
 def options_of(scene: Scene, analysis: str) -> dict[str, Any]:
@@ -122,8 +99,9 @@ def sliding(scene: Scene, analysis: str) -> Linear | None:
         return None
     programmes = programmes_of(scene)
     loads = {one: [{"h0": extreme(programmes[one])}] for one in loads_of_bits(scene) if extreme(programmes[one])}
-    return Linear(with_programmes(scene, loads) if loads else scene, {**scene.fields_of("static"), "slip_rotation": rotation}, options, rotation,
-                  operating(scene).weight_on_bit or 0.0 if loads else 0.0)
+    static = {**scene.fields_of("static"), "slip_rotation": rotation}
+    turned, torque = balanced(with_programmes(scene, loads) if loads else scene, static)
+    return Linear(turned, static, options, rotation, operating(scene).weight_on_bit or 0.0 if loads else 0.0, torque)
 
 
 def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:

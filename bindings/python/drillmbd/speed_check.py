@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from . import _structs, enums, rotating
+from . import _structs, enums, remade, rotating
 from ._keep import station
 from ._optional import need
 from .answers import RPM, Output
@@ -67,13 +67,13 @@ def ramp(begin: float, value: float) -> list[dict[str, Any]]:
 
 def at_speed(scene: Scene, speed: float, turning: int) -> Scene:
     """The scene started within RAMP to the rotation and its feed, and then loaded; its other programmes are as described."""
-    programmes = rotating.programmes_of(scene)
+    programmes = remade.programmes_of(scene)
     terms = {one: ramp(RAMP, rotating.extreme(programmes[one])) for one in rotating.loads_of_bits(scene) if rotating.extreme(programmes[one])}
     feed = rotating.drive_at_speed(scene, enums.X)
     if feed is not None and rotating.extreme(programmes[feed]):
         terms[feed] = ramp(0.0, rotating.extreme(programmes[feed]))
     terms[turning] = ramp(0.0, speed)
-    return replace(rotating.with_programmes(scene, terms), progress=None, changed=None)  # what another process does not need
+    return replace(remade.with_programmes(scene, terms), progress=None, changed=None)  # what another process does not need
 
 
 def places_of(scene: Scene) -> list[Any]:
@@ -87,7 +87,7 @@ def places_of(scene: Scene) -> list[Any]:
 
 def run(course: Course) -> Result:
     """Runs one speed and measures its window."""
-    scene = rotating.rebound(course.scene)
+    scene = remade.rebound(course.scene)
     try:
         with scene.new_sim() as sim:
             return _measured(course, scene, sim)
@@ -141,13 +141,13 @@ def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Cours
     """Speeds spread evenly over the range; the rotation of the scene takes the place of the nearest one."""
     low, high = found.grid[0], found.grid[-1]
     speeds = [low + (high - low) * i / (count - 1) for i in range(count)]
-    own = abs(rotating.extreme(rotating.programmes_of(scene)[turning]))
+    own = abs(rotating.extreme(remade.programmes_of(scene)[turning]))
     if low <= own <= high:
         speeds[min(range(count), key=lambda i: abs(speeds[i] - own))] = own
     slowest = slowest_period(scene)
     settle = 2.0 * RAMP + max(1.0, PERIODS * slowest)
     drive = next(part for part, (name, arguments) in zip(scene.model.ids, _parts(scene)) if name == "add_drive" and arguments[0].get("programme")
-                 and rotating.number_of(arguments[0]["programme"]) == turning)
+                 and remade.number_of(arguments[0]["programme"]) == turning)
     return [Course(at_speed(scene, speed, turning), speed, settle,
                    settle + max(WINDOW, PERIODS * slowest, REVOLUTIONS * 2.0 * math.pi / speed), scene.run.get("step"), drive) for speed in speeds]
 
@@ -165,7 +165,7 @@ def slowest_period(scene: Scene) -> float:
         if name != "add_pipes":
             continue
         pipe = _structs.PipeDef(**{key: value for key, value in arguments[1].items() if key != "string"})
-        string = arguments[1].get("string") and rotating.number_of(arguments[1]["string"])
+        string = arguments[1].get("string") and remade.number_of(arguments[1]["string"])
         length[string] = length.get(string, 0.0) + arguments[0] * pipe.length
         speed.setdefault(string, math.sqrt(0.5 * pipe.young_modulus / (1.0 + pipe.poisson_ratio) / pipe.density))
     return max((4.0 * length[one] / speed[one] for one in length), default=0.0)
@@ -183,9 +183,11 @@ def _run_all(courses: list[Course]) -> Iterator[Result]:
 
 # ---- Results ---------------------------------------------------------------------------------------------------------
 def _linear(found: Found, speed: float) -> str:
-    if not max(found.severity) > 0.0:
+    if found.silent is not None:
         return "not assessed"
-    return "avoid" if any(band.low <= speed <= band.high for band in found.bands) else "free"
+    if any(band.low <= speed <= band.high for band in found.bands):
+        return "avoid"
+    return "not assessed" if found.state.refused else "free"
 
 
 def _line(one: Result, linear: str, output: Output) -> str:
