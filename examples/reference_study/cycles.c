@@ -3,10 +3,11 @@
 
 #include "study.h"
 
-#define WINDOW (4.0 * 60.0 / RIG_ROTATION_RPM) /* [s] four revolutions */
-#define SLACK 1e-9                             /* [s] */
-#define DROP_END 1.0                           /* [s] */
-#define BIT_END 6.0                            /* [s] */
+#define WINDOW (4.0 * 60.0 / RIG_ROTATION_RPM)    /* [s] four revolutions */
+#define HALF_TURN (0.5 * 60.0 / RIG_ROTATION_RPM) /* [s] */
+#define SLACK 1e-9                                /* [s] */
+#define DROP_END 1.0                              /* [s] */
+#define BIT_END 6.0                               /* [s] */
 
 /* Stages in which head and string move steadily: drill, pull out. */
 static const int driven[STUDY_DRIVEN] = {1, 5};
@@ -114,6 +115,72 @@ static void watch_motion(study_run *run, const dmb_recorder *recorder)
     }
 }
 
+/* Swings are the differences of Z between each highest or lowest place and the next one. */
+static double scatter(span z)
+{
+    double last = z.value[0], sum = 0.0, squares = 0.0, count = 0.0;
+    for (uint64_t k = 1; k + 1 < z.count; ++k) {
+        const double here = z.value[k * RIG_COLUMNS];
+        const double before = here - z.value[(k - 1) * RIG_COLUMNS], after = z.value[(k + 1) * RIG_COLUMNS] - here;
+        if (before * after >= 0.0) continue;
+        const double swung = fabs(here - last);
+        last = here;
+        sum += swung;
+        squares += swung * swung;
+        count += 1.0;
+    }
+    const double centre = sum / count;
+    return count < 2.0 ? (double)NAN : sqrt(fmax(squares / count - centre * centre, 0.0)) / centre;
+}
+
+static void watch_place(study_motion *m, const dmb_recorder *recorder, int place, double from, double to)
+{
+    for (int axis = 0; axis < STUDY_AXES; ++axis) {
+        const span speed = take(recorder, RIG_VELOCITY_Z - 2 + axis + 6 * place, from, to);
+        m->mean[axis] = mean(take(recorder, RIG_DISPLACEMENT_Z - 2 + axis + 6 * place, from, to));
+        m->speed[axis] = swing(speed, mean(speed));
+    }
+    const span z = take(recorder, RIG_DISPLACEMENT_Z + 6 * place, from, to);
+    double low = z.value[0], high = z.value[0];
+    for (uint64_t k = 1; k < z.count; ++k) {
+        low = fmin(low, z.value[k * RIG_COLUMNS]);
+        high = fmax(high, z.value[k * RIG_COLUMNS]);
+    }
+    m->highest = high;
+    m->above = high - m->mean[2];
+    m->below = m->mean[2] - low;
+    m->scatter = scatter(z);
+}
+
+/* Motion of each place in each driven stage. */
+static void watch_stages(study_run *run, const dmb_recorder *recorder)
+{
+    const double bound = STUDY_JUMP / run->options.rate, *time = run->options.cycle.time;
+    for (int stage = 0; stage < STUDY_DRIVEN; ++stage) {
+        const double from = time[driven[stage]], to = time[driven[stage] + 1];
+        for (int place = 0; place < RIG_PLACES; ++place) {
+            study_motion *m = &run->motion[stage][place];
+            watch_place(m, recorder, place, from, to);
+            m->jumps = (double)jumps(take(recorder, RIG_VELOCITY_Z + 6 * place, from, to), bound) / (to - from);
+        }
+        for (int k = 0; k < STUDY_HALF_TURNS; ++k) {
+            const double begin = from + k * HALF_TURN;
+            const span energy = take(recorder, RIG_KINETIC_ENERGY, begin, begin + HALF_TURN);
+            run->half_turn[stage][k] = swing(energy, mean(energy));
+        }
+    }
+}
+
+/* The first pipe follows the feed that the drive is given. */
+static void watch_feed(study_run *run, const dmb_recorder *recorder)
+{
+    const double *row = recorder->table;
+    double sum = 0.0;
+    for (uint64_t k = 0; k < recorder->row_count; ++k, row += RIG_COLUMNS)
+        sum += pow(row[RIG_VELOCITY_Z - 2 + 6 * RIG_FIRST] - row[RIG_FEED_SPEED], 2.0);
+    run->feed_error = sqrt(sum / (double)recorder->row_count);
+}
+
 static void watch_energy(study_run *run, const dmb_recorder *recorder)
 {
     for (int stage = 0; stage < STUDY_DRIVEN; ++stage) {
@@ -139,6 +206,8 @@ void study_run_work(void *context)
     if (run->status >= 0 && !run->options.dropped) watch_bit(run, recorder);
     if (run->status >= 0 && run->whole) {
         watch_motion(run, recorder);
+        watch_stages(run, recorder);
+        watch_feed(run, recorder);
         watch_energy(run, recorder);
     }
     rig_result_close(&result);
@@ -179,6 +248,23 @@ static void print_energy(const study_run runs[STUDY_RUNS])
         }
 }
 
+static void print_stage(const study_run *run, const char *name)
+{
+    static const char *const stages[STUDY_DRIVEN] = {"drilling", "pulling out"};
+    static const char *const places[RIG_PLACES] = {"pipe 1", "middle pipe", "last pipe", "bit"};
+    printf("  %s\n"
+           "                              mean, mm            speed, mm/s          Z, mm            swings   jumps\n"
+           "                               Y       Z       X       Y       Z   above   below  highest  scatter   1/s\n",
+           name);
+    for (int stage = 0; stage < STUDY_DRIVEN; ++stage)
+        for (int place = 0; place < RIG_PLACES; ++place) {
+            const study_motion *m = &run->motion[stage][place];
+            printf("    %-11s %-12s %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %8.3f %5.1f\n", stages[stage],
+                   places[place], 1e3 * m->mean[1], 1e3 * m->mean[2], 1e3 * m->speed[0], 1e3 * m->speed[1],
+                   1e3 * m->speed[2], 1e3 * m->above, 1e3 * m->below, 1e3 * m->highest, m->scatter, m->jumps);
+        }
+}
+
 void study_runs_print(const study_run runs[STUDY_RUNS])
 {
     static const char *const names[STUDY_RUNS] = {"rigid, friction and vibration",
@@ -209,6 +295,7 @@ void study_runs_print(const study_run runs[STUDY_RUNS])
         if (!runs[i].options.dropped) printf("; Z speed of the bit while drilling %.3f mm/s", 1e3 * runs[i].bit_speed);
         printf("\n");
     }
+    for (int i = STUDY_RIGID; i <= STUDY_FULL; ++i) print_stage(runs + i, names[i]);
     print_energy(runs);
     printf("\n");
 }

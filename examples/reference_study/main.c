@@ -7,7 +7,7 @@
  *     how frequencies, forces and responses depend on lengths, mesh, friction, clearance
  *     and stiffness                                                                         parameters.c
  *     what the drilling cycle of 40 s does in time, with rigid and with flexible pipes            cycles.c
- *     what the reference says, claim by claim, and whether it is so here                          claims.c
+ *     the study's sentences that can be tested, one row each with a verdict              claims.c, claims_*.c
  * and with a folder writes tables into it. Scenes are shared out to threads, which changes no digit. */
 #include <stdlib.h>
 
@@ -15,7 +15,7 @@
 #include "options.h"
 #include "study.h"
 
-enum { MOST_JOBS = STUDY_RUNS + 2 + STUDY_SETS * STUDY_VALUES };
+enum { MOST_JOBS = STUDY_RUNS + 3 + STUDY_SETS * STUDY_VALUES };
 
 static int failed(int32_t status, const char *what, const char *message)
 {
@@ -26,8 +26,9 @@ static int failed(int32_t status, const char *what, const char *message)
 
 static int any_failed(const study_results *r)
 {
-    int bad =
-        failed(r->modal.status, "modes", r->modal.message) | failed(r->shaken.status, "response", r->shaken.message);
+    int bad = failed(r->counts.status, "count of parts", r->counts.message) |
+              failed(r->modal.status, "modes", r->modal.message) |
+              failed(r->shaken.status, "response", r->shaken.message);
     for (int i = 0; i < STUDY_SETS; ++i)
         for (int k = 0; k < r->sets[i].count; ++k)
             bad |= failed(r->sets[i].point[k].status, "parameter study", r->sets[i].point[k].message);
@@ -41,6 +42,7 @@ static void work(study_results *r, int threads)
     study_job jobs[MOST_JOBS];
     int count = 0;
     for (int i = STUDY_RUNS - 1; i >= 0 && r->timed; --i) jobs[count++] = (study_job){study_run_work, r->runs + i};
+    jobs[count++] = (study_job){study_counts_work, &r->counts};
     jobs[count++] = (study_job){study_modal_work, &r->modal};
     jobs[count++] = (study_job){study_shaken_work, &r->shaken};
     for (int i = 0; i < STUDY_SETS; ++i)

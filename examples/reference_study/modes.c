@@ -127,6 +127,22 @@ static int32_t take_shape(study_modal *m, const study_string *s, const dmb_modes
     return DMB_OK;
 }
 
+/* Modes 2 number and 2 number + 1 (from 0) bend in two planes: angle between the motions of the far end. */
+static int32_t take_pair(study_modal *m, const study_string *s, const dmb_modes *modes, int number)
+{
+    dmb_mode_shape pair[2];
+    for (uint32_t i = 0; i < 2; ++i) {
+        pair[i] = dmb_mode_shape_default();
+        const int32_t status =
+            dmb_modes_shape(modes, 2 * (uint32_t)number + i, dmb_station(s->string, STUDY_PLACES - 2, 1.0), pair + i);
+        if (status < 0) return status;
+    }
+    const double *a = pair[0].re, *b = pair[1].re;
+    const double cross = fabs(a[DMB_Y] * b[DMB_Z] - a[DMB_Z] * b[DMB_Y]);
+    m->pair_angle[number] = atan2(cross, fabs(a[DMB_Y] * b[DMB_Y] + a[DMB_Z] * b[DMB_Z]));
+    return DMB_OK;
+}
+
 static int32_t find_shapes(study_modal *m, study_string *s)
 {
     const study_scene scene = string_alone();
@@ -139,6 +155,7 @@ static int32_t find_shapes(study_modal *m, study_string *s)
         status = dmb_modes_get(modes, 2 * (uint32_t)i + 1, &mode);
         m->shape_frequency[i] = mode.frequency;
         if (status >= 0) status = take_shape(m, s, modes, i);
+        if (status >= 0) status = take_pair(m, s, modes, i);
     }
     dmb_modes_destroy(&modes);
     return status;
@@ -231,7 +248,8 @@ void study_modal_print(const study_modal *m)
     for (int i = 0; i < STUDY_MESHES; ++i) printf("%s  %d: %.3e", i == 4 ? "\n   " : "", i + 1, m->highest[i]);
     printf(" Hz\n  highest with pipes described by 12 shapes of their ends and normal modes: ");
     for (int i = 0; i < STUDY_NORMALS; ++i) printf(" %d: %.3e", study_normal_modes[i], m->by_modes[i]);
-    printf(" Hz\n\nShapes of the string held by its drives\n");
+    printf(" Hz\n\nShapes of the string held by its drives: none of its modes is rigid, so that its modes 1 to 10 are\n"
+           "modes 5 to 14 of the list above\n");
     for (int i = 0; i < STUDY_SHAPES; ++i)
         printf("  mode %2d  %12.5e Hz  stands still at %d places between its ends\n", 2 * i + 2, m->shape_frequency[i],
                m->shape_nodes[i]);

@@ -54,25 +54,33 @@ def finish(folder, figure, name):
 
 
 def response(folder):
+    """Figure 11 of the study shows X; Y and Z stand beside it."""
     table = columns(folder, "response.csv")
     frequency = table["frequency [Hz]"]
-    friction, eccentricity = 1e3 * table["friction [m]"], 1e3 * table["eccentricity [m]"]
-    figure, axes = plt.subplots(figsize=(12, 6.5))
-    axes.fill_between(frequency, 1e-7, 1e4, where=eccentricity > friction, color="#fbeede", linewidth=0, zorder=0,
-                      label="eccentricity is stronger than friction")
-    for name, values, color, width in (
-            ("all three", 1e3 * table["all three [m]"], GREY, 2.6), ("drives", 1e3 * table["drives [m]"], GREEN, 1.3),
-            ("friction", friction, BLUE, 1.3), ("eccentric masses", eccentricity, ORANGE, 1.3)):
-        axes.loglog(frequency, values, color=color, linewidth=width, label=name,
-                    alpha=0.55 if name == "all three" else 1.0)
-    axes.axvline(REFERENCE_CROSSOVER, color=RED, linewidth=1.2, linestyle="--",
-                 label=f"crossover of the reference, {REFERENCE_CROSSOVER} Hz")
-    axes.axhline(CLEARANCE, color=GREY, linewidth=1.0, linestyle=":",
-                 label="clearance: above it linear amplitudes\nonly compare the causes")
-    axes.set(xlabel="frequency [Hz]", ylabel="amplitude of the middle of pipe 100 [mm]",
-             xlim=(frequency[0], frequency[-1]), ylim=(1e-4, 3e2),
-             title="What shakes pipe 100: the string lies on the wall of its hole")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    figure, places = plt.subplots(1, 3, figsize=(16, 5.6), sharex=True)
+    for axes, axis, way in zip(places, "XYZ", ("along the hole, as in the study's figure 11", "across it", "up")):
+        friction, along, eccentricity = (1e3 * table[f"{cause} {axis} [m]"]
+                                         for cause in ("friction", "friction along", "eccentricity"))
+        axes.fill_between(frequency, 1e-9, 1e4, where=eccentricity > friction, color="#fbeede", linewidth=0, zorder=0,
+                          label="eccentricity is stronger than\nfriction around the string")
+        for name, values, color, width, style in (
+                ("all three", 1e3 * table[f"all three {axis} [m]"], GREY, 2.6, "-"),
+                ("drives", 1e3 * table[f"drives {axis} [m]"], GREEN, 1.3, "-"),
+                ("friction around the string", friction, BLUE, 1.3, "-"),
+                ("the same coefficient along it", along, BLUE, 1.1, ":"),
+                ("eccentric masses", eccentricity, ORANGE, 1.3, "-")):
+            axes.loglog(frequency, values, color=color, linewidth=width, label=name, linestyle=style,
+                        alpha=0.55 if name == "all three" else 1.0)
+        axes.axvline(REFERENCE_CROSSOVER, color=RED, linewidth=1.2, linestyle="--",
+                     label=f"crossover of the study, {REFERENCE_CROSSOVER} Hz")
+        axes.axhline(CLEARANCE, color=GREY, linewidth=1.0, linestyle=":",
+                     label="clearance: above it linear amplitudes\nonly compare the causes")
+        least = min(friction.min(), eccentricity.min(), 1e3 * table[f"drives {axis} [m]"].min())
+        axes.set(xlabel="frequency [Hz]", xlim=(frequency[0], frequency[-1]), title=f"{axis}: {way}",
+                 ylim=(0.5 * least, 3e2))
+    places[0].set_ylabel("amplitude of the middle of pipe 100 [mm]")
+    places[2].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    figure.suptitle("What shakes pipe 100: the string lies on the wall of its hole", fontsize=13, x=0.01, ha="left")
     finish(folder, figure, "response_of_pipe_100.png")
 
 

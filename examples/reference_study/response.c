@@ -8,9 +8,9 @@
 #define HIGH 100.0 /* [Hz] */
 #define ALIGNED_HIGH 20.0
 
-enum { POINTS = 400, REFINEMENT = 6, ALIGNED_POINTS = 100, INPUTS = 4, AXES = 3 };
+enum { POINTS = 400, REFINEMENT = 6, ALIGNED_POINTS = 100, INPUTS = 5 };
 /* The cause that an input is part of. */
-static const int cause_of[INPUTS] = {STUDY_DRIVE, STUDY_DRIVE, STUDY_FRICTION, STUDY_ECCENTRIC};
+static const int cause_of[INPUTS] = {STUDY_DRIVE, STUDY_DRIVE, STUDY_FRICTION, STUDY_ECCENTRIC, STUDY_ALONG};
 
 /* Whole friction, or only what it differs by between rest and sliding; eccentricities that are usual. */
 const double study_case_friction[STUDY_CASES] = {0.30, 0.30, 0.30, 0.05, 0.05, 0.05};         /* [-] */
@@ -33,26 +33,58 @@ static void set_inputs(const study_string *s, const study_scene *scene, dmb_inpu
     inputs[2].component = DMB_RX;
     inputs[2].amplitude = scene->wall.mu_dynamic;
     inputs[3].kind = DMB_INPUT_ECCENTRICITY;
+    inputs[4] = inputs[2];
+    inputs[4].component = DMB_X;
 }
 
-/* Adds the motion along one axis to the squares of the amplitudes. */
-static int32_t add_axis(const dmb_response *response, uint32_t axis, const dmb_input inputs[INPUTS],
-                        const study_response *r, double *values, double *sums)
+static int part_of(uint32_t input, int cause)
+{
+    return cause_of[input] == cause || (cause == STUDY_TOGETHER && cause_of[input] != STUDY_ALONG);
+}
+
+/* Amplitudes along one axis, |sum of amplitude times transfer| over the inputs of each cause. */
+static int32_t take_axis(const dmb_response *response, uint32_t axis, const dmb_input inputs[INPUTS], study_response *r,
+                         double *values, double *sums)
 {
     const size_t values_count = 2 * (size_t)r->points; /* real and imaginary parts */
-    for (int cause = 0; cause <= STUDY_TOGETHER; ++cause) {
+    for (int cause = 0; cause < STUDY_CAUSES; ++cause) {
         for (size_t k = 0; k < values_count; ++k) sums[k] = 0.0;
         for (uint32_t i = 0; i < INPUTS; ++i) {
-            if (cause != STUDY_TOGETHER && cause_of[i] != cause) continue;
+            if (!part_of(i, cause)) continue;
             const int32_t status = dmb_response_transfer(response, i, axis, values);
             if (status < 0) return status;
             for (size_t k = 0; k < values_count; ++k) sums[k] += inputs[i].amplitude * values[k];
         }
         for (size_t k = 0; k < r->points; ++k)
-            r->amplitude[k * STUDY_CAUSES + (size_t)cause] +=
-                sums[2 * k] * sums[2 * k] + sums[2 * k + 1] * sums[2 * k + 1];
+            r->axis[axis][k * STUDY_CAUSES + (size_t)cause] =
+                sqrt(sums[2 * k] * sums[2 * k] + sums[2 * k + 1] * sums[2 * k + 1]);
     }
     return DMB_OK;
+}
+
+static void add_axes(study_response *r)
+{
+    for (size_t k = 0; k < (size_t)r->points * STUDY_CAUSES; ++k) {
+        double sum = 0.0;
+        for (int axis = 0; axis < STUDY_AXES; ++axis) sum += r->axis[axis][k] * r->axis[axis][k];
+        r->amplitude[k] = sqrt(sum);
+    }
+}
+
+/* Room for `points` frequencies. */
+static int32_t make_room(study_response *r, uint32_t points)
+{
+    const size_t values = (size_t)points * STUDY_CAUSES;
+    r->points = points;
+    r->friction = STUDY_FRICTION;
+    r->frequency = calloc(points, sizeof *r->frequency);
+    r->amplitude = calloc(values, sizeof *r->amplitude);
+    int room = r->frequency != NULL && r->amplitude != NULL;
+    for (int axis = 0; axis < STUDY_AXES; ++axis) {
+        r->axis[axis] = calloc(values, sizeof *r->axis[axis]);
+        room &= r->axis[axis] != NULL;
+    }
+    return room ? DMB_OK : DMB_ERR_NO_MEMORY;
 }
 
 static int32_t take(const dmb_response *response, const dmb_input inputs[INPUTS], study_response *r)
@@ -60,15 +92,13 @@ static int32_t take(const dmb_response *response, const dmb_input inputs[INPUTS]
     uint32_t shape[3] = {0, 0, 0};
     int32_t status = dmb_response_dimensions(response, shape);
     if (status < 0) return status;
-    r->points = shape[0];
-    r->frequency = calloc(r->points, sizeof *r->frequency);
-    r->amplitude = calloc((size_t)r->points * STUDY_CAUSES, sizeof *r->amplitude);
-    double *work = calloc(4 * (size_t)r->points, sizeof *work);
-    if (r->frequency == NULL || r->amplitude == NULL || work == NULL) status = DMB_ERR_NO_MEMORY;
+    status = make_room(r, shape[0]);
+    double *work = calloc(4 * (size_t)shape[0], sizeof *work);
+    if (work == NULL) status = DMB_ERR_NO_MEMORY;
     if (status >= 0) status = dmb_response_frequencies(response, r->frequency);
-    for (uint32_t axis = 0; axis < AXES && status >= 0; ++axis)
-        status = add_axis(response, axis, inputs, r, work, work + 2 * (size_t)r->points);
-    for (uint32_t k = 0; k < r->points * STUDY_CAUSES && status >= 0; ++k) r->amplitude[k] = sqrt(r->amplitude[k]);
+    for (uint32_t axis = 0; axis < STUDY_AXES && status >= 0; ++axis)
+        status = take_axis(response, axis, inputs, r, work, work + 2 * (size_t)r->points);
+    if (status >= 0) add_axes(r);
     free(work);
     return status;
 }
@@ -78,10 +108,10 @@ int32_t study_respond(study_string *s, const study_scene *scene, double low, dou
 {
     dmb_response_options options = dmb_response_options_default();
     dmb_input inputs[INPUTS];
-    dmb_output outputs[AXES];
+    dmb_output outputs[STUDY_AXES];
     dmb_response *response = NULL;
     set_inputs(s, scene, inputs);
-    for (int32_t axis = 0; axis < AXES; ++axis) {
+    for (int32_t axis = 0; axis < STUDY_AXES; ++axis) {
         outputs[axis] = dmb_output_default();
         outputs[axis].place = dmb_station(s->string, scene->pipes - 1, 0.5);
         outputs[axis].component = axis;
@@ -93,7 +123,7 @@ int32_t study_respond(study_string *s, const study_scene *scene, double low, dou
     options.refinement = refinement;
     options.structural_damping = STUDY_LOSS;
     options.friction = 0; /* a string that turns slides already, and sliding has next to no slope */
-    int32_t status = dmb_analysis_response(s->sim, &options, inputs, INPUTS, outputs, AXES, &response);
+    int32_t status = dmb_analysis_response(s->sim, &options, inputs, INPUTS, outputs, STUDY_AXES, &response);
     if (status >= 0) status = take(response, inputs, r);
     dmb_response_destroy(&response);
     return status;
@@ -104,7 +134,19 @@ void study_response_free(study_response *r)
     free(r->frequency);
     free(r->amplitude);
     r->frequency = r->amplitude = NULL;
+    for (int axis = 0; axis < STUDY_AXES; ++axis) {
+        free(r->axis[axis]);
+        r->axis[axis] = NULL;
+    }
     r->points = 0;
+}
+
+study_response study_response_view(const study_response *r, int axis, int32_t friction)
+{
+    study_response view = *r;
+    if (axis < STUDY_AXES) view.amplitude = r->axis[axis];
+    view.friction = friction;
+    return view;
 }
 
 /* ---- Which is stronger ------------------------------------------------------------------------------------------- */
@@ -113,7 +155,7 @@ void study_response_free(study_response *r)
 static double log_ratio(const study_response *r, uint32_t k)
 {
     const double *a = r->amplitude + (size_t)k * STUDY_CAUSES;
-    return log(a[STUDY_FRICTION] / a[STUDY_ECCENTRIC]);
+    return log(a[r->friction] / a[STUDY_ECCENTRIC]);
 }
 
 /* Logarithm of the frequency between k - 1 and k at which a straight line through their ratios reaches zero. */
@@ -160,7 +202,7 @@ double study_amplitude_at(const study_response *r, int cause, double frequency)
 
 double study_ratio_at(const study_response *r, double frequency)
 {
-    return study_amplitude_at(r, STUDY_FRICTION, frequency) / study_amplitude_at(r, STUDY_ECCENTRIC, frequency);
+    return study_amplitude_at(r, r->friction, frequency) / study_amplitude_at(r, STUDY_ECCENTRIC, frequency);
 }
 
 double study_eccentric_share(const study_response *r, double low, double high)
@@ -208,33 +250,59 @@ void study_shaken_work(void *context)
     }
 }
 
+static const char *const axis_names[STUDY_AXES + 1] = {"X", "Y", "Z", "all"};
+
 static void print_amplitudes(const study_response *r)
 {
     static const double asked[] = {0.1, 0.5, 1.0, STUDY_REFERENCE_CROSSOVER, 3.0, 4.9, 10.0, 30.0, 100.0};
-    printf("  %9s %13s %13s %13s %13s   mm\n", "Hz", "drives", "friction", "eccentricity", "all three");
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i) {
-        printf("  %9.4f", asked[i]);
-        for (int cause = 0; cause < STUDY_CAUSES; ++cause)
-            printf(" %13.5e", 1e3 * study_amplitude_at(r, cause, asked[i]));
-        printf("\n");
+    printf("  %4s %9s %13s %13s %13s %13s %13s   mm\n", "axis", "Hz", "drives", "friction", "eccentricity", "all three",
+           "along");
+    for (int axis = 0; axis <= STUDY_AXES; ++axis) {
+        const study_response view = study_response_view(r, axis, STUDY_FRICTION);
+        for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i) {
+            printf("  %4s %9.4f", axis_names[axis], asked[i]);
+            for (int cause = 0; cause < STUDY_CAUSES; ++cause)
+                printf(" %13.5e", 1e3 * study_amplitude_at(&view, cause, asked[i]));
+            printf("\n");
+        }
     }
+}
+
+/* How often and where the stronger of friction and eccentricity changes. */
+static void print_crossings(const study_response *r)
+{
+    static const char *const ways[] = {"around", "along"};
+    static const int32_t frictions[] = {STUDY_FRICTION, STUDY_ALONG};
+    printf("  friction over eccentricity by axis\n");
+    for (int axis = 0; axis <= STUDY_AXES; ++axis)
+        for (int way = 0; way < 2; ++way) {
+            const study_response view = study_response_view(r, axis, frictions[way]);
+            double found[2];
+            study_crossover(&view, 1.0, 1.0, found);
+            printf("    %-3s friction %-6s at 0.1 Hz %10.3e, at 1.58 Hz %10.3e; ", axis_names[axis], ways[way],
+                   study_ratio_at(&view, LOW), study_ratio_at(&view, STUDY_REFERENCE_CROSSOVER));
+            if (isnan(found[0]))
+                printf("does not fall from above 1 to below\n");
+            else
+                printf("falls below 1 first at %.4f Hz, for the last time at %.4f Hz\n", found[0], found[1]);
+        }
 }
 
 void study_shaken_print(const study_shaken *shaken)
 {
     const study_scene scene = study_base();
-    printf("Response of pipe %u, lying on the wall: amplitude of its middle\n", scene.pipes);
-    printf(
-        "  drives: %g %% of the feed of %g mm/s and of %.0f rpm; friction: %g of the wall force, around the string;\n"
-        "  eccentric masses: %g mm; structural damping %g %%\n",
-        100.0 * RIG_SHAKE, 1e3 * RIG_FEED, STUDY_ROTATION * 60.0 / STUDY_TURN, scene.wall.mu_dynamic,
-        1e3 * scene.pipe.eccentricity, 100.0 * STUDY_LOSS);
+    printf("Response of pipe %u, lying on the wall: amplitude of its middle, by axis\n", scene.pipes);
+    printf("  drives: %g %% of the feed of %g mm/s and of %.0f rpm; friction: %g of the wall force, around the string "
+           "(last\n  column: along it); eccentric masses: %g mm; structural damping %g %%\n",
+           100.0 * RIG_SHAKE, 1e3 * RIG_FEED, STUDY_ROTATION * 60.0 / STUDY_TURN, scene.wall.mu_dynamic,
+           1e3 * scene.pipe.eccentricity, 100.0 * STUDY_LOSS);
     print_amplitudes(&shaken->response);
     printf("  linear: around the swinging of the pipes in the hole amplitudes are larger than its clearance of %g mm, "
            "and\n"
            "  only tell which cause is the stronger\n",
            1e3 * study_clearance(&scene));
-    printf("  crossover from friction to eccentricity\n");
+    print_crossings(&shaken->response);
+    printf("  crossover from friction around to eccentricity, over all axes\n");
     for (int i = 0; i < STUDY_CASES; ++i)
         printf("    friction %.2f, eccentricity %.1f mm: first at %7.4f Hz, for the last time at %8.4f Hz\n",
                study_case_friction[i], 1e3 * study_case_eccentricity[i], shaken->crossover[i][0],
@@ -244,14 +312,24 @@ void study_shaken_print(const study_shaken *shaken)
 
 int study_shaken_write(const char *folder, const study_shaken *shaken)
 {
+    static const char *const causes[STUDY_CAUSES] = {"drives", "friction", "eccentricity", "all three",
+                                                     "friction along"};
     const study_response *r = &shaken->response;
-    FILE *file =
-        study_table(folder, "response.csv", "frequency [Hz],drives [m],friction [m],eccentricity [m],all three [m]");
+    FILE *file = study_table(folder, "response.csv", NULL);
     if (file == NULL) return 1;
+    fprintf(file, "frequency [Hz]");
+    for (int axis = STUDY_AXES; axis >= 0; --axis)
+        for (int cause = 0; cause < STUDY_CAUSES; ++cause)
+            fprintf(file, ",%s%s%s [m]", causes[cause], axis < STUDY_AXES ? " " : "",
+                    axis < STUDY_AXES ? axis_names[axis] : "");
+    fprintf(file, "\n");
     for (uint32_t k = 0; k < r->points; ++k) {
         fprintf(file, "%.17g", r->frequency[k]);
-        for (int cause = 0; cause < STUDY_CAUSES; ++cause)
-            fprintf(file, ",%.17g", r->amplitude[(size_t)k * STUDY_CAUSES + (size_t)cause]);
+        for (int axis = STUDY_AXES; axis >= 0; --axis) {
+            const study_response view = study_response_view(r, axis, STUDY_FRICTION);
+            for (int cause = 0; cause < STUDY_CAUSES; ++cause)
+                fprintf(file, ",%.17g", view.amplitude[(size_t)k * STUDY_CAUSES + (size_t)cause]);
+        }
         fprintf(file, "\n");
     }
     return fclose(file) != 0;

@@ -125,7 +125,7 @@ FILE *study_table(const char *folder, const char *name, const char *head)
     FILE *file = fopen(path, "w");
     if (file == NULL)
         perror(path);
-    else
+    else if (head != NULL)
         fprintf(file, "%s\n", head);
     return file;
 }

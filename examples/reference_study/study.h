@@ -44,7 +44,8 @@ void study_free(study_string *string);
 const char *study_message(const study_string *string);
 /* [Hz] the `count` lowest frequencies. */
 int32_t study_lowest(study_string *string, int32_t contact, uint32_t count, double *frequencies);
-/* A table in the output folder; NULL (with a message) if it cannot be written. */
+/* A table in the output folder, with its first line unless that is NULL; NULL (with a message) if it cannot be written.
+ */
 FILE *study_table(const char *folder, const char *name, const char *head);
 
 /* ---- Jobs shared out to threads ----------------------------------------------------------------------------------
@@ -54,6 +55,14 @@ typedef struct study_job {
     void *context;
 } study_job;
 void study_share_out(const study_job *jobs, int count, int threads);
+
+/* ---- Parts as the study counts them (counts.c) ------------------------------------------------------------------- */
+typedef struct study_counts {
+    int32_t status;
+    char message[STUDY_TEXT];
+    dmb_check_report report;
+} study_counts;
+void study_counts_work(void *counts);
 
 /* ---- Modes (modes.c) --------------------------------------------------------------------------------------------- */
 enum { STUDY_TUBES = 3, STUDY_MESHES = 10, STUDY_NORMALS = 3, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
@@ -70,6 +79,7 @@ typedef struct study_modal {
     double shape[STUDY_SHAPES][STUDY_PLACES]; /* [-] of modes 2, 4, ... 10, held; 1 at the far end */
     double shape_frequency[STUDY_SHAPES];     /* [Hz] */
     int shape_nodes[STUDY_SHAPES];            /* [-] places between the ends that stand still */
+    double pair_angle[STUDY_SHAPES];          /* [rad] between the planes in which modes 1 and 2, 3 and 4, ... bend */
     double tube[STUDY_TUBES];                 /* [Hz] lowest of steel tubes */
 } study_modal;
 extern const int study_normal_modes[STUDY_NORMALS];
@@ -80,16 +90,32 @@ void study_modal_print(const study_modal *modal);
 int study_modal_write(const char *folder, const study_modal *modal);
 
 /* ---- Response of the last pipe (response.c) ---------------------------------------------------------------------- */
-enum { STUDY_DRIVE = 0, STUDY_FRICTION = 1, STUDY_ECCENTRIC = 2, STUDY_TOGETHER = 3, STUDY_CAUSES = 4 };
+/* Friction acts around the string (STUDY_FRICTION) as it turns; ALONG is the same coefficient along the hole, as of a
+ * string that only slides, and is no part of TOGETHER. */
+enum {
+    STUDY_DRIVE = 0,
+    STUDY_FRICTION = 1,
+    STUDY_ECCENTRIC = 2,
+    STUDY_TOGETHER = 3,
+    STUDY_ALONG = 4,
+    STUDY_CAUSES = 5,
+    STUDY_AXES = 3,
+    STUDY_ALL_AXES = 3
+};
 typedef struct study_response {
     uint32_t points;
+    int32_t friction;  /* the cause that is compared with eccentricity: STUDY_FRICTION or _ALONG */
     double *frequency; /* [Hz] shape (points) */
-    double *amplitude; /* [m] of the middle of the last pipe, shape (points, STUDY_CAUSES) */
+    /* [m] of the middle of the last pipe, shape (points, STUDY_CAUSES); root of the sum of the squares of X, Y and Z */
+    double *amplitude;
+    double *axis[STUDY_AXES]; /* [m] along X, Y, Z alone, of the same shape */
 } study_response;
 /* Amplitudes from `low` to `high` [Hz]: `points` at equal ratios, and more at peaks. */
 int32_t study_respond(study_string *string, const study_scene *scene, double low, double high, uint32_t points,
                       uint32_t refinement, study_response *response);
 void study_response_free(study_response *response);
+/* The same response along one axis (or STUDY_ALL_AXES), with one of the two frictions compared. Borrows the arrays. */
+study_response study_response_view(const study_response *response, int axis, int32_t friction);
 /* [Hz] first and last frequency at which eccentricity (times `eccentric`) becomes as strong as friction (times
  * `friction`); NaN where that never is. */
 void study_crossover(const study_response *response, double friction, double eccentric, double found[2]);
@@ -165,8 +191,18 @@ enum {
     STUDY_FULL_BIT = 7,
     STUDY_RUNS = 8,
     STUDY_DRIVEN = 2, /* stages: drill, pull out */
-    STUDY_WINDOWS = 15
+    STUDY_WINDOWS = 15,
+    STUDY_HALF_TURNS = 120 /* in a driven stage */
 };
+/* What one place does in one driven stage: X along the hole, Y across it, Z up. */
+typedef struct study_motion {
+    double mean[STUDY_AXES];  /* [m] displacement */
+    double speed[STUDY_AXES]; /* [m/s] root mean square of the speed about its mean */
+    double above, below;      /* [m] farthest Z above and below its mean */
+    double highest;           /* [m] Z from the axis of the hole */
+    double scatter;           /* [-] standard deviation of successive swings of Z over their mean */
+    double jumps;             /* [1/s] of the Z speed */
+} study_motion;
 typedef struct study_run {
     int32_t status;
     rig_options options;
@@ -181,7 +217,11 @@ typedef struct study_run {
     double jumps[RIG_PIPES];                    /* [1/s] of that speed */
     double energy[STUDY_DRIVEN][STUDY_WINDOWS]; /* [J] kinetic, of the last pipe: means over four revolutions */
     double swing[STUDY_DRIVEN][STUDY_WINDOWS];  /* [J] root mean square about them */
-    double wall_swing; /* [-] the same of the wall force at the last pipe while drilling, over its mean */
+    double half_turn[STUDY_DRIVEN][STUDY_HALF_TURNS]; /* [J] the same over half a revolution each */
+    study_motion motion[STUDY_DRIVEN][RIG_PLACES];
+    double feed_error; /* [m/s] root mean square of the X speed of the first pipe off the programme, whole cycle */
+    double wall_swing; /* [-] root mean square of the wall force at the last pipe while drilling about its mean, over
+                          that */
 } study_run;
 void study_runs_describe(study_run runs[STUDY_RUNS], double step);
 void study_run_work(void *run);
@@ -193,8 +233,9 @@ double study_energy(const study_run *run, int stage);
 void study_runs_print(const study_run runs[STUDY_RUNS]);
 int study_runs_write(const char *folder, const study_run runs[STUDY_RUNS]);
 
-/* ---- What the reference says (claims.c) -------------------------------------------------------------------------- */
+/* ---- The study's sentences (claims.c) -------------------------------------------------------------------------- */
 typedef struct study_results {
+    study_counts counts;
     study_modal modal;
     study_shaken shaken;
     study_set sets[STUDY_SETS];
