@@ -25,7 +25,7 @@ void study_verdict(tally *t, int which, const char *why)
     printf("%s\n", why);
 }
 
-/* What the study's text does not give and the scene needs. */
+/* The assumptions of the scene that the text of the study does not give. */
 static void print_assumptions(void)
 {
     printf(

@@ -268,7 +268,7 @@ static void print_amplitudes(const study_response *r)
     }
 }
 
-/* How often and where the stronger of friction and eccentricity changes. */
+/* The first and the last frequency at which friction falls below eccentricity, by axis. */
 static void print_crossings(const study_response *r)
 {
     static const char *const ways[] = {"around", "along"};

@@ -194,7 +194,7 @@ enum {
     STUDY_WINDOWS = 15,
     STUDY_HALF_TURNS = 120 /* in a driven stage */
 };
-/* What one place does in one driven stage: X along the hole, Y across it, Z up. */
+/* Motion of one place in one driven stage: X along the hole, Y across it, Z up. */
 typedef struct study_motion {
     double mean[STUDY_AXES];  /* [m] displacement */
     double speed[STUDY_AXES]; /* [m/s] root mean square of the speed about its mean */
