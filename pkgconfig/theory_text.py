@@ -160,19 +160,17 @@ def place_fault(manual, chapter, path, names):
             yield f"{chapter.path.name}: {path} does not define {name}"
 
 
-def test_file(name):
-    """Candidates for the file of a test, from its name in ctest."""
+def test_files(manual, name):
+    """The files of a test, from its name in ctest."""
     kind, _, rest = name.partition("_")
-    if kind == "relations":
-        return [f"tests/relations/relation_{rest}.c"]
-    if kind == "python":
-        return [f"bindings/python/test_{rest}.py"]
-    if kind == "example":
-        return [f"examples/{rest}", f"examples/{rest}.c", f"examples/{rest}/{rest}.c"]
+    tests = manual.root / "tests"
     if kind == "unit":
-        parts = rest.split("_")
-        return [f"tests/unit/{parts[0]}/test_{'_'.join(parts[1:])}.c", f"tests/unit/test_{rest}.c"]
-    return [f"tests/{kind}/test_{rest}.c", f"tests/{kind}/{rest}"]
+        return [path for path in (tests / "unit").rglob("test_*.c")
+                if "_".join([*path.relative_to(tests / "unit").parts[:-1], path.stem[5:]]) == rest]
+    paths = {"relations": [f"tests/relations/relation_{rest}.c"], "python": [f"bindings/python/test_{rest}.py"],
+             "example": [f"examples/{rest}", f"examples/{rest}.c", f"examples/{rest}/{rest}.c"]}
+    default = [f"tests/{kind}/test_{rest}.c", f"tests/{kind}/{rest}"]
+    return [path for path in paths.get(kind, default) if (manual.root / path).exists()]
 
 
 def test_faults(manual):
@@ -180,7 +178,7 @@ def test_faults(manual):
         if chapter.equations and not re.search(r"^Checked by:", chapter.text, re.M):
             yield f"{chapter.path.name} has no paragraph 'Checked by: `test`, ...'"
         for match in TEST.finditer(chapter.text):
-            if not any((manual.root / path).exists() for path in test_file(match.group(1))):
+            if not test_files(manual, match.group(1)):
                 yield f"{chapter.line(match.start())}: there is no test {match.group(1)}"
 
 

@@ -1,5 +1,6 @@
 """Tests of rotating strings: the linear state of response and speeds against a run in time, critical speeds over a range and in time, and
-the friction table of the wall."""
+the friction table of the wall.
+Equations: eq:sliding.state."""
 import csv
 import math
 import unittest

@@ -1,4 +1,4 @@
-/* Partition of the coordinates of a cluster of constraint rows into dependent and independent ones,
+/* Partition of the coordinates of a cluster of constraint rows into dependent and independent ones (eq:static.blocks),
  *
  *     B x = 0,   B = [C_d, C_i] (rows x columns),   x_d = G x_i,   G = -C_d^-1 C_i,   null space R = [G; I]
  *

@@ -1,7 +1,7 @@
 /* Flutter that a buckling analysis meets before divergence, against closed forms: Beck's column, pushed along its own
  * axis, without damping 20.0509 EI/L^2 (Beck 1952), with little damping of the material 10.94 EI/L^2 (Bolotin 1963); a
  * cantilever under a moment with a fixed axis, at any torque (Ziegler 1952); Greenhill's shaft, which diverges and does
- * not flutter. */
+ * not flutter. Equations: eq:static.characteristic. */
 #include "mechanism.h"
 
 #define EI 2e5 /* [N m2] stiff in stretch and shear, which the closed forms leave out */

@@ -1,6 +1,7 @@
 /* Buckling of a string on the low side of a horizontal hole that bends sideways by a little: the equilibria bend off,
  * and the lowest eigenvalue dips at the load at which the string in the straight hole buckles (Dawson, Paslay 1984).
- * Two meshes, steps of half the length, other units, and the closed form of a profile. */
+ * Two meshes, steps of half the length, other units, and the closed form of a profile. Equations: eq:buckling.softest,
+ * eq:buckling.dip. */
 #include "rig.h"
 
 #define LENGTH 60.0

@@ -1,5 +1,5 @@
 /* Paths of equilibrium past limit points and onto branches: a column beyond Euler's load, a truss that snaps through, a
- * circular arch. */
+ * circular arch. Equations: eq:buckling.arc. */
 #include <stdio.h>
 
 #include "rig.h"

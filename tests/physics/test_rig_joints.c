@@ -1,5 +1,6 @@
 /* The reference rig taken apart: rig head, 100 flexible pipes as strings of one pipe each, and bit, put together with
- * explicit joints, against the same rig as one string, whose joints are structural and cost no unknowns. */
+ * explicit joints, against the same rig as one string, whose joints are structural and cost no unknowns. Equations:
+ * eq:static.multipliers, eq:static.blocks, eq:static.reduced, eq:static.newton. */
 #include "rig.h"
 
 enum { PIPES = 100 };

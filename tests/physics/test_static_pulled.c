@@ -1,7 +1,7 @@
 /* Very flexible strings pulled round a bend in a narrow, stiff hole, by elements from one to ninety times the length
  * over which they bend: statics find them within 50 iterations, held against the polygon of their nodes. Its corners
  * turn by L/R, and without friction the tension is that of the last side, F cos(L/2R), so that the wall bears
- * |(F sin(L/R), w)| at each. */
+ * |(F sin(L/R), w)| at each. Equations: eq:static.pull. */
 #include <math.h>
 
 #include "rig.h"

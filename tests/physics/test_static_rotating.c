@@ -1,7 +1,7 @@
 /* The stiff string of a well, turning: section 12 1/4 in of a well of the Volve field (Norwegian North Sea), its survey
  * at every 150 m, its string as the tally gives it, with the wall by default. Statics converge from default settings
  * with an assumed slip, with a rotating drive and without friction; torque and hook load are those of finer meshes, and
- * the torque is that of the friction on the wall. */
+ * the torque is that of the friction on the wall. Equations: eq:sliding.motion. */
 #include "rig.h"
 
 static const double survey[][3] = {

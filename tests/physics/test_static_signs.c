@@ -1,5 +1,6 @@
 /* Negative eigenvalues that a static state reports, against a dense eigenvalue count of the library's own stiffness,
- * and against closed forms on fine meshes: a deep strip loaded across (lateral buckling) and Euler's column. */
+ * and against closed forms on fine meshes: a deep strip loaded across (lateral buckling) and Euler's column. Equations:
+ * eq:signs.amount, eq:signs.bounds. */
 #include "dense_signs.h"
 
 typedef struct scene {

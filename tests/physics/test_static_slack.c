@@ -1,6 +1,7 @@
 /* Slack strings: 200 m of rods 73 x 6 mm, pinned at both ends 190 m apart (closed at creation by pressing the string
  * together), hang in the catenary for any number of pipes and elements: their weight bears on the pins, the middle is
- * 27.2 m below them. The straight string is an equilibrium as well, far beyond its buckling load, and is left. */
+ * 27.2 m below them. The straight string is an equilibrium as well, far beyond its buckling load, and is left.
+ * Equations: eq:static.relaxation. */
 #include "rig.h"
 
 static const double length = 200.0, span = 190.0; /* [m] */

@@ -1,6 +1,6 @@
 /* Strings whose rotation about their own axis nothing resists: every angle is an equilibrium. Statics keep the starting
  * one and report the rotation as free; the equilibrium is that of a motion drive which holds the rotation. A torque
- * that is balanced by friction does the same; one that is not has no equilibrium. */
+ * that is balanced by friction does the same; one that is not has no equilibrium. Equations: eq:static.spin. */
 #include <string.h>
 
 #include "rig.h"

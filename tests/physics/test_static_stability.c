@@ -1,6 +1,6 @@
 /* Whether a static state is stable, its report against closed forms, its modes and a run in time: shafts under end
  * torque (Greenhill 1883), where moments with a fixed axis make the stiffness unsymmetric, and columns that may turn.
- */
+ * Equations: eq:static.characteristic, eq:static.friction-turned. */
 #include "mechanism.h"
 #include "pushed_column.h"
 

@@ -1,6 +1,6 @@
 /* Strings that slip round their hole wind up by radians and climb its wall. Statics find them in a few iterations, held
  * against: the slope of friction (tan of the climb = mu), the torque of all contacts, and the same state found in load
- * steps. */
+ * steps. Equations: eq:static.move, eq:static.fixed-axes. */
 #include <math.h>
 
 #include "rig.h"

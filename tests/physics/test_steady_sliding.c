@@ -1,5 +1,6 @@
 /* Statics of strings that slide and turn with their axes at rest, held against runs in time that settle there, against
- * closed forms, Newton's law of the whole, and refusals of what is not steady. */
+ * closed forms, Newton's law of the whole, and refusals of what is not steady. Equations: eq:sliding.motion,
+ * eq:sliding.tangent. */
 #include <string.h>
 
 #include "modal.h"

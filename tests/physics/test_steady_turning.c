@@ -1,6 +1,6 @@
 /* Statics of a string that turns as a rigid body, and modes about it, held against the turning beam: Wright, Smith,
  * Thresher, Wang 1982 (hub radius 0), a Ritz series (other hub radii), the extension rho Omega^2 L^3/(3 E) and its
- * closed form at finite strain, a hinged rigid blade, and runs in time. */
+ * closed form at finite strain, a hinged rigid blade, and runs in time. Equations: eq:sliding.tangent. */
 #include <string.h>
 
 #include "modal.h"

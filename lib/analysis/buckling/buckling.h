@@ -115,8 +115,8 @@ int32_t dmb_path_leave(dmb_path *path, double *arc);
 
 /* Growth of damped modes on the way along the equilibria. Where K is unsymmetric, a state loses its stability before
  * det K passes 0 when a complex pair of roots of  det(s^2 M + s C + K) = 0  crosses the imaginary axis: flutter
- * (Ziegler 1952). The eigenvalues of K alone do not tell: at which load a complex pair of them becomes real and
- * negative depends on the weights that they are measured by, and nothing happens to the motion there. So the damped
+ * (eq:static.characteristic). The eigenvalues of K alone do not tell: at which load a complex pair of them becomes real
+ * and negative depends on the weights that they are measured by, and nothing happens to the motion there. So the damped
  * modes are found at the points of the path, and where one grows the factor is closed in between the last point at
  * which none did and this one. */
 
@@ -202,7 +202,7 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x);
  * loads: two matrices may only be subtracted in frames that do not, or the difference holds q' (W K - K W), W the
  * turning, which is as large as the stiffest entries: 12 EI/L^3 of short elements twisted by torque.
  *
- *     d_now = T d_trial,  T = blkdiag(Q, Q),  Q = R_now^T R_trial,      K_now = T K_trial T^T
+ *     d_now = T d_trial,  T = blkdiag(Q, Q),  Q = R_now^T R_trial,      K_now = T K_trial T^T    (eq:buckling.frames)
  *
  * Rows that guides hold are held in body axes; T leaves them alone and turns those that are free among themselves. With
  * joints the reduced coordinates are rows: d = R z, z_now = W z_trial, W the independent rows of T R, and
@@ -256,7 +256,7 @@ int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, co
 /* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
 void dmb_buckling_normalise(const dmb_scene *scene, double *x);
 
-/* Lowest eigenvalue of the stiffness along a path (buckling_dip.c). */
+/* Lowest eigenvalue of the stiffness along a path (buckling_dip.c, eq:buckling.softest). */
 typedef struct dmb_dip_point {
     double arc;    /* [m] of the path */
     double value;  /* [N/m] lowest eigenvalue of K x = mu E x (dmb_stability_softest) */

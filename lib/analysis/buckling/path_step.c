@@ -1,6 +1,6 @@
 /* One point of a path: the tangent, the step along it, and Newton with the factor as one more unknown,
  *     [K  q; t^T D  0] [z; dfactor] = [-r; 0],   q = dr/dfactor,
- * by two solutions with K: z = z_r + dfactor z_q, dfactor = -(t.D z_r)/(t.D z_q) (Crisfield 1981, Riks 1979).
+ * by two solutions with K: z = z_r + dfactor z_q, dfactor = -(t.D z_r)/(t.D z_q) (eq:buckling.arc).
  * Cylindrical: the factor does not count in the arc, so that its unit does not matter. */
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* Symmetric pencil K + factor G of block-tridiagonal matrices, and block-sparse ones where joints connect chains, K
- * positive definite: its critical factors > 0, counted by Sylvester's law of inertia, found by bisection, and their
- * vectors by inverse iteration (Parlett, The symmetric eigenvalue problem, 3.3 and 4.2).
+/* Symmetric pencil K + factor G (eq:buckling.pencil) of block-tridiagonal matrices, and block-sparse ones where joints
+ * connect chains, K positive definite: its critical factors > 0, counted by Sylvester's law of inertia, found by
+ * bisection, and their vectors by inverse iteration (Parlett, The symmetric eigenvalue problem, 3.3 and 4.2).
  *
  * A vector has the rows of the scene, 0 in those of jointed chains, and then the reduced coordinates of these. */
 #include "analysis/buckling/buckling.h"

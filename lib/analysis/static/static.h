@@ -16,7 +16,7 @@
  * by Omega about its own axis. With t the tangent of the hole, k its curvature vector, R the node's rotation and ad as
  * in math/mat6.h,
  *
- *     V = (R^T v t; R^T (v t x k) + Omega e_x) = g + w,   w = (0; Omega e_x)        V' = -ad(w) g
+ *     V = (R^T v t; R^T (v t x k) + Omega e_x) = g + w,   w = (0; Omega e_x)        V' = -ad(w) g (eq:sliding.motion)
  *
  * which no force feels the turn of as long as all that turns is round (Sonneville et al. 2014 for the residual; a
  * string on a hole is the relative equilibrium of Simo, Lewis, Marsden 1991 with the material symmetry as its group).
@@ -26,7 +26,7 @@
  *
  * The equations of statics are those of motion with these V and V', so that the centrifugal force -ad(V)^T M V,
  * friction by the slip that there is, damping, drag and cutting of rock act. Under d, H = H0 exp(d), V changes by ad(g)
- * d, so the tangent is
+ * d, so the tangent is (eq:sliding.tangent)
  *
  *     K = dr/dH + (dr/dV) ad(g)          (RIGID: exact; SLIDING: without the change of V', of the order M v Omega)  */
 
@@ -227,8 +227,8 @@ void dmb_static_fix_axes(dmb_sim *sim);
 int32_t dmb_static_newton(dmb_static_search *search);
 /* One such correction. */
 int32_t dmb_static_correct(dmb_static_search *search);
-/* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes
- * 1998); slower and surer. */
+/* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections
+ * (eq:static.relaxation); slower and surer. */
 int32_t dmb_static_relaxation(dmb_static_search *search);
 /* Moves the trial aside by random displacements, the same for each number. */
 int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number);
@@ -297,7 +297,7 @@ int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *
  * A ring with the stiffness k of the wall behind it adds k (n + f) n^T to K: n its normal, f friction for a unit of
  * normal force. The symmetric part of this alone has a negative eigenvalue, however little friction there is. With
  *
- *     W = I - f n^T,      W (n + f) n^T = n n^T,
+ *     W = I - f n^T,      W (n + f) n^T = n n^T,               (eq:static.friction-turned)
  *
  * K x = mu D x has no real mu below -rho/(1 - |f|/2) if
  *

@@ -78,7 +78,8 @@ void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
 }
 
 /* The correction of a pipe that winds up by radians moves it sideways along its axes of before: H <- H exp(z less its
- * spin) exp(spin), and back in the other order. In the one exponential of z the way sideways would turn with the spin.
+ * spin) exp(spin) (eq:static.move), and back in the other order. In the one exponential of z the way sideways would
+ * turn with the spin.
  */
 static void spin(dmb_sim *sim, uint32_t node, double angle)
 {
@@ -210,7 +211,8 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
 
 /* The residual r is told in axes of the node. A spin phi turns these by itself, dr = -phi e_x x r + (what the forces
  * change by), and far from equilibrium a correction with a large spin would work on that. It goes on where the residual
- * is 0: without it the tangent is that of the residual in axes at rest, K e_x + e_x x r in the columns of spin. A held
+ * is 0: without it the tangent is that of the residual in axes at rest, K e_x + e_x x r in the columns of spin
+ * (eq:static.fixed-axes). A held
  * row's residual is a reaction, which does not vanish, so that its pair keeps what it has. */
 void dmb_static_fix_axes(dmb_sim *sim)
 {

@@ -467,7 +467,7 @@ int32_t dmb_static_growing_friction(dmb_static_search *search)
 #define DMB_SHORTEST_MOVE 0.1
 #define DMB_SEARCHES 4
 
-/* Regula falsi on the work g(s) of the residual along the move (Crisfield 1991, 9.2). */
+/* Regula falsi on the work g(s) of the residual along the move (eq:static.line-search). */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before)
 {
     double low = 0.0, high = 1.0, at_low = before, at_high = dmb_static_work(search, direction, 1.0), s = 1.0;

@@ -1,7 +1,7 @@
 /* The linear system of chains that joints connect. Its blocks are the clusters and the other nodes of those chains; a
  * cluster's block is reduced to its independent coordinates,
  *
- *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]                                     (DMB_METHOD_INDEPENDENT)
+ *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]   (eq:static.newton)                (DMB_METHOD_INDEPENDENT)
  *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
  *
  * with S the iteration matrix of the nodes (blocks of the block-tridiagonal storage) and of the joints. */

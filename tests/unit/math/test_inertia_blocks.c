@@ -1,4 +1,5 @@
-/* Signs of the eigenvalues of symmetric block-tridiagonal matrices, against matrices whose signs are known. */
+/* Signs of the eigenvalues of symmetric block-tridiagonal matrices, against matrices whose signs are known. Equations:
+ * eq:signs.inertia, eq:signs.size. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* The count of critical factors where a block is singular before its turn. */
+/* The count of critical factors where a block is singular before its turn. Equations: eq:buckling.pencil. */
 #include <string.h>
 
 #include "check.h"
