@@ -175,6 +175,13 @@ DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_
 /* Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa],
  * shape (classes). */
 DMB_API int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles);
+/* The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places
+ * counts on bit for bit, in another process too: its size, save, restore. Allocate nothing. Errors: DMB_ERR_NULL,
+ * _HANDLE; DMB_ERR_VALUE for another size, and for bytes that are no counts of these options, forged ones too: nothing
+ * is changed then. O(places x points x classes). */
+DMB_API int32_t dmb_fatigue_snapshot_size(const dmb_fatigue *fatigue, size_t *size);
+DMB_API int32_t dmb_fatigue_snapshot(const dmb_fatigue *fatigue, void *block, size_t size);
+DMB_API int32_t dmb_fatigue_restore(dmb_fatigue *fatigue, const void *block, size_t size);
 /* Sets *fatigue to NULL. NULL-safe. */
 DMB_API void dmb_fatigue_destroy(dmb_fatigue **fatigue);
 

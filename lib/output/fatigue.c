@@ -1,13 +1,11 @@
 /* Fatigue of places during a run: stress around the section, counted by rainflow, summed by an S-N curve. */
-#include "output/output.h"
+#include "output/fatigue.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/drilling.h"
 #include "drillmbd/query.h"
 #include "math/real.h"
 #include "model/section.h"
@@ -26,37 +24,6 @@ DMB_DEFINE_INIT(dmb_fatigue_result, 80, {.damage = 0.0})
 
 enum { PLACES_MAX = 65536, CLASSES_MIN = 8, CLASSES_MAX = 65536, POINTS_MAX = 360 };
 #define STRESS_MAX 1e15 /* [Pa] */
-
-/* A point of a section. */
-typedef struct counter {
-    dmb_rainflow flow;
-    double *cycles; /* by range, shape (classes) */
-    double damage, count;
-    double lowest, highest; /* [Pa] */
-    double range;           /* [Pa] the largest */
-    uint32_t largest;       /* [-] that in levels, by which points compare */
-    uint32_t reserved;
-} counter;
-
-typedef struct section {
-    dmb_place place;
-    double area;    /* [m2] */
-    double modulus; /* [m3] I/r */
-    uint64_t clipped;
-} section;
-
-struct dmb_fatigue {
-    uint32_t magic;
-    uint32_t place_count;
-    size_t bytes; /* of this block, all else in it */
-    dmb_allocator allocator;
-    dmb_fatigue_options options;
-    section *sections;     /* shape (place_count) */
-    counter *counters;     /* shape (place_count, points) */
-    double *cosine, *sine; /* of the points, shape (points) */
-    uint64_t samples;
-    double first, last; /* [s] */
-};
 
 /* ---- Creation ---------------------------------------------------------------------------------------------------- */
 
@@ -110,14 +77,14 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
 static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
 {
     const double counters = (double)places * options->points;
-    const double bytes = (double)sizeof(dmb_fatigue) + places * (double)sizeof(section) +
-                         counters * ((double)sizeof(counter) + options->classes * (double)sizeof(double) +
+    const double bytes = (double)sizeof(dmb_fatigue) + places * (double)sizeof(dmb_fatigue_section) +
+                         counters * ((double)sizeof(dmb_fatigue_counter) + options->classes * (double)sizeof(double) +
                                      (options->classes + 4.0) * (double)sizeof(dmb_turn)) +
                          2.0 * options->points * (double)sizeof(double);
     return (size_t)fmin(bytes, 0.75 * (double)SIZE_MAX);
 }
 
-static void take_section(const dmb_sim *sim, dmb_place place, section *out)
+static void take_section(const dmb_sim *sim, dmb_place place, dmb_fatigue_section *out)
 {
     const uint32_t string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     const dmb_pipe_def *def = &dmb_pipe_run_of(sim->model, string, place.pipe)->def;
@@ -137,8 +104,8 @@ static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *p
     const size_t counters = (size_t)fatigue->place_count * points;
     dmb_turn *turns;
     double *numbers;
-    fatigue->sections = (section *)(void *)(fatigue + 1);
-    fatigue->counters = (counter *)(void *)(fatigue->sections + fatigue->place_count);
+    fatigue->sections = (dmb_fatigue_section *)(void *)(fatigue + 1);
+    fatigue->counters = (dmb_fatigue_counter *)(void *)(fatigue->sections + fatigue->place_count);
     fatigue->cosine = (double *)(void *)(fatigue->counters + counters);
     fatigue->sine = fatigue->cosine + points;
     numbers = fatigue->sine + points;
@@ -223,7 +190,7 @@ static double damage_of(const dmb_fatigue_options *options, double low, double h
 
 typedef struct counting {
     const dmb_fatigue_options *options;
-    counter *to;
+    dmb_fatigue_counter *to;
 } counting;
 
 static void add_damage(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
@@ -245,7 +212,7 @@ static void count_cycle(void *context, const dmb_turn *low, const dmb_turn *high
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
-static int take_stress(dmb_fatigue *fatigue, counter *to, double stress)
+static int take_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double stress)
 {
     const double classes = fatigue->options.classes;
     const double level = floor((stress / fatigue->options.stress_range + 1.0) * 0.5 * classes);
@@ -259,7 +226,7 @@ static int take_stress(dmb_fatigue *fatigue, counter *to, double stress)
 /* Stress of bending at the angle a from y to z: N/A + (M_y sin a - M_z cos a) r/I. */
 static void take_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_section *loads)
 {
-    section *at = &fatigue->sections[place];
+    dmb_fatigue_section *at = &fatigue->sections[place];
     int clipped = 0;
     for (uint32_t k = 0; k < fatigue->options.points; k++) {
         const double bending = loads->force[4] * fatigue->sine[k] - loads->force[5] * fatigue->cosine[k];
@@ -303,9 +270,9 @@ int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 /* ---- Answers ----------------------------------------------------------------------------------------------------- */
 
 /* A counter with what it has not counted yet; its histogram is not touched. */
-static counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
+static dmb_fatigue_counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
 {
-    counter found = fatigue->counters[(size_t)place * fatigue->options.points + point];
+    dmb_fatigue_counter found = fatigue->counters[(size_t)place * fatigue->options.points + point];
     counting c = {&fatigue->options, &found};
     dmb_rainflow_rest(&found.flow, add_damage, &c);
     return found;
@@ -314,7 +281,7 @@ static counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
 /* [-] Damages that differ by no more are alike: those of two points of one circle differ by rounding. */
 #define DMB_DAMAGES_ALIKE 1e-9
 
-static int is_worse(const counter *a, const counter *b)
+static int is_worse(const dmb_fatigue_counter *a, const dmb_fatigue_counter *b)
 {
     if (a->damage > b->damage * (1.0 + DMB_DAMAGES_ALIKE)) return 1;
     return !(a->damage * (1.0 + DMB_DAMAGES_ALIKE) < b->damage) && a->largest > b->largest;
@@ -323,9 +290,9 @@ static int is_worse(const counter *a, const counter *b)
 static uint32_t worst_point(const dmb_fatigue *fatigue, uint32_t place)
 {
     uint32_t worst = 0;
-    counter most = whole(fatigue, place, 0);
+    dmb_fatigue_counter most = whole(fatigue, place, 0);
     for (uint32_t k = 1; k < fatigue->options.points; k++) {
-        const counter other = whole(fatigue, place, k);
+        const dmb_fatigue_counter other = whole(fatigue, place, k);
         if (is_worse(&other, &most)) {
             most = other;
             worst = k;
@@ -348,7 +315,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
     dmb_fatigue_result answer = {0};
     if (status < 0) return status;
     answer.point = worst_point(fatigue, place);
-    const counter found = whole(fatigue, place, answer.point);
+    const dmb_fatigue_counter found = whole(fatigue, place, answer.point);
     answer.samples = fatigue->samples;
     answer.clipped = fatigue->sections[place].clipped;
     answer.damage = found.damage;
@@ -369,7 +336,7 @@ static void add_to_histogram(void *context, const dmb_turn *low, const dmb_turn 
 int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles)
 {
     const int32_t status = check_ask(fatigue, place, cycles);
-    const counter *at;
+    const dmb_fatigue_counter *at;
     if (status < 0) return status;
     at = &fatigue->counters[(size_t)place * fatigue->options.points + worst_point(fatigue, place)];
     memcpy(cycles, at->cycles, fatigue->options.classes * sizeof(double));

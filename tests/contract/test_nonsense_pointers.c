@@ -275,6 +275,7 @@ static void of_fatigue_and_windows(void **state)
     dmb_window_result reading = dmb_window_result_default();
     dmb_window *window = NULL;
     dmb_fatigue *fatigue = NULL;
+    size_t size = 0;
     double cycles[16];
     MISSING(dmb_fatigue_create(NULL, &options, &s.place, 1, &fatigue));
     MISSING(dmb_fatigue_create(s.r.sim, &options, NULL, 1, &fatigue));
@@ -285,6 +286,12 @@ static void of_fatigue_and_windows(void **state)
     MISSING(dmb_fatigue_get(s.fatigue, 0, NULL));
     MISSING(dmb_fatigue_histogram(NULL, 0, cycles));
     MISSING(dmb_fatigue_histogram(s.fatigue, 0, NULL));
+    MISSING(dmb_fatigue_snapshot_size(NULL, &size));
+    MISSING(dmb_fatigue_snapshot_size(s.fatigue, NULL));
+    MISSING(dmb_fatigue_snapshot(NULL, cycles, sizeof cycles));
+    MISSING(dmb_fatigue_snapshot(s.fatigue, NULL, sizeof cycles));
+    MISSING(dmb_fatigue_restore(NULL, cycles, sizeof cycles));
+    MISSING(dmb_fatigue_restore(s.fatigue, NULL, sizeof cycles));
     MISSING(dmb_window_create(NULL, NULL, &height, 1, &window));
     MISSING(dmb_window_create(s.r.sim, NULL, NULL, 1, &window));
     MISSING(dmb_window_create(s.r.sim, NULL, &height, 1, NULL));
@@ -297,6 +304,9 @@ static void of_fatigue_and_windows(void **state)
     NO_OBJECT(dmb_fatigue_take(s.fatigue, JUNK(dmb_sim)));
     NO_OBJECT(dmb_fatigue_get(JUNK(dmb_fatigue), 0, &result));
     NO_OBJECT(dmb_fatigue_histogram(JUNK(dmb_fatigue), 0, cycles));
+    NO_OBJECT(dmb_fatigue_snapshot_size(JUNK(dmb_fatigue), &size));
+    NO_OBJECT(dmb_fatigue_snapshot(JUNK(dmb_fatigue), cycles, sizeof cycles));
+    NO_OBJECT(dmb_fatigue_restore(JUNK(dmb_fatigue), cycles, sizeof cycles));
     NO_OBJECT(dmb_window_take(JUNK(dmb_window), s.r.sim));
     NO_OBJECT(dmb_window_take(s.window, JUNK(dmb_sim)));
     NO_OBJECT(dmb_window_get(JUNK(dmb_window), 0, &reading));

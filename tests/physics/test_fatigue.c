@@ -1,5 +1,6 @@
 /* Fatigue of a pipe that turns while its weight bends it: each point of its surface goes through M r/I once a turn, so
  * that n turns do the damage n/N(S). And what refuses. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
@@ -281,6 +282,116 @@ static void bending_that_is_not_seen(void **state)
     }
 }
 
+/* ---- Snapshots --------------------------------------------------------------------------------------------------- */
+
+static void count_on(scene *s, dmb_fatigue *fatigue, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        must(dmb_sim_step(s->sim, 0.25 / 40.0, NULL), dmb_sim_message(s->sim));
+        must(dmb_fatigue_take(fatigue, s->sim), "take");
+    }
+}
+
+static dmb_fatigue *counter(scene *s)
+{
+    const dmb_fatigue_options options = curve();
+    const dmb_place places[2] = {s->root, {s->root.part, 1, 0, 0.5}};
+    dmb_fatigue *made = NULL;
+    must(dmb_fatigue_create(s->sim, &options, places, 2, &made), dmb_sim_message(s->sim));
+    return made;
+}
+
+static unsigned char *saved(const dmb_fatigue *fatigue, size_t *size)
+{
+    must(dmb_fatigue_snapshot_size(fatigue, size), "size");
+    unsigned char *block = malloc(*size);
+    assert_non_null(block);
+    must(dmb_fatigue_snapshot(fatigue, block, *size), "snapshot");
+    return block;
+}
+
+static void assert_same_counts(const dmb_fatigue *a, const dmb_fatigue *b)
+{
+    size_t size, other;
+    unsigned char *first = saved(a, &size), *second = saved(b, &other);
+    assert_int_equal(size, other);
+    assert_memory_equal(first, second, size);
+    free(first);
+    free(second);
+}
+
+/* Counts that are restored in the middle of a run, over other counts, go on to the same bits. */
+static void counts_on_after_a_restore(void **state)
+{
+    scene s = turning(1e4);
+    dmb_fatigue *whole = counter(&s), *rest = counter(&s);
+    dmb_fatigue_result a = dmb_fatigue_result_default(), b = dmb_fatigue_result_default();
+    size_t size;
+    (void)state;
+    count_on(&s, rest, 17);
+    count_on(&s, whole, 90);
+    unsigned char *block = saved(whole, &size);
+    must(dmb_fatigue_restore(rest, block, size), "restore");
+    assert_same_counts(whole, rest);
+    for (int i = 0; i < 110; i++) {
+        must(dmb_sim_step(s.sim, 0.25 / 40.0, NULL), dmb_sim_message(s.sim));
+        must(dmb_fatigue_take(whole, s.sim), "take");
+        must(dmb_fatigue_take(rest, s.sim), "take");
+    }
+    assert_same_counts(whole, rest);
+    must(dmb_fatigue_get(whole, 0, &a), "get");
+    must(dmb_fatigue_get(rest, 0, &b), "get");
+    assert_true(a.damage > 0.0 && a.cycles > 4.0 && a.samples == 200);
+    assert_memory_equal(&a, &b, sizeof a);
+    free(block);
+    dmb_fatigue_destroy(&whole);
+    dmb_fatigue_destroy(&rest);
+    destroy(&s);
+}
+
+/* Bytes that are no counts of these options are refused and change nothing; those that are taken, forged or not, count
+ * on. */
+static void forged_counts(void **state)
+{
+    scene s = turning(1e4);
+    dmb_fatigue *fatigue = counter(&s), *kept = counter(&s);
+    dmb_fatigue_options coarse = curve();
+    dmb_fatigue *other = NULL;
+    uint64_t random = 1;
+    size_t size;
+    int refused_ones = 0;
+    (void)state;
+    count_on(&s, fatigue, 60);
+    unsigned char *block = saved(fatigue, &size);
+    must(dmb_fatigue_restore(kept, block, size), "restore");
+    assert_int_equal(dmb_fatigue_restore(fatigue, block, size - 1), DMB_ERR_VALUE);
+    assert_int_equal(dmb_fatigue_snapshot(fatigue, block, size + 8), DMB_ERR_VALUE);
+    coarse.slope = 5.0;
+    must(dmb_fatigue_create(s.sim, &coarse, &s.root, 1, &other), dmb_sim_message(s.sim));
+    assert_int_equal(dmb_fatigue_restore(other, block, size), DMB_ERR_VALUE);
+    for (int i = 0; i < 400; i++) {
+        random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        const size_t at = (size_t)((random >> 33) % (i % 2 ? 2000 : size));
+        const unsigned char before = block[at];
+        block[at] = (unsigned char)(random >> 20);
+        if (dmb_fatigue_restore(fatigue, block, size) < 0) {
+            refused_ones++;
+            assert_same_counts(fatigue, kept);
+        } else {
+            must(dmb_fatigue_take(fatigue, s.sim), "take");
+            block[at] = before;
+            must(dmb_fatigue_restore(fatigue, block, size), "restore");
+        }
+        block[at] = before;
+    }
+    assert_in_range(refused_ones, 20, 390);
+    free(block);
+    dmb_fatigue_destroy(&fatigue);
+    dmb_fatigue_destroy(&kept);
+    dmb_fatigue_destroy(&other);
+    destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns),
@@ -289,6 +400,8 @@ int main(void)
                                        cmocka_unit_test(mean_above_the_strength),
                                        cmocka_unit_test(largest_range_without_damage),
                                        cmocka_unit_test(refused),
+                                       cmocka_unit_test(counts_on_after_a_restore),
+                                       cmocka_unit_test(forged_counts),
                                        cmocka_unit_test(bending_that_is_not_seen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

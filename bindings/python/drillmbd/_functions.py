@@ -59,7 +59,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_get": (c_int32, c_void_p, c_uint32, POINTER(FatigueResult),),
     "dmb_fatigue_histogram": (c_int32, c_void_p, c_uint32, POINTER(c_double),),
     "dmb_fatigue_options_init": (c_int32, POINTER(FatigueOptions), c_uint32,),
+    "dmb_fatigue_restore": (c_int32, c_void_p, c_void_p, c_size_t,),
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
+    "dmb_fatigue_snapshot": (c_int32, c_void_p, c_void_p, c_size_t,),
+    "dmb_fatigue_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
     "dmb_flow_state_init": (c_int32, POINTER(FlowState), c_uint32,),
     "dmb_force_def_init": (c_int32, POINTER(ForceDef), c_uint32,),
@@ -314,6 +317,8 @@ FUNCTION_DOCS = {
         "Sets *fatigue to NULL. NULL-safe.",
     "dmb_fatigue_histogram":
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
+    "dmb_fatigue_snapshot_size":
+        "The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places counts on bit for bit, in another process too: its size, save, restore. Allocate nothing. Errors: ERR_NULL, _HANDLE; ERR_VALUE for another size, and for bytes that are no counts of these options, forged ones too: nothing is changed then. O(places x points x classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted. The sim may be another one of the same model. Allocates nothing. O(places x points).",
     "dmb_has":

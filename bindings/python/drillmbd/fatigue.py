@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_void_p
+from ctypes import byref, c_double, c_size_t, c_void_p, create_string_buffer
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
@@ -10,7 +10,7 @@ from ._keep import as_place, mirrors, station
 from ._library import lib as _lib
 from ._parts import index_of
 from ._structs import FatigueOptions, FatigueResult, Place
-from ._values import whole
+from ._values import refuse_type, whole
 
 if TYPE_CHECKING:
     from ._structs import Id
@@ -48,6 +48,23 @@ class Fatigue(Handle):
         place = index_of("fatigue", "place", place, self._count)
         self._sure(_lib.dmb_fatigue_get(self._handle, place, byref(answer)))
         return answer
+
+    @mirrors("dmb_fatigue_snapshot")
+    def snapshot(self) -> bytes:
+        """The counts so far, as bytes; a copy."""
+        size = c_size_t()
+        self._sure(_lib.dmb_fatigue_snapshot_size(self._handle, byref(size)))
+        block = create_string_buffer(size.value)
+        self._sure(_lib.dmb_fatigue_snapshot(self._handle, block, size.value))
+        return block.raw
+
+    @mirrors("dmb_fatigue_restore")
+    def restore(self, snapshot: Any) -> None:
+        """Counts on from a snapshot of a Fatigue of the same options and places, of another process too."""
+        if isinstance(snapshot, (str, int)) or not hasattr(snapshot, "__len__"):
+            refuse_type("fatigue snapshot", "snapshot", snapshot, "be bytes of Fatigue.snapshot")
+        snapshot = bytes(snapshot)
+        self._sure(_lib.dmb_fatigue_restore(self._handle, snapshot, len(snapshot)))
 
     def frame(self) -> Any:
         """The places as a pandas frame, one row each, units in the names of its columns."""
