@@ -1,4 +1,4 @@
-/* What a dmb_fatigue consists of: counters of cycles for each place and point, in one block of memory. */
+/* Memory of a fatigue counter: sections, points and cycles in one block. */
 #ifndef DMB_OUTPUT_FATIGUE_H
 #define DMB_OUTPUT_FATIGUE_H
 
