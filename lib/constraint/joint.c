@@ -190,9 +190,9 @@ static void lean_at(const double n[3], const double w[3], lean *l)
     l->c = l->inverse > 0.0 ? -w[0] - n[0] * l->inverse * dmb_vec3_dot(l->m, w) : 0.0;
 }
 
-/* The rim's lowest point is at r m, m of the normal n = R^T e_x of the plane, and its velocity u + w x r m along
- *     n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:  (t2; r s t)
- * The first is also the derivative of p_x - r s. */
+/* Rolling (eq:joints.rolling). The rim's lowest point is at r m, m of the normal n = R^T e_x of the plane, and its
+ * velocity u + w x r m along n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:  (t2; r s t) The first is
+ * also the derivative of p_x - r s. */
 static void rolling_rows(double r, const double R[9], const double p[3], const double V[6], dmb_joint_rows *rows)
 {
     lean l;

@@ -4,7 +4,8 @@
 
 #include <stdint.h>
 
-/* Frame b seen from frame a, each fixed at a marker (x, M) on its body, and how it moves with the bodies:
+/* Frame b seen from frame a, each fixed at a marker (x, M) on its body, and how it moves with the bodies
+ * (eq:joints.relative-motion):
  *
  *     H = H_a^-1 H_b = (R, p)      V = H^-1 H' = to_b v_b + to_a v_a
  *     to_b = Ad(marker_b^-1)       to_a = -Ad(H^-1) Ad(marker_a^-1)
@@ -35,7 +36,8 @@ void dmb_relative_pull_back(const dmb_relative *relative, const double w[6], dou
  * bodies, when w itself changes by W xi with the relative displacement xi = to_b xi_b + to_a xi_a. Overwrites K. */
 void dmb_relative_tangent(const dmb_relative *relative, const double w[6], const double W[36], double K[144]);
 
-/* Joints as equations of frame b seen from frame a (constraint/joint.h), and the six joint coordinates.
+/* Joints as equations of frame b seen from frame a (eq:joints.rows), and the six joint coordinates
+ * (eq:joints.coordinates).
  *
  * Coordinates: c = (p; RX, RY, RZ), R = Ry(RY) Rz(RZ) Rx(RX), so that
  *     RX = atan2(-R_yz, R_yy)      RY = atan2(-R_zx, R_xx)      RZ = asin(R_yx)

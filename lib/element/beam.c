@@ -149,7 +149,7 @@ static void follow_exp(const double R[9], const double x[3], const dmb_se3_tange
     for (int i = 0; i < 6; i++) v[i] += own[i];
 }
 
-/* Velocity of end A, then along the two exponentials: those of H(x) = exp(x d) exp(c(x) d). */
+/* Velocity of end A, then along the two exponentials of H(x) (eq:motion.section-map). */
 void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72])
 {
     double h[6], c[6], R[2][9], x[2][3], strain[72];

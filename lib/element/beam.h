@@ -22,7 +22,7 @@ double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
 void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6], double pb[6]);
 
 /* The shapes of bending are added to the helix inside an element: H(x) = exp(x d) exp(c(x) d), see
- * query/motion.c and THEORY 3. */
+ * query/motion.c (eq:beam.section-pose). */
 
 typedef struct dmb_section_shape {
     double x;       /* [-] fraction of the flexible length */

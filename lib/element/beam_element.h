@@ -5,9 +5,9 @@
 #include "element/beam_math.h"
 #include "element/curved_element.h"
 
-/* Inertia of the flexible element (THEORY 3), in a number that is a double or lanes of doubles: the consistent mass of
- * the Timoshenko cubic, constant in the body frames of both ends, its momentum p = M v, the wrench p' + v^ p it takes,
- * and the derivatives of that for the iteration matrix. */
+/* Inertia of the flexible element (eq:beam.mass, eq:motion.euler-poincare), in a number that is a double or lanes of
+ * doubles: the consistent mass of the Timoshenko cubic, constant in the body frames of both ends, its momentum p = M v,
+ * the wrench p' + v^ p it takes, and the derivatives of that for the iteration matrix. */
 
 /* One bending plane: u and t of both ends; the second plane enters with t = -theta_y. */
 DMB_REAL_INLINE void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb,
@@ -98,7 +98,7 @@ static inline void dmb_beam_subtract_momentum(const dmb_real p[6], dmb_real fact
 }
 
 /* Adds mass_factor M + velocity_factor C_t to blocks, or writes it to fresh ones;
- * C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (gyroscopic). */
+ * C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (eq:motion.gyroscopic). */
 static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, const dmb_real va[6],
                                                const dmb_real vb[6], const dmb_real pa[6], const dmb_real pb[6],
                                                dmb_real mass_factor, dmb_real velocity_factor, int fresh,

@@ -1,23 +1,14 @@
 /* The mathematics of the flexible element, in a number that is a double or lanes of doubles (math/real.h).
  *
- * Relative nodal coordinates: d = log(H_A^-1 H_B), strain e/L with e = d - d0, diagonal stiffness (Sonneville, Cardona,
- * Bruls 2014). Blind to rigid motion and to the number of revolutions.
+ * The deformation is the pose of end B seen from end A, d = log(H_A^-1 H_B) (eq:kinematics.relative-pose), which
+ * neither rigid motion nor whole revolutions change. With x = d - d0 the strain times length is (eq:beam.strain)
  *
- * The corrected shear GA* stands for bending inside the element too, and this must not shorten it. Let x = d - d0. The
- * sideways x_y turns the chord by g = x_y/L against the end sections; the Timoshenko cubic that belongs to it (THEORY
- * 3, P = 12 EI/(GA L^2), s = 1/(1 + P) = 1 - (GA*)/GA) has the slope w' = s g (6 (r - r^2) + P) and the section
- * rotation t = 6 s g (r - r^2), r = 0 .. 1. Its axial strain is u' + t w' - t^2/2, on the average over r
- *     x_x/L + c g^2,   c = s^2 (6/5 + P) - (3/5) s^2 = s (1 - 0.4 s),   in each plane.
- * Without it a pulled element has the transverse tangent GA* - N, with it GA* + N/5 (slender), which is the cubic's.
+ *     e_x = x_x + (b_y x_y^2 + b_z x_z^2)/2,   p = O_z x_y - O_y x_z,
+ *     e_y = x_y - h_y O_z p,   e_z = x_z + h_z O_y p,   rotations e = O - O0
  *
- * In an element that is bent by O the sideways part of the logarithm is (O/2)/sin(O/2) times the integral of
- * cos(O r) t, r = -1/2 .. 1/2. Its flexibility by t with EI t''/L = -force cos(O r) (O/2)/sin(O/2) is L^2/(12 EI) times
- * 1 + O^2/30 + ..., so x_y counts 1 - s O_z^2/60 times. Both together: elastica of fourth order with a constant that is
- * seven times smaller than with the first alone.
- *     e_x = x_x + (b_y x_y^2 + b_z x_z^2)/2,   b = 2 c/L,   p = O_z x_y - O_y x_z,   h = s/60,
- *     e_y = x_y - h_y O_z p,   e_z = x_z + h_z O_y p,   rotations e = O - O0;   energy e^T (K/L) e/2.
- * With S = (K/L) e, E = de/dd and H = sum of S_i d2 e_i/dd2:
- *     g = P^T s,  s = E^T S;   tangent  P^T (E^T (K/L) E + H) P + [D1(-d, s); D1(d, s)] P. */
+ * b: bending inside the element does not shorten it (eq:beam.axial-shear), else pulled elements would buckle; h:
+ * sideways it is softer where it is bent (eq:beam.curvature-softening). Forces and tangent: eq:beam.force,
+ * eq:beam.tangent. */
 #ifndef DMB_ELEMENT_BEAM_MATH_H
 #define DMB_ELEMENT_BEAM_MATH_H
 
@@ -152,7 +143,8 @@ static inline int dmb_beam_rotation_holds(const dmb_beam_shape *shape)
                           dmb_real_of(DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX));
 }
 
-/* Velocity of an element's end from that of its node, arm [m] along x from the node to the end; in place. */
+/* Velocity of an element's end from that of its node, arm [m] along x from the node to the end (eq:kinematics.arm); in
+ * place. */
 static inline void dmb_arm_velocity(dmb_real arm, dmb_real v[6])
 {
     v[1] += arm * v[5];
@@ -165,7 +157,7 @@ static inline void dmb_arm_wrench(dmb_real arm, dmb_real f[6])
     f[5] += arm * f[1];
 }
 
-/* d' = P V [m/s, rad/s] from the velocities of the element's ends, P = [-T6(-d)^-1, T6(d)^-1]. */
+/* d' = P V [m/s, rad/s] from the velocities of the element's ends (eq:beam.strain-rate). */
 DMB_REAL_INLINE void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
                                          const dmb_real velocity_b[6], dmb_real rate[6])
 {
@@ -212,7 +204,7 @@ static inline void dmb_beam_wrench(const dmb_beam_shape *shape, const dmb_real s
     s[5] += E->turn[1] * stress[1] + E->turn[3] * stress[2];
 }
 
-/* Internal forces g = P^T E^T S on the element's ends (residual side), added to force_a and force_b. */
+/* Internal forces g = P^T E^T S (eq:beam.force) on the element's ends, residual side, added to force_a and force_b. */
 static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_real stress[6], dmb_real force_a[6],
                                       dmb_real force_b[6])
 {
@@ -312,7 +304,7 @@ static inline void dmb_beam_rows_stiffness(const dmb_se3_tangent *T, const dmb_s
     }
 }
 
-/* Geometric part [D1(-d, s); D1(d, s)] P, s = E^T S */
+/* Geometric part of eq:beam.tangent, s = E^T S */
 static inline void dmb_beam_add_geometric_stiffness(const dmb_beam_shape *shape, const dmb_real stress[6],
                                                     const dmb_se3_tangent *R, dmb_beam_blocks *out)
 {
@@ -380,7 +372,7 @@ static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const 
 
 /* The same with damping, which takes part in the stiffness too: S gains tau (K/L) E d' with d' = P V. Its derivative by
  * V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E X + E') P
- * with X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
+ * with X = d(d')/dd = X(d, V_B) + X(-d, V_A) (eq:beam.damping). */
 static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                           const dmb_real stress[6], const dmb_real velocity_a[6],
                                           const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness,

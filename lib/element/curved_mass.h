@@ -1,14 +1,10 @@
-/* Mass of an element that is bent (THEORY 3, mass of bent elements), in a number that is a double or lanes of doubles.
+/* Mass of an element that is bent (eq:curved.kinetic-energy), in a number that is a double or lanes of doubles.
  *
- * The element is the helix H_A exp(x d), d = (U; O), with the offset of its bending shapes to first order. With the
- * frame half way between its ends, R_m = R_A exp(O/2), its kinetic energy is
- *
- *     T = m |V|^2/2 + w.J(d) w/2 + d'.C d'/2 + S,   V: velocity of the centre of mass x_c = (x_A + x_B)/2 + R_m z(d),
- *
- * J the inertia about it in the axes of the middle, w = w_m + Gamma d' the speed of the mean axes, C what is left of
- * the straight mass, S the coupling of spin and bend (below). A rigid motion has d' = 0, so mass, momentum and
- * energy are those of the bent body; C and J are positive definite, and at rest the straight element's mass results.
- * Forces are Lagrange's, so the power of inertia is T' whatever d does. */
+ * Kinetic energy of the helix with its bending shapes to first order: translation of the centre of mass, rotation at
+ * the speed w of the mean axes with the inertia J(d), constants C for the motion against these, and S, by which a round
+ * element that spins about its own bent axis feels no force. Rigid motions have the mass, momentum and energy of the
+ * bent body; at rest the straight element's mass results. Forces are Lagrange's (eq:curved.forces), so the power of
+ * inertia is the rate of the energy whatever d does. */
 #ifndef DMB_ELEMENT_CURVED_MASS_H
 #define DMB_ELEMENT_CURVED_MASS_H
 
@@ -21,8 +17,8 @@ typedef struct dmb_curved_force {
 
 /* ---- Angular momentum -------------------------------------------------------------------------------------------- */
 
-/* J w by its parts: y x (w x y) of the centre line, with the moments p of its three vectors; the axes of the sections,
- * with their weights r. */
+/* J w (eq:curved.inertia) by its parts: y x (w x y) of the centre line, with the moments p of its three vectors; the
+ * axes of the sections, with their weights r. */
 typedef struct dmb_curved_spin {
     dmb_real A[3], B[3], C[3], p[3][3]; /* w x U, w x W, w x Z */
     dmb_real dot[3], r[3];              /* of e, g, f */
@@ -179,16 +175,8 @@ static inline void dmb_curved_subtract_gradient(const dmb_curved_constants *c, c
 
 /* ---- Spin of the material ---------------------------------------------------------------------------------------- */
 
-/* A round element that spins about its own bent axis carries its bend d backwards, d' = -w_x e_x x d, and its centre
- * line stands still. Across, with the bow Z = O x U of the line, E = m even, b_0 = m L^2/720, what J and C have is
- * completed by
- *
- *     S = E |Z'|^2/2 - b_0 |O'|^2/2 + w_x e_x.(E Z x Z' + k O x O' + q U x U')
- *         + (U' + w_x e_x x U).C_U (U' + w_x e_x x U)/2 - U'.C_U U'/2,
- *
- * k = (C_O - b_0 - (r_0 - r_1)/12)/2, q = (m (s - G L)^2/12 + 2 (r_0 - r_1) t G + r_1 G^2)/2 with the spread s and tilt
- * t of the shape and G of Gamma: nothing is left of the energy of such a spin to the second order of d. Squares of Z'
- * and U' with their turn are whole, so the mass stays positive definite. */
+/* S of eq:curved.spin: Z = O x U is the bow of the line, across; k and q are those that leave nothing of the energy of
+ * a round element that spins about its own bent axis, d' = -w_x e_x x d, to the second order of d. */
 typedef struct dmb_curved_spinning {
     dmb_real Z1[3], Z2[3];      /* Z', Z'' */
     dmb_real bow, bow_rate;     /* E, E' */
@@ -424,7 +412,8 @@ static inline void dmb_curved_add_inertia(const dmb_curved_constants *c, const d
 
 /* ---- Weight ------------------------------------------------------------------------------------------------------ */
 
-/* The nodes carry the weight at (x_A + x_B)/2 + L/12 (R_A - R_B) e_x; the centre is off that by R_m times this. */
+/* The nodes carry the weight at (x_A + x_B)/2 + L/12 (R_A - R_B) e_x; the centre is off that by R_m times this
+ * (eq:curved.weight). */
 static inline void dmb_curved_weight_offset(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                             dmb_real offset[3], dmb_real G[3])
 {

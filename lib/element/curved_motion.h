@@ -29,7 +29,7 @@ static inline void dmb_curved_add_turn(const dmb_curved_constants *c, const dmb_
     w[2] += c->turn[0] * rate[1];
 }
 
-/* d', w_m = (R^T w_A + R w_B)/2 - b/4 O x O', and V. */
+/* d' (eq:beam.strain-rate), w_m (eq:curved.middle-rate), and V. */
 static inline void dmb_curved_velocity(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                        const dmb_real v[12], dmb_curved_motion *motion)
 {

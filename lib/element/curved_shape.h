@@ -1,4 +1,5 @@
-/* Functions of the shape of a bent element (element/curved_mass.h), in a number that is a double or lanes of doubles.
+/* Functions of the shape of a bent element (eq:curved.line, eq:curved.centre), in a number that is a double or lanes of
+ * doubles.
  */
 #ifndef DMB_ELEMENT_CURVED_SHAPE_H
 #define DMB_ELEMENT_CURVED_SHAPE_H

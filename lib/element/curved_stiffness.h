@@ -1,4 +1,4 @@
-/* Stiffness of an element whose unstressed shape is bent (THEORY 3, stiffness of curved elements): off the diagonal, K
+/* Stiffness of an element whose unstressed shape is bent (eq:curved.flexibility): off the diagonal, K
  * has entries that couple the components of e. The diagonal ones are those of its type. */
 #ifndef DMB_ELEMENT_CURVED_STIFFNESS_H
 #define DMB_ELEMENT_CURVED_STIFFNESS_H

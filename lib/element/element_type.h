@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3),
+/* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic, eq:beam.mass),
  * along and around half way to a lumped one (model/section.c). bending[plane]: plane 0 is (u_y, theta_z), plane 1 is
  * (u_z, -theta_y); six numbers each:
  *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5]
@@ -33,8 +33,8 @@ typedef struct dmb_curved_mass {
 typedef struct dmb_element_type {
     double length;              /* [m] between its two ends, rigid arms not counted */
     double stiffness[6];        /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */
-    double coupling[2];         /* [1/m] 2 c/L of the planes y and z: axial strain by sideways strain (beam_math.h) */
-    double bend[2];             /* [-] s/60: how curvature softens sideways strain (beam_math.h) */
+    double coupling[2];         /* [1/m] b of the planes y and z (eq:beam.axial-shear) */
+    double bend[2];             /* [-] h (eq:beam.curvature-softening) */
     double strain_stiffness[6]; /* [N, N m2] K itself, uncorrected shear (for queries) */
     double damping_time;        /* [s] tau; 0 when damping is left out */
     double rest[6];             /* [m, rad] d0 = L (1, 0, 0, curvature) */

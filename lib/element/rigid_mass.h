@@ -1,5 +1,5 @@
 /* The mathematics of a rigid mass on a node, in a number that is a double or lanes of doubles (math/real.h): spatial
- * inertia [m I, -b~; b~, J] at the node, body frame, constant. */
+ * inertia [m I, -b~; b~, J] at the node, body frame, constant (eq:motion.rigid-mass). */
 #ifndef DMB_ELEMENT_RIGID_MASS_H
 #define DMB_ELEMENT_RIGID_MASS_H
 
@@ -54,7 +54,7 @@ static inline void dmb_rigid_mass_rotation_tangent(const dmb_rigid_mass_constant
     }
 }
 
-/* Adds mass_factor M + velocity_factor C_t, C_t = -v^^T M - A(p), p = M v, v = (u; w):
+/* Adds mass_factor M + velocity_factor C_t (eq:motion.gyroscopic), p = M v, v = (u; w):
  * -v^^T M = [m w~, -w~ b~; m u~ + w~ b~, -u~ b~ + w~ J] */
 static inline void dmb_rigid_mass_add_tangent(const dmb_rigid_mass_constants *rigid_mass, const dmb_real v[6],
                                               const dmb_real p[6], double mass_factor, double velocity_factor,

@@ -4,9 +4,9 @@
 
 #include "math/mat6.h"
 
-/* Body-frame weight m R^T g [N] and its moment b x R^T g [N m]; both turn with the body: d(R^T g) = (R^T g)~ dtheta, so
- * the residual's rotation columns lose force~ under the translations and `by_rotation` = b~ (R^T g)~ under the
- * rotations.
+/* Body-frame weight m R^T g [N] and its moment b x R^T g [N m] (eq:motion.weight); both turn with the body: d(R^T g) =
+ * (R^T g)~ dtheta, so the residual's rotation columns lose force~ under the translations and `by_rotation` = b~ (R^T
+ * g)~ under the rotations.
  */
 static inline void dmb_weight_at(const double gravity[3], const dmb_real R[9], dmb_real mass, const dmb_real moment[3],
                                  dmb_real force[6], dmb_real by_rotation[9])

@@ -98,9 +98,9 @@ static motion_norms norms_of(const dmb_sim *sim, double h)
 /* [-] Most that the error ahead is over the error here: what is left of Newton and rounding tells no frequency. */
 #define DMB_AHEAD_MAX 64.0
 
-/* The error goes with x''' = (a1 - a0)/h. In an oscillation of frequency w, x''' = -w^2 x', which tells w, and the
- * larger of |x'''| and w |x''| is within sqrt 2 of the largest |x'''| of the period, at any time. Where steps do not
- * resolve the motion, h w > 1, the acceleration does not change by more than itself. */
+/* Local error (eq:integration.local-error), and what it may become within a quarter of a period
+ * (eq:integration.error-ahead). Where steps do not resolve the motion, h w > 1, the acceleration does not change by
+ * more than itself. */
 dmb_step_error dmb_attempt_error(const dmb_sim *sim, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);

@@ -82,13 +82,11 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
     return DMB_ERR_SINGULAR;
 }
 
-/* ---- Where the iteration stops (THEORY 4) ------------------------------------------------------------------------
+/* ---- Where the iteration stops -----------------------------------------------------------------------------------
  *
- * With newton_tolerance = 0 it follows the error of the step. Corrector less predictor tells the local error (Milne's
- * device): error = c (z - z_predicted), c = C (1-am)/(beta (1-af)). The part of z left after the last correction is
- * left in speed too, as gamma/(h beta) of it, which in all steps together makes an error of order 1/h more than the
- * local errors do. So it may be DMB_NEWTON_PART of the local error, or 0.2 h w of it where that is less, w a frequency
- * of the motion. */
+ * With newton_tolerance = 0 it follows the error of the step, which corrector less predictor shows
+ * (eq:integration.milne). The part of z left after the last correction adds up in the speeds, so the bound falls with
+ * the frequency of the motion (eq:integration.stop). */
 
 #define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
 #define DMB_NEWTON_LINEAR 0.7 /* [-] of that after a linear prediction: small corrections are seldom too good */
@@ -97,7 +95,7 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
 #define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */
 #define DMB_NEWTON_WORK 1e-7  /* [-] of the power that the forces exchange, that of the residual */
 
-/* Part of the predictor's error that may be left where motion is fast. */
+/* [-] Part of the predictor's error that may be left where motion is fast (eq:integration.milne). */
 static double share_of(const dmb_sim *sim)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
@@ -142,8 +140,7 @@ static powers powers_of(const dmb_sim *sim)
     return p;
 }
 
-/* [-] h times a frequency of the motion over DMB_NEWTON_PACE, at most 1: of an oscillation (h w)^2 = h |a1 - a0|/|v|.
- * With z of the first correction for h^2 (a1 - a0), weighed by its residual, and the forces for v. */
+/* [-] h times a frequency of the motion (eq:integration.pace) over DMB_NEWTON_PACE, at most 1. */
 static double pace_of(const dmb_attempt *attempt, const dmb_newton_course *course, double exchanged)
 {
     const double way = attempt->end.step * exchanged * course->first;
@@ -151,10 +148,7 @@ static double pace_of(const dmb_attempt *attempt, const dmb_newton_course *cours
     return way > squared ? sqrt(squared / way) : 1.0;
 }
 
-/* The largest |z . residual| of all corrections z is the square of the predictor's error in the energy norm; the last
- * one's times the square of t/(1 - t) is that of the error left, t being the rate: that of the residual, in which stiff
- * directions weigh more, or that along the last correction, in which soft ones do, whichever is larger. [-] over what
- * is allowed of it. */
+/* [-] Error left (eq:integration.contraction) over what is allowed of it (eq:integration.stop), the pace apart. */
 static double excess_of_error(const dmb_sim *sim, double residual, const dmb_newton_course *course)
 {
     if (!(course->work > 0.0)) return (double)INFINITY; /* it tells nothing; fmax would pass over a NaN */
@@ -163,8 +157,7 @@ static double excess_of_error(const dmb_sim *sim, double residual, const dmb_new
     return rate * sqrt(course->work / course->most_work) / (share_of(sim) * (1.0 - rate));
 }
 
-/* The residual's power is energy won or lost, and in long free runs it adds up where the scheme's own error comes back
- * to 0. [-] over what is allowed. */
+/* [-] Power of the residual over what is allowed (eq:integration.stop-power). */
 static double excess_of_power(const powers *p)
 {
     return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;

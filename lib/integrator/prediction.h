@@ -1,4 +1,5 @@
-/* Where the iteration of a step begins (THEORY 4): from accelerations that stay, or from such as go on as they did. */
+/* Where the iteration of a step begins (eq:integration.prediction): from accelerations that stay, or from such as go on
+ * as they did. */
 #ifndef DMB_INTEGRATOR_PREDICTION_H
 #define DMB_INTEGRATOR_PREDICTION_H
 

@@ -263,7 +263,7 @@ int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
  *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2)
  * with the error ahead of the step, not its own (dmb_step_error): steps that follow the error through the zeros of an
  * oscillation change four times a period, and each change leaves a part of h_1^2 - h_2^2 of what equal steps take back
- * (THEORY 4). */
+ * (eq:integration.energy-left). */
 
 /* ---- Error-controlled steps -------------------------------------------------------------------------------------- */
 

@@ -1,6 +1,4 @@
-/* Generalized-alpha on the Lie group (Chung, Hulbert 1993; Arnold, Bruls 2007; Bruls, Cardona, Arnold 2012):
- *     (1-am) a1 + am a0 = (1-af) v1' + af v0'
- *     h Dq = h v0 + h^2 (1/2-beta) a0 + h^2 beta a1,   q1 = q0 exp(h Dq),   v1 = v0 + h (1-gamma) a0 + h gamma a1 */
+/* Generalized-alpha on the Lie group: eq:integration.recursion, eq:integration.newmark. */
 #ifndef DMB_INTEGRATOR_STEP_MOTION_H
 #define DMB_INTEGRATOR_STEP_MOTION_H
 
@@ -8,10 +6,10 @@
 
 typedef struct dmb_generalized_alpha {
     double am, af, gamma, beta;
-    double error; /* local error of the pose is error h^2 (a1 - a0) */
+    double error; /* local error of the pose is error h^2 (a1 - a0), eq:integration.local-error */
 } dmb_generalized_alpha;
 
-/* r: spectral radius at infinite frequency, 0 .. 1 */
+/* r: spectral radius at infinite frequency, 0 .. 1 (eq:integration.parameters, eq:integration.modified) */
 static inline dmb_generalized_alpha dmb_generalized_alpha_of(double r)
 {
     dmb_generalized_alpha c;
@@ -48,7 +46,8 @@ static inline double dmb_step_motion_ratio(const dmb_sim *sim, double step)
     return step > DMB_STEP_RATIO_MAX * sim->clock->step ? 0.0 : step / sim->clock->step;
 }
 
-/* a0 of row i carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
+/* a0 of row i carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order
+ * (eq:integration.carry). */
 static inline double dmb_step_motion_carried(const dmb_sim *sim, double ratio, uint32_t i)
 {
     const double a = sim->now.acceleration[i];

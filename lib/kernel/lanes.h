@@ -208,7 +208,7 @@ static int32_t beams(dmb_beam_job *job)
     return job->damped ? beams_damped(job) : beams_in_motion(job, job->ledger);
 }
 
-/* s = (K/L) (e + de/dd P z): the stress after the correction z, linearised. */
+/* The stress after the correction z, linearised (eq:beam.extrapolation). */
 static void extrapolate(const dmb_beam_job *job)
 {
     lane_types types;
@@ -288,7 +288,7 @@ static void twist(const dmb_twist_job *job)
     }
 }
 
-/* K <- K T6(z) + C */
+/* K <- K T6(z) + C (eq:integration.iteration-matrix) */
 static void matrices(const dmb_matrix_job *job)
 {
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {

@@ -1,4 +1,5 @@
-/* Axial-torsional bars side by side: row after row of their nodes, in which stretch and twist take turns. */
+/* Axial-torsional bars (eq:bar.force) side by side: row after row of their nodes, in which stretch and twist take
+ * turns. */
 #ifndef DMB_KERNEL_LANES_BAR_H
 #define DMB_KERNEL_LANES_BAR_H
 

@@ -165,8 +165,8 @@ static void node_forces(dmb_node_force_job *job)
 #define DMB_LANES_APART
 #endif
 
-/* Generalized-alpha from an acceleration that stays (THEORY 4): a0 carried over from the last step, which may have had
- * another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
+/* Generalized-alpha from an acceleration that stays (eq:integration.newmark): a0 carried over from the last step, which
+ * may have had another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
  * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
 static void predict_constant(const dmb_predict_job *job)
 {
@@ -186,7 +186,7 @@ static void predict_constant(const dmb_predict_job *job)
     }
 }
 
-/* The same from an acceleration that changes by slope (a0 - v0'). */
+/* The same from an acceleration that changes by slope (a0 - v0') (eq:integration.prediction). */
 static void predict_linear(const dmb_predict_job *job)
 {
     const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;

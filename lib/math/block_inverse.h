@@ -1,9 +1,9 @@
 /* Block elimination from both ends of a chain towards its middle, with the inverse X_i of each eliminated block. From
  * the first block down, G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i; from the last block up the same with the
  * parts of the two links exchanged, G_i = U_{i-1} X_i, D_{i-1} -= G_i L_{i-1}, W_i = X_i L_{i-1}; the block in the
- * middle gets what both leave it and is inverted last (THEORY 4). Nothing fills in, the work is that of one direction,
- * and the processor goes along both halves at once, neither of which waits for the other. A solution takes one product
- * a block towards the middle and one back.
+ * middle gets what both leave it and is inverted last (eq:integration.elimination). Nothing fills in, the work is that
+ * of one direction, and the processor goes along both halves at once, neither of which waits for the other. A solution
+ * takes one product a block towards the middle and one back.
  *
  * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is
  * for steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.

@@ -2,7 +2,7 @@
  *
  * h = (U; O): translation part U, rotation vector O. A pose is (R, x) or (q, x). Arguments named k take coefficients
  * already evaluated at |O|^2, so that one element evaluates its series once; NULL has them evaluated here.
- * Formulas: Sonneville, Cardona, Bruls 2014. */
+ * Formulas: eq:kinematics.exp-pose to eq:kinematics.reversal. */
 #ifndef DMB_MATH_SE3_H
 #define DMB_MATH_SE3_H
 
@@ -105,8 +105,7 @@ static inline void dmb_so3_polynomial_derivative(const dmb_real h[6], dmb_real p
     for (int i = 0; i < 9; i += 4) out[i] -= trace;
 }
 
-/* T6(h) = [T, B; 0, T]: body velocity = T6(h) h'. Block S holds T(O), block B
- * -b U~ + a2 (U~O~ + O~U~) + (O.U)(-db O~ + da2 O~^2). */
+/* T6(h) = [T, B; 0, T]: body velocity = T6(h) h' (eq:kinematics.tangent-pose). Block S holds T(O). */
 static inline void dmb_se3_tangent_at(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_se3_tangent *T)
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
@@ -114,7 +113,7 @@ static inline void dmb_se3_tangent_at(const dmb_real h[6], const dmb_so3_coeffic
     dmb_so3_polynomial_derivative(h, -f.b, f.a2, -f.db, f.da2, T->B);
 }
 
-/* T6(h)^-1 = [S, B; 0, S], B = U~/2 + c (U~O~ + O~U~) + e (O.U) O~^2 */
+/* T6(h)^-1 = [S, B; 0, S] (eq:kinematics.inverse-tangent-pose) */
 static inline void dmb_se3_inverse_tangent_at(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
                                               dmb_se3_inverse_tangent *T)
 {
@@ -192,7 +191,7 @@ static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent
     dmb_vec3_add(out + 3, b, out + 3);
 }
 
-/* Both of T6(h)^-1 and T6(-h)^-1 = [S^T, B^T; 0, S^T] without the matrices: S = P + O~/2 and B = Q + U~/2 with
+/* Both of T6(h)^-1 and T6(-h)^-1 without the matrices (eq:beam.both-ends): S = P + O~/2 and B = Q + U~/2 with
  * P = I + c O~^2 and Q = c (U~O~ + O~U~) + e (O.U) O~^2, both symmetric. */
 
 /* out = P a + Q b */
@@ -343,7 +342,7 @@ static inline void dmb_se3_square_second_derivative(const dmb_real h[6], const d
     dmb_mat3_add_outer(k->e, w, U, out);
 }
 
-/* The blocks J(n) and J(m) + Hh of the stress derivative, s = (n; m), at h and at -h together: n~/2 and m~/2 stay,
+/* The blocks J(n) and J(m) + Hh of eq:beam.stress-derivative, s = (n; m), at h and at -h together: n~/2 and m~/2 stay,
  * the rest changes sign. Either of plus and minus may be NULL. */
 static inline void dmb_se3_stress_blocks_at(const dmb_real h[6], const dmb_real s[6],
                                             const dmb_so3_inverse_coefficients *k, dmb_se3_stress_blocks *plus,

@@ -1,4 +1,5 @@
-/* Rotations: exponential, logarithm, tangent operators, quaternions (scalar first).
+/* Rotations: exponential, logarithm, tangent operators, quaternions (scalar first); eq:kinematics.exp-rotation and
+ * those that follow it.
  *
  * O is a rotation vector, t = |O| its angle, x = t^2. Every coefficient is a smooth function of x, and up to the
  * angle pi a polynomial gives it: no trigonometric call, no division by a small angle, the same bits whatever the

@@ -1,5 +1,5 @@
 /* Subs, bodies in the middle of a string, and the sections that continue the string after them: poses from the pipes
- * described so far (THEORY 8, subs). */
+ * described so far (eq:kinematics.far-end). */
 #include "base/memory.h"
 #include "drillmbd/bha.h"
 #include "force/hole.h"

@@ -1,5 +1,5 @@
 /* Nodes inside pipes: rings, and the points of loads, springs, forces and stuck places, divide the elements that they
- * are in, so that a concentrated force acts at a node (THEORY 3). */
+ * are in, so that a concentrated force acts at a node (eq:beam.section-pose). */
 #include <math.h>
 
 #include "model/field_check.h"

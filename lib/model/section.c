@@ -195,7 +195,7 @@ double dmb_corrected_shear(double EI, double GA, double length)
     return GA * (P / (1.0 + P));
 }
 
-/* b = 2 c/L, c = s (1 - 0.4 s), and h = s/60 of element/beam_math.h, s = 1 - (GA*)/GA = 1/(1 + P) */
+/* b (eq:beam.axial-shear) and h (eq:beam.curvature-softening), s = 1 - (GA*)/GA = 1/(1 + P) */
 static void sideways_strain(double EI, double GA, double length, double *coupling, double *bend)
 {
     const double s = 1.0 / (1.0 + dmb_shear_ratio(EI, GA, length));
@@ -205,7 +205,8 @@ static void sideways_strain(double EI, double GA, double length, double *couplin
 
 /* ---- Mass -------------------------------------------------------------------------------------------------------- */
 
-/* Shapes of sideways displacement (N) and of section rotation (G) at x = 0 .. 1, for u_A, theta_A, u_B, theta_B. */
+/* Shapes of sideways displacement (N) and of section rotation (G) at x = 0 .. 1, for u_A, theta_A, u_B, theta_B
+ * (eq:beam.shapes). */
 static void shapes(double x, double P, double L, double N[4], double G[4])
 {
     const double q = 1.0 / (1.0 + P), x2 = x * x, x3 = x2 * x;

@@ -73,12 +73,13 @@ void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_
 /* 12 EI/(GA L^2): shear over bending flexibility of an element. */
 double dmb_shear_ratio(double EI, double GA, double length);
 
-/* GA* of 1/GA* = 1/GA + L^2/(12 EI), which makes the element's linear statics exact at its nodes. */
+/* GA* [N] of 1/GA* = 1/GA + L^2/(12 EI), which makes linear statics exact at the nodes (eq:beam.shear-correction). */
 double dmb_corrected_shear(double EI, double GA, double length);
 
-/* Sideways: consistent mass with the cubic shapes of a Timoshenko beam (THEORY 3), rotary inertia included. Along and
- * around: half way from the consistent mass of straight shapes to a lumped one at share 1; share [-]: of the pipe alone
- * in the mass and in the inertia about the axis that move with it, tool joints included, shape (2). */
+/* Sideways: consistent mass with the cubic shapes of a Timoshenko beam (eq:beam.mass), rotary inertia included. Along
+ * and around: half way from the consistent mass of straight shapes to a lumped one at share 1 (eq:beam.axial-mass);
+ * share [-]: of the pipe alone in the mass and in the inertia about the axis that move with it, tool joints included,
+ * shape (2). */
 void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const double share[2], dmb_beam_mass *mass);
 
 /* [m] of the elements of a pipe that no ring divides. */
@@ -95,7 +96,7 @@ void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double da
 #define DMB_CURVED_THICK 0.3 /* [-] r/L */
 
 /* Gives a complete type the mass of elements that are bent (element/curved_mass.h) and, where its unstressed shape is,
- * the stiffness (THEORY 3, stiffness of curved elements). */
+ * the stiffness (eq:curved.flexibility). */
 void dmb_element_make_curved(const dmb_pipe_def *def, dmb_element_type *type);
 
 #endif

@@ -8,8 +8,8 @@
 
 /* ---- Mass -------------------------------------------------------------------------------------------------------- */
 
-/* One bending plane of the ratio P = 12 EI/(GA L^2): the shapes N3 - x and G3 beside the helix have the first moment k
- * and the mean turn q/L; G/J is the speed of the mean axes, C - G^2/J what moves against them. */
+/* One bending plane of the ratio P = 12 EI/(GA L^2): eq:curved.mean-axes, and the first moment and mean turn of the
+ * bending shapes (eq:curved.line). */
 static void mass_of_plane(double length, double ratio, int plane, dmb_curved_mass *curved)
 {
     const double q = 1.0 / (1.0 + ratio), m = curved->mass, rotary = curved->rotary[1];
@@ -55,7 +55,7 @@ static void adjoint_of(const double d[6], double A[36])
     }
 }
 
-/* F = L (1/K + ad(d) 1/K ad(d)^T/12), and across the plane of the bend L^3 O^2 (1/(360 EI) + 1/(720 GJ)). */
+/* F of eq:curved.flexibility with the part across the plane of the bend, eq:curved.sideways. */
 static void flexibility_of(const dmb_pipe_section *section, const dmb_element_type *type, double F[36])
 {
     const double *d = type->rest, *K = section->stiffness, L = type->length;

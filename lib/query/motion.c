@@ -17,10 +17,10 @@
  *     H(x) = exp(x d) exp(c(x) d),   x = 0 at A .. 1 at B,   d = log(H_A^-1 H_B)
  *
  * exp(x d) is the element's own helix, exact for any uniform strain (Sonneville, Cardona, Bruls 2014). It spreads the
- * sideways part of d evenly; c puts it onto the S of the Timoshenko cubic shapes N3, G3 (THEORY 3), which is where the
- * shear force of the corrected stiffness 1/GA* = 1/GA + L^2/(12 EI) belongs. To first order in the bending of the
- * element the two together are the shapes N1 .. N4, G1 .. G4 about the frame in the middle, so that a beam loaded at
- * its nodes is exact in between. c is 0 at both ends: nodes are reproduced. */
+ * sideways part of d evenly; c puts it onto the S of the Timoshenko cubic shapes N3, G3 (eq:beam.section-pose), which
+ * is where the shear force of the corrected stiffness 1/GA* = 1/GA + L^2/(12 EI) belongs. To first order in the bending
+ * of the element the two together are the shapes N1 .. N4, G1 .. G4 about the frame in the middle, so that a beam
+ * loaded at its nodes is exact in between. c is 0 at both ends: nodes are reproduced. */
 
 void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose)
 {

@@ -1,5 +1,6 @@
-/* Section forces inside an element by Newton's law for the piece between its end A and the section (THEORY 3): the load
- * at A, less the concentrated loads on the piece, less its share of the distributed ones. */
+/* Section forces inside an element by Newton's law for the piece between its end A and the section
+ * (eq:beam.section-force): the load at A, less the concentrated loads on the piece, less its share of the distributed
+ * ones. */
 #include <string.h>
 
 #include "element/beam.h"

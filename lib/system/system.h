@@ -12,7 +12,7 @@
  * Returns DMB_OK, DMB_NOTE_PROJECTED with a message, or why there is no start. */
 int32_t dmb_system_start(dmb_sim *sim);
 /* After a jump of a force or of a prescribed acceleration at the present time: a0 = v' = what fits the state now
- * (THEORY 4). On failure nothing has changed but trial and work. */
+ * (eq:integration.carry). On failure nothing has changed but trial and work. */
 int32_t dmb_system_jump(dmb_sim *sim);
 /* Consistent accelerations, drive forces, contact state and ledger for the pose and speeds of now. */
 int32_t dmb_system_restart(dmb_sim *sim);
@@ -21,8 +21,8 @@ int32_t dmb_system_restart(dmb_sim *sim);
 
 /* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it
  * into the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was
- * met. The step is therefore taken from accelerations without that force (THEORY 4: after a jump, a fresh consistent
- * one). Where the contact is resolved its last force before opening is O(h), so second order is kept. */
+ * met. The step is therefore taken from accelerations without that force (eq:contact.release). Where the contact is
+ * resolved its last force before opening is O(h), so second order is kept. */
 /* 1 if a ring meets or leaves the wall between now and trial, or another side of it. O(number of sites). */
 int32_t dmb_contact_changes(const dmb_sim *sim);
 /* 1 if a ring that touches the wall in now is off it in trial. O(number of sites). */

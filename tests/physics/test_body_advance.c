@@ -1,5 +1,6 @@
 /* Error-controlled steps of dmb_sim_advance against tight references. The control holds the local error of third order,
- * so the global one goes with tolerance^(2/3) and the number of steps with tolerance^(-1/3) (THEORY 4). */
+ * so the global one goes with tolerance^(2/3) and the number of steps with tolerance^(-1/3)
+ * (eq:integration.local-error). */
 #include "ode.h"
 #include "rig.h"
 
@@ -15,7 +16,7 @@ typedef struct outcome {
     uint32_t steps, rejected;
 } outcome;
 
-/* Pendulum of THEORY's kind, L 1, from 2.5 rad: slow near the top, fast below. */
+/* Pendulum, L 1, from 2.5 rad: slow near the top, fast below. */
 static outcome swing(double tolerance, double t)
 {
     rig s;

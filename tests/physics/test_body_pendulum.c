@@ -93,7 +93,7 @@ static void period_of_the_pendulum(void **state)
 
 /* ---- Scheme ------------------------------------------------------------------------------------------------------ */
 
-/* One degree of freedom y'' = f(y) by generalized-alpha as THEORY 4 writes it. */
+/* One degree of freedom y'' = f(y) by generalized-alpha as eq:integration.newmark writes it. */
 typedef struct recurrence {
     double am, af, gamma, beta, y, v, a, dv;
 } recurrence;

@@ -156,8 +156,8 @@ static void reference_of_the_top(void **state)
 }
 
 /* Errors at 1 s with r 0.9: 1.989e-5, 4.972e-6, 1.243e-6 m in the norm, by the scheme on SO(3) in axes that do not spin
- * with the top (THEORY 4); a separate recurrence in the rotation alone agrees to four digits. In axes that spin with it
- * they are 8.28e-2, 2.06e-2, 5.15e-3; CASES.md tells 6.61e-2, 1.66e-2, 4.15e-3 of those. */
+ * with the top (eq:motion.rotor); a separate recurrence in the rotation alone agrees to four digits. In axes that spin
+ * with it they are 8.28e-2, 2.06e-2, 5.15e-3; CASES.md tells 6.61e-2, 1.66e-2, 4.15e-3 of those. */
 static void heavy_top_is_of_second_order(void **state)
 {
     (void)state;

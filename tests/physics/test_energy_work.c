@@ -1,4 +1,4 @@
-/* Work that the ledger counts is the work that the integrator does (THEORY 4, "Energy ledger"): at spectral radius 1 a
+/* Work that the ledger counts is the work that the integrator does (eq:motion.work): at spectral radius 1 a
  * linear structure with any friction, dampers and controllers balances to rounding at every step length; a ring that
  * whirls backward on the wall and leaves it balances within a thousandth. */
 #include "contact_scene.h"

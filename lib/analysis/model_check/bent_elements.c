@@ -1,5 +1,4 @@
-/* Elements with the constant mass of straight ones, and how far they are bent in a state (THEORY 3, mass of bent
- * elements). */
+/* Elements with the constant mass of straight ones, and how far they are bent in a state (eq:curved.kinetic-energy). */
 #include <math.h>
 
 #include "analysis/model_check/model_check.h"

@@ -1,4 +1,4 @@
-/* Discretisation error of the described mesh (THEORY 3, error of long elements): between two neighbouring points
+/* Discretisation error of the described mesh (eq:beam.mesh-error): between two neighbouring points
  * of contact an element carries its side load q as a beam held at both, although the wall supports a lying pipe all
  * along. The spurious bending moment is q s^2/12, s the spacing of the points of contact. */
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Forces that the caller's functions give by poses, speeds and time (dmb_model_add_force).
+/* Forces that the caller's functions give by poses, speeds and time (dmb_model_add_force; eq:motion.caller-force).
  *
  * With V the twists of the places in their axes and the speeds of the joint coordinates, V = L v by the velocities v of
  * the nodes, and w the wrenches there:

@@ -1,4 +1,5 @@
-/* Free rigid bodies and strings: their translation is integrated at the centre of mass, in axes that do not turn.
+/* Free rigid bodies and strings: their translation is integrated at the centre of mass, in axes that do not turn
+ * (eq:integration.free-rigid).
  *
  * In body axes m (u' + w x u) = f couples translation and rotation, and the integration of the one takes part in the
  * errors of the other: a reference point 10 m from the centre of mass drifted by 1.7 m in 100 s at 20 rad/s. With c the

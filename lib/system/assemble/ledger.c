@@ -94,7 +94,7 @@ static double add_drives(dmb_sim *sim, const dmb_ledger_parts *parts)
 }
 
 /* Work of each kind over the step: by the trapezoidal rule, less what this has beyond the step's own work where forces
- * and speeds both change fast (THEORY 4, "Energy ledger"). */
+ * and speeds both change fast (eq:motion.work, eq:motion.trapezoid-excess). */
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation, int released)
 {
     double power[8], *last = sim->clock->power, friction = 0.0, damping = 0.0;

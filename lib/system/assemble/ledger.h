@@ -26,8 +26,7 @@ void dmb_ledger_move(dmb_sim *sim, int kind, double excess);
 /* Adds the step from now to trial; before the swap. released: contacts opened in it, which took released_power. */
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation, int released);
 
-/* ---- Work that forces do over a step of generalized-alpha, against the trapezoidal rule of their powers (THEORY 4)
- * ---- */
+/* ---- Work of forces over a step (eq:motion.work) against the trapezoidal rule of their powers -------------------- */
 
 /* [s] Parts of the step that the forces at its start and end stand for. */
 typedef struct dmb_ledger_parts {
@@ -35,7 +34,8 @@ typedef struct dmb_ledger_parts {
 } dmb_ledger_parts;
 
 /* [J] first f0 s0 + second f1 s1 less (first f0 + second f1) (s0 + s1)/2: by how much the trapezoidal rule is above
- * the work of a force [N, N m] at a speed [m/s, rad/s], both at the start and at the end of the step. */
+ * the work of a force [N, N m] at a speed [m/s, rad/s], both at the start and at the end of the step
+ * (eq:motion.trapezoid-excess). */
 static inline double dmb_ledger_excess(const dmb_ledger_parts *parts, double f0, double s0, double f1, double s1)
 {
     return 0.5 * (parts->first * f0 - parts->second * f1) * (s0 - s1);

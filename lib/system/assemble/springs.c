@@ -57,7 +57,7 @@ static void line_at(const dmb_point_motion *point, const double n[3], double w[6
 
 /* ---- Tangent ----------------------------------------------------------------------------------------------------- */
 
-/* The residual of a spring is t J^T, J the gradient of l by displacements of the nodes, l' = J v:
+/* The residual of a spring is t J^T, J the gradient of l by displacements of the nodes, l' = J v (eq:motion.spring):
  *
  *     K = J^T (dt/de J + dt/de' dl'/dq) + t dJ^T,   C = dt/de' J^T J,
  *     J = sum s (R^T n; 0)^T map,  dJ^T = sum s map^T (R^T dn + (R^T n) x theta; 0) + s d(map^T) (R^T n; 0)

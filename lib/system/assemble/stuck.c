@@ -1,4 +1,4 @@
-/* Places that are stuck: springs and dampers to the pose where they got stuck, until they let go (THEORY 8). */
+/* Places that are stuck: springs and dampers to the pose where they got stuck, until they let go (eq:motion.stuck). */
 #include "system/assemble/assemble.h"
 
 #include <string.h>

@@ -227,7 +227,7 @@ void dmb_clusters_prepare(dmb_sim *sim)
 
 /* Multipliers of the constraints: forces that balance the dependent rows. */
 
-/* C_d^T f = -residual in the dependent columns. */
+/* C_d^T f = -residual in the dependent columns (eq:joints.multipliers). */
 static void solve_multipliers(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -264,7 +264,7 @@ static void clear_dependent(dmb_sim *sim, uint32_t k)
         sim->residual[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
 }
 
-/* Multipliers of least norm that do the same: no change where no row is dropped. */
+/* Multipliers of least norm that do the same (eq:joints.least-norm): no change where no row is dropped. */
 static void least_norm(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;

@@ -1,9 +1,9 @@
-/* Joints closed at the start (THEORY 8). Rigid bodies move and strings do not; strings move, too, but as rigid bodies
- * within what their guides leave free; any node moves, which strains elements. Each begins with Newton's iteration in
- * the coordinates of a partition; where redundant equations make that change its choice for ever, Levenberg and
- * Marquardt's goes on, which takes all equations at once. Before any element is strained, the same is tried from where
- * joints place the parts one after the other (cluster_placement), which closes chains and trees over any distance and
- * rotation. */
+/* Joints closed at the start (lib/theory/joints.md). Rigid bodies move and strings do not; strings move, too, but as
+ * rigid bodies within what their guides leave free; any node moves, which strains elements. Each begins with Newton's
+ * iteration in the coordinates of a partition; where redundant equations make that change its choice for ever,
+ * Levenberg and Marquardt's goes on, which takes all equations at once. Before any element is strained, the same is
+ * tried from where joints place the parts one after the other (cluster_placement), which closes chains and trees over
+ * any distance and rotation. */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -102,7 +102,7 @@ static void solve_symmetric(size_t n, double *A, double *b)
     }
 }
 
-/* x = - W^2 B^T (B W^2 B^T + damping)^-1 C by column into cluster_move. */
+/* x of eq:joints.levenberg by column into cluster_move. */
 static void damped_move(dmb_sim *sim, uint32_t k, double damping)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;

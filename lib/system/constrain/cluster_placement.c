@@ -1,9 +1,9 @@
 /* Chains (strings and bodies) moved as rigid bodies to close joints at the start; no element is strained by it.
  *
- * Placement by joints: let H = (R, p) be frame b of a joint seen from frame a as described, with coordinates c (THEORY
- * 8). The joint holds at H* with c* = c in the free coordinates, the given value in those that the caller gives, and 0
- * in the others, so that frames never stand turned over. If the chain of a is placed, that of b follows by the world
- * motion that turns by Q about the origin x_b of frame b and shifts by d,
+ * Placement by joints: let H = (R, p) be frame b of a joint seen from frame a as described, with coordinates c
+ * (eq:joints.coordinates, eq:joints.placement). The joint holds at H* with c* = c in the free coordinates, the given
+ * value in those that the caller gives, and 0 in the others, so that frames never stand turned over. If the chain of a
+ * is placed, that of b follows by the world motion that turns by Q about the origin x_b of frame b and shifts by d,
  *
  *     Q = R_a R* R^T R_a^T        d = R_a (p* - p)
  *

@@ -1,4 +1,4 @@
-/* Projection of a trial onto its constraints, at all three levels. */
+/* Projection of a trial onto its constraints, at all three levels (eq:joints.projection). */
 #include <string.h>
 
 #include "math/se3.h"
@@ -62,7 +62,7 @@ static void turn_motion(const dmb_evaluation *step, uint32_t node, const double 
 }
 
 /* In a step speeds and accelerations follow the pose by Newmark's formulas, so they and the increment z follow its
- * projection too: exp(z + dz) = exp(z) exp(x), dz = T(z)^-1 x. A part of z across the constraints would stay there, as
+ * projection too (eq:integration.projection). A part of z across the constraints would stay there, as
  * large as the way that Newton has come by, and be felt in the motion: it would depend on the choice of coordinates. */
 static void move_motion(const dmb_evaluation *step, uint32_t node, const double *x)
 {

@@ -1,4 +1,5 @@
-/* Rotors: bodies on joints that may spin fast, integrated in axes that do not spin with them.
+/* Rotors: bodies on joints that may spin fast, integrated in axes that do not spin with them (eq:motion.rotor,
+ * eq:motion.rotor-step, eq:motion.rotor-tangent).
  *
  * In its own axes the motion of a body that spins at W and precesses slowly goes round at W, so that a step makes an
  * error of (W h)^2 in the precession. Let e be the twist of a unit of spin about the axis of a rotor

@@ -1,6 +1,6 @@
 /* Sparse clusters: large ones, of which there are no dense matrices. Instead of dependent and independent coordinates
  * there is a choice of rows alone, and every question is a system over the nodes and the multipliers of those rows, in
- * the blocks of the scene's pattern,
+ * the blocks of the scene's pattern (eq:joints.quasi-definite),
  *
  *     [I  (BW)^T] [ x ]   [ a ]
  *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns

@@ -1,5 +1,5 @@
-/* Multipliers of least norm are B y: those that no combination of rows that does nothing can shorten. With A = B W of
- * all rows that act, redundant ones included, and g = A^T f,
+/* Multipliers of least norm (eq:joints.proximal) are B y: those that no combination of rows that does nothing can
+ * shorten. With A = B W of all rows that act, redundant ones included, and g = A^T f,
  *
  *     (A^T A + e I) y = g,   f := f + A y,   g := g - A^T A y,   over again
  *

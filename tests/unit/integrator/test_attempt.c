@@ -63,7 +63,7 @@ static double estimate_over_error(double r, double h)
     return estimate / error;
 }
 
-/* Third order: C h^2 (a1 - a0), C = beta + (am - af)/2 - 1/6 (THEORY 4). */
+/* Third order: C h^2 (a1 - a0), C = beta + (am - af)/2 - 1/6 (eq:integration.local-error). */
 static void error_estimate_is_the_local_error(void **state)
 {
     (void)state;

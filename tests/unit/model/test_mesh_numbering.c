@@ -1,7 +1,7 @@
-/* Nodes, elements and degrees of freedom of scenes against counts by hand (THEORY 1). */
+/* Nodes, elements and degrees of freedom of scenes against counts by hand (lib/theory/kinematics.md). */
 #include "model_test.h"
 
-/* 2 rigid bodies, 100 flexible pipes, 101 fixed joints, one cylindrical pair, 2 drives (THEORY 1). */
+/* 2 rigid bodies, 100 flexible pipes, 101 fixed joints, one cylindrical pair, 2 drives (the reference study). */
 static void reference_scene(void **state)
 {
     dmb_model *model = new_model();

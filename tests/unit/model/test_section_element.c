@@ -1,4 +1,5 @@
-/* Constants of an element against the exact beam: stiffness at its nodes, mass as integral of the shapes (THEORY 3). */
+/* Constants of an element against the exact beam: stiffness at its nodes, mass as integral of the shapes
+ * (eq:beam.shear-correction, eq:beam.mass, eq:beam.axial-mass). */
 #include "model_test.h"
 
 #include "element/beam.h"
@@ -65,7 +66,7 @@ static void rest_shape_and_arms(void **state)
     assert_near(type.arm[1], 0.5, 0.0);
 }
 
-/* The 8 x 8 integral of THEORY 3 by a rule of many points, as an independent sum. */
+/* The 8 x 8 integral of eq:beam.mass by a rule of many points, as an independent sum. */
 static double shape_integral(double mass, double rotary, double P, double L, int i, int j)
 {
     const int n = 2000;

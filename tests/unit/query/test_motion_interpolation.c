@@ -56,7 +56,8 @@ static void rigid_motion_is_exact(void **state)
     }
 }
 
-/* THEORY 3: N1 .. N4 and G1 .. G4 in both planes, linear along and about the axis, for displacements of size 1e-7. */
+/* N1 .. N4 and G1 .. G4 (eq:beam.shapes, eq:beam.section-pose) in both planes, linear along and about the axis, for
+ * displacements of size 1e-7. */
 static void small_bending_follows_the_cubic_shapes(void **state)
 {
     (void)state;

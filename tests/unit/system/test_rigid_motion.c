@@ -1,7 +1,8 @@
 /* Rigid motion of a deformed string: random shapes, 1, 2 and 4 elements a pipe, straight and bent pipes. In translation
  * momentum is mass times speed and the kinetic energy m v^2/2, whatever the shape; a rotation and a shift of the whole
  * state change neither energies nor the forces in the pipes. Bent pipes have the mass of their shape; described
- * straight, that of straight ones, off by less than 2e-5 up to bends of 0.01 rad in an element (THEORY 3). */
+ * straight, that of straight ones, off by less than 2e-5 up to bends of 0.01 rad in an element
+ * (eq:curved.kinetic-energy). */
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "rig.h"
