@@ -4,12 +4,14 @@
  *     |r'| <= R, r follows u                    rate limit
  *     tau f' = r - f                            lag
  *     F = min(max(f, -m(-v)), m(v)) - d(v) v    torque-speed curve m, drag d, another one where v < 0 (back-spin)
+ *                                               (eq:drive.actuator)
  *
  * Over a step h in which r is a straight line the lag has the solution
  *
  *     f1 = E f0 + (1 - E) r0 + w (r1 - r0),   E = exp(-h/tau),   w = 1 - (1 - E) tau/h,
  *
- * exact for a constant r, of second order else, stable for any h; r1 is u1 or as near as R lets it come. Pure. */
+ * (eq:drive.lag) exact for a constant r, of second order else, stable for any h; r1 is u1 or as near as R lets it come.
+ * Pure. */
 #ifndef DMB_FORCE_ACTUATOR_LAW_H
 #define DMB_FORCE_ACTUATOR_LAW_H
 

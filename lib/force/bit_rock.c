@@ -149,7 +149,8 @@ struct jet {
 /* Rock gives no work: on a bit that is drawn back the regenerative law would push on over the depth of cut that its
  * blades still have, as a spring does, and give more back than the rotation puts in: it is limited to W V + T Omega = -
  * v W where it would be less, v = DMB_BIT_REBOUND. So W is that of the law up to a speed of v + T Omega/W, which
- * without wear flats is v + (a + b) Omega/(2 zeta), and falls as 1/|V| beyond. v lets a bit rest that does not turn. */
+ * without wear flats is v + (a + b) Omega/(2 zeta), and falls as 1/|V| beyond (eq:bit.no-work). v lets a bit rest that
+ * does not turn. */
 static void give_no_work(double V, double omega, dmb_bit_rock_result *out)
 {
     const double power = out->torque_on_bit * omega + out->weight_on_bit * DMB_BIT_REBOUND;

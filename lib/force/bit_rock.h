@@ -1,5 +1,5 @@
 /* Bit-rock interaction: weight and torque on the bit from cutting and from the wear flat.
- * Detournay, Defourny 1992 (rate law) and Richard, Germay, Detournay 2007 (regenerative law). U [m] is the advance of
+ * eq:bit.rate (rate law) and eq:bit.regenerative (regenerative law). U [m] is the advance of
  * the bit along the hole's axis from its starting point, V = dU/dt, Phi [rad] its unwrapped spin angle, Omega =
  * dPhi/dt, positive in the drilling sense. Pure functions but the two that write the history. */
 #ifndef DMB_FORCE_BIT_ROCK_H
@@ -57,7 +57,7 @@ typedef struct dmb_bit_rock_result {
 /* [m] Where rock begins after a step accepted at U: max(bottom, U - intrusion_depth). Rate law only. */
 double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U);
 
-/* Forces and exact derivatives at one instant: W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2
+/* Forces (eq:bit.forces) and exact derivatives at one instant: W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2
  * + mu gamma sigma a^2 l g/2 [N m], with a - b for a and a^2 - b^2 for a^2 where the surface is a ring, at depth of cut
  * d [m] and engagement g. RATE (also REGENERATIVE without history): g = S((U - bottom)/intrusion_depth) with S(x) = x^2
  * (3 - 2x) on 0 .. 1, and d = g 2 pi max(V, 0)/Omega; bottom follows by dmb_bit_rock_bottom, so g = 1 in steady
@@ -94,7 +94,7 @@ double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, doubl
 /* A bit that cuts sideways. */
 
 /* Per revolution a bit cuts W/(zeta eps a) deep along its axis under a force W, and sideways `steerability` times as
- * much under the same force across, turned by the walk angle psi about the axis (Ho 1987; Menand et al. 2002):
+ * much under the same force across, turned by the walk angle psi about the axis (eq:bit.side):
  *
  *     v = steerability w/(2 pi zeta eps a) Rot(psi) F,   w = sqrt(Omega^2 + O^2)
  *

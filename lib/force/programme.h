@@ -1,4 +1,4 @@
-/* Programmes: values over time as a sum of terms, with rate, integral and corners.
+/* Programmes: values over time as a sum of terms, with rate, integral and corners (eq:drive.step).
  * A programme is read-only here; its terms and their tables belong to the model. Pure functions, safe from any thread
  * as far as the callbacks are. */
 #ifndef DMB_FORCE_PROGRAMME_H

@@ -1,5 +1,6 @@
 /* A value on its way to a target with limits on its rate and on the slope of that rate: of a speed, acceleration and
- * jerk. It gets there in the least time, by at most three phases of constant slope (THEORY 5). Pure functions. */
+ * jerk. It gets there in the least time, by at most three phases of constant slope (eq:drive.reference). Pure
+ * functions. */
 #ifndef DMB_FORCE_REFERENCE_H
 #define DMB_FORCE_REFERENCE_H
 

@@ -65,8 +65,8 @@ static int32_t check_motor(const dmb_motor *motor)
 
 /* ---- The drive --------------------------------------------------------------------------------------------------- */
 
-/* T = k (w0 - w), k = stall_torque/w0, at most stall_torque; T_s = efficiency V dp/(2 pi), since of dp Q, the power of
- * the mud, T w is left and Q = V w/(2 pi). */
+/* T = k (w0 - w), k = stall_torque/w0, at most stall_torque (eq:drive.motor); T_s = efficiency V dp/(2 pi), since of dp
+ * Q, the power of the mud, T w is left and Q = V w/(2 pi). */
 static double take_line(const dmb_motor *motor, dmb_drive_def *drive)
 {
     const double speed = DMB_TWO_PI * motor->flow / motor->displacement;

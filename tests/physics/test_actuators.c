@@ -1,6 +1,6 @@
 /* Actuators of drives, on a body that turns about one axis, against closed forms (lag, delay, rate limit, speed curve,
  * delayed control by the method of steps), an integration of another kind (back-spin of a wound spring), and the energy
- * balance; snapshots, statics and what is refused. */
+ * balance; snapshots, statics and what is refused. Equations: eq:drive.actuator. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

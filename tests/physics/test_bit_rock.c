@@ -1,5 +1,6 @@
 /* The bit at work, asked through dmb_query_bit. A short rigid string without a wall is fed and turned by motion drives,
- * so that depth of cut, weight and torque follow from the drives alone; what the drives have to do is told by them. */
+ * so that depth of cut, weight and torque follow from the drives alone; what the drives have to do is told by them.
+ * Equations: eq:bit.forces. */
 #include "contact_scene.h"
 
 /* Coal of CASES: a .047 m, eps 10e6, zeta .6, sigma 10e6, l 1e-3, mu gamma .5; the header's defaults. */

@@ -24,7 +24,7 @@ static dmb_drive_state drive_of(const rig *s, dmb_id drive)
 
 /* ---- Motion by every kind of programme --------------------------------------------------------------------------- */
 
-/* STEP term: integral h0 t and h0 s + (h1-h0)(x1-x0)(D^3 - D^4/2), then h1. THEORY 5. */
+/* STEP term: integral h0 t and h0 s + (h1-h0)(x1-x0)(D^3 - D^4/2), then h1 (eq:drive.step). */
 static double step_integral(double x0, double h0, double x1, double h1, double t)
 {
     const double D = t <= x0 ? 0.0 : t >= x1 ? 1.0 : (t - x0) / (x1 - x0);

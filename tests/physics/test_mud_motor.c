@@ -1,6 +1,7 @@
 /* A mud motor between two sections of a string: speed of the bit, stall and reactions against the closed forms of its
  * torque-speed line or table, its power against the ledger of energies, a table's run-up against exponentials piece by
- * piece, its linearisation against a line's, its sensitivities against the derivative of the closed form. */
+ * piece, its linearisation against a line's, its sensitivities against the derivative of the closed form. Equations:
+ * eq:drive.motor. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* A reamer on a ring behind the bit: the steady split of the weight between the two cutting surfaces in closed form, by
- * both rock laws, torque at the rig, force between them, energy; core bits; a restart; what is refused. */
+ * both rock laws, torque at the rig, force between them, energy; core bits; a restart; what is refused. Equations:
+ * eq:bit.forces, eq:bit.no-work. */
 #include <stdlib.h>
 #include <string.h>
 

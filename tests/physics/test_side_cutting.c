@@ -1,5 +1,5 @@
 /* A bit that cuts sideways: under a constant side force against the closed form of its drift with walk, steering by its
- * tilt against the tractrix and an independent integration, and the work that cutting takes. */
+ * tilt against the tractrix and an independent integration, and the work that cutting takes. Equations: eq:bit.side. */
 #include <string.h>
 
 #include "drillmbd/bha.h"

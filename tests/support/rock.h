@@ -1,4 +1,4 @@
-/* Steady weight and torque of the rock law, in closed form (lib/THEORY.md, section 5). */
+/* Steady weight and torque of the rock law, in closed form (eq:bit.forces). */
 #ifndef DRILLMBD_TESTS_ROCK_H
 #define DRILLMBD_TESTS_ROCK_H
 

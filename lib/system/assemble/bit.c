@@ -186,7 +186,7 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
 }
 
 /* Force -(load + W) along the axis and moment -T about it, with W and T of the rock law at (U, Phi, V, Omega)
- * (THEORY 5). */
+ * (eq:bit.forces). */
 static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;

@@ -1,5 +1,6 @@
 /* The law of an actuator: its derivative against differences, the lag against the exponential, the delay line against
- * the function that was put into it, at jumps and with far more samples than it holds. */
+ * the function that was put into it, at jumps and with far more samples than it holds. Equations: eq:drive.actuator,
+ * eq:drive.lag. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

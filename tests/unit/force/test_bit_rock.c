@@ -1,4 +1,5 @@
-/* Bit-rock laws: closed forms, exact derivatives, continuity, and the memory of the cut surface. */
+/* Bit-rock laws: closed forms, exact derivatives, continuity, and the memory of the cut surface. Equations:
+ * eq:bit.forces, eq:bit.rate, eq:bit.regenerative, eq:bit.no-work. */
 #include "force/bit_rock.h"
 
 #include "force_test.h"

@@ -1,4 +1,5 @@
-/* Programmes: values, rates, integrals and corners against closed forms, differences and quadrature. */
+/* Programmes: values, rates, integrals and corners against closed forms, differences and quadrature. Equations:
+ * eq:drive.step. */
 #include "force/programme.h"
 
 #include "force_test.h"
@@ -174,7 +175,7 @@ static void integrals_against_quadrature(void **state)
     assert_true(integral_of(&all, 2.0, 2.0) == 0.0);
 }
 
-/* Closed forms: integral of STEP h0 s + rise width (D^3 - D^4/2), THEORY 5 */
+/* Closed forms: integral of STEP h0 s + rise width (D^3 - D^4/2) */
 static void step_antiderivative(void **state)
 {
     const dmb_term cubic = make(DMB_TERM_STEP, 1.0, 4.0, 0.5, 2.5);

@@ -1,5 +1,6 @@
 /* A value on its way to a target within limits: against closed forms of the least time (rest to rest, and from any rate
- * without a bound on it), against integrals by Simpson's rule, and within its limits from random starts. */
+ * without a bound on it), against integrals by Simpson's rule, and within its limits from random starts. Equations:
+ * eq:drive.reference. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
