@@ -247,6 +247,64 @@ static void changing_steps_keep_second_order(void **state)
     check_pendulum_pattern(pattern_error);
 }
 
+/* ---- Energy error ------------------------------------------------------------------------------------------------ */
+
+typedef struct range {
+    double least, most;
+} range;
+
+static void widen(range *of, double x)
+{
+    of->least = fmin(of->least, x);
+    of->most = fmax(of->most, x);
+}
+
+/* Per unit of mass, g 1: E, and h^2 Q of eq:integration.energy-error with the constants of eq:integration.modified. */
+static double energy_per_mass(const rig *s, dmb_id id, double r, double h, double *correction)
+{
+    const double am = (2.0 * r - 1.0) / (r + 1.0), af = r / (r + 1.0), gamma = 0.5 + af - am;
+    const double c = 0.25 * (gamma + 0.5) * (gamma + 0.5) + 0.5 * (am - af) - 1.0 / 6.0;
+    const double k = c + 1.0 / 12.0 + (af - am) * (0.5 - af), angle = angle_of(s, id);
+    const double v = motion_at(s, dmb_station(id, 0, 0.0), DMB_FRAME_BODY).velocity[5];
+    const double f = -sin(angle), rate = -cos(angle) * v;
+    *correction = h * h * (0.5 * k * f * f - (k - c) * v * rate);
+    return 0.5 * v * v - cos(angle);
+}
+
+/* Range of E + h^2 Q over that of E in steps of h. */
+static double left_of_energy(rig *s, dmb_id id, double r, double h, uint32_t steps)
+{
+    range energy = {1e300, -1e300}, sum = energy;
+    for (uint32_t i = 0; i < steps; i++) {
+        double correction;
+        take_steps(s, h, 1);
+        const double e = energy_per_mass(s, id, r, h, &correction);
+        widen(&energy, e);
+        widen(&sum, e + correction);
+    }
+    return (sum.most - sum.least) / (energy.most - energy.least);
+}
+
+/* E is continuous where the length changes, so that E + h^2 Q jumps by (h2^2 - h1^2) Q there
+ * (eq:integration.energy-left).
+ */
+static void energy_error_is_a_function_of_the_state(void **state)
+{
+    (void)state;
+    const double radius[3] = {1.0, 0.95, 0.8}, bound[3] = {5e-4, 5e-4, 3e-3};
+    for (int k = 0; k < 3; k++) {
+        rig s;
+        dmb_sim_options options = dmb_sim_options_default();
+        options.spectral_radius = radius[k];
+        options.newton_tolerance = 1e-13;
+        const dmb_id id = open_pendulum(&s, 1.0, 1.6, 0.0, &options);
+        tell("spectral radius", radius[k]);
+        check_below("    E + h2 Q over E, h 0.02", left_of_energy(&s, id, radius[k], 0.02, 150), bound[k]);
+        check_below("    E + h2 Q over E, h 0.01", left_of_energy(&s, id, radius[k], 0.01, 300), bound[k]);
+        rig_close(&s);
+    }
+}
+
 /* ---- Drift ------------------------------------------------------------------------------------------------------- */
 
 /* 1e6 steps: the held point stays to the last bit, the rotation stays a rotation, and without numerical damping the
@@ -284,6 +342,7 @@ int main(void)
         cmocka_unit_test(damping_at_high_frequency_is_the_spectral_radius),
         cmocka_unit_test(every_spectral_radius_is_of_second_order),
         cmocka_unit_test(changing_steps_keep_second_order),
+        cmocka_unit_test(energy_error_is_a_function_of_the_state),
         cmocka_unit_test(nothing_drifts_in_a_million_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
