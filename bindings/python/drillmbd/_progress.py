@@ -1,9 +1,10 @@
 """Long calls are told and ended: by a function of the caller's, or by Ctrl-C."""
 from __future__ import annotations
 
+import contextlib
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from ctypes import c_void_p, cast
 from typing import Any
 
@@ -19,10 +20,24 @@ class Interrupts:
 
     def __init__(self) -> None:
         self.pending = False
+        self.holding = False
+        self.torn = False   #: raised while held: what was held is half done
 
     def __call__(self, number: int, frame: Any) -> None:
-        self.pending = True
+        again, self.pending = self.pending, True
+        if self.holding and not again:
+            return
+        self.torn = self.holding
         signal.default_int_handler(number, frame)
+
+    @contextlib.contextmanager
+    def held(self) -> Iterator[None]:
+        """The first Ctrl-C is only noted within, for a loop that ends where its data are consistent; the next one ends it at once."""
+        self.holding, self.torn = True, False
+        try:
+            yield
+        finally:
+            self.holding = False
 
     def install(self) -> None:
         """Notes Ctrl-C from now on, where it would end the program."""

@@ -19,6 +19,7 @@ EXAMPLES = """examples:
   drillmbd check rig.toml                     is the scene complete? what does it consist of?
   drillmbd run rig.toml --output out          run it, with table, pictures and files for ParaView
   drillmbd run rig.toml --until "5 s" --step "2 ms"
+  drillmbd run rig.toml --output out          again after Ctrl-C: goes on where it was stopped
   drillmbd static rig.toml --output out       where does the string lie, what bears it?
   drillmbd modes rig.toml                     natural frequencies
   drillmbd response rig.toml --output out     what shakes how much, by [response]

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import rotating, station
 from ._optional import need
+from ._progress import INTERRUPTS
 from .answers import RPM, Output, count_fatigue, file_name, note_bounces, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
@@ -15,12 +16,14 @@ from .no_response import NOTHING_EXCITES, of_response
 from .scene import Scene, words
 from .scene.units import UnitError, parse
 from .run_quality import FirstTenth, LastPart, TurnAStep, energy_error
+from .run_state import Kept, KeptFatigue, KeptRecorder, RunState, stop_asked
 from .running import Bar
 from .sim import Sim
 from .unit_systems import Units
 
 MOST_ROWS = 50_000_000
 MOST_STEPS = 1e12
+LOOK = 0.2  #: [s] by the clock between two looks for Ctrl-C in a run
 
 
 def check(scene: Scene, output: Output, options: Any) -> int:
@@ -120,30 +123,30 @@ def _time(text: str | None, known: float | None, what: str) -> float | None:
 
 
 def run(scene: Scene, output: Output, options: Any) -> int:
-    """The scene in time."""
+    """The scene in time. After Ctrl-C the same command goes on from the state in its folder."""
     end = _time(options.until, scene.run.get("end"), "until")
     step = _time(options.step, scene.run.get("step"), "step")
     if end is None:
         raise Usage(f"{options.scene} has no [run] end; give it, or --until TIME")
+    rows, interval = _rows(scene, end, step)
     with scene.new_sim() as sim:
         output.note(sim.status, "start")
-        if scene.run.get("static", 0):
+        state = RunState(scene, sim, output, [end, step, bool(options.verify)])
+        if scene.run.get("static", 0) and not state.begun:
             to_rest(scene, sim, output)
-        interval = scene.output.get("interval", 0.0)
-        if step and end / step > MOST_STEPS:
-            raise Usage(f"{end / step:.3g} steps of {step:g} s to {end:g} s are more than {MOST_STEPS:g}: give a longer step or an earlier end")
-        rows = int(end / interval + 2) if interval else int(end / step + 3) if step else 1_000_000
-        if rows * (1 + len(scene.channels)) > MOST_ROWS:
-            raise Usage(f"{float(rows):.4g} rows of {1 + len(scene.channels)} numbers are more than {MOST_ROWS}: "
-                        "give a longer [output] interval")
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], rows, interval
                                 ) if scene.channels else None
         counters = count_fatigue(scene, sim)
         last = LastPart(scene, sim, end, step) if options.verify else None
         first = FirstTenth(sim, sim.time, end) if scene.sim.get("energy_ledger", 1) else None
         turning = TurnAStep(scene, sim, end, step) if step else None
-        takers = [*counters.values(), *(one for one in (last, first, turning) if one is not None)]
-        stopped = _go(scene, sim, output, end, step, recorder, takers)
+        quality = {name: one for name, one in (("last", last), ("first", first), ("turning", turning)) if one is not None}
+        parts: dict[str, Kept] = {**quality, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
+        if recorder is not None:
+            parts["recorder"] = KeptRecorder(recorder)
+        course = Course(scene, sim, output, state, end, step)
+        course.take_up(parts)
+        stopped = course.go(recorder, [*counters.values(), *quality.values()])
         tell_fatigue(counters, output)
         if first is not None and sim.statistics().steps:
             energy_error(sim, output, first, not stopped)
@@ -152,39 +155,97 @@ def run(scene: Scene, output: Output, options: Any) -> int:
         _run_answers(scene, sim, output, recorder)
         if last is not None and not stopped:
             last.verify(output)
+        if not stopped:
+            state.done()
     return output.finish()
 
 
-def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any, counters: list[Any]) -> bool:
-    """Runs to the end in stretches from one file for ParaView to the next; True where Ctrl-C stopped it."""
-    every = scene.output.get("vtk_interval") if output.folder is not None else None
-    if every and step:
-        every = max(1, round(every / step)) * step  # whole steps: files change no step
-    bar, frame, elapsed, begin = None if output.quiet else Bar(sim.time, end), 0, 0.0, sim.time
-    stopped = False
-    sim.on_progress = None  # the bar shows it
-    try:
-        while end - sim.time > (1e-6 * step if step else 0.0):
-            if every:
-                sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
-                frame += 1
-            started = time.perf_counter()
-            try:
-                sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar, counters=counters)
-            finally:
-                elapsed += time.perf_counter() - started
-    except KeyboardInterrupt:
-        stopped = True
-        output.stopped(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
-    if bar is not None:
-        bar.close()
-    if every:
-        sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
-    output.summary["run"] = {"time_s": sim.time, "end_s": end, "steps": sim.statistics().steps,
-                             "elapsed_s": elapsed, "real_time_factor": (sim.time - begin) / elapsed if elapsed else None}
-    output.say(f"{'stopped at' if stopped else 'ran to'} {sim.time:g} s in {sim.statistics().steps} steps"
-               + (f", {(sim.time - begin) / elapsed:.1f} times real time" if elapsed else ""))
-    return stopped
+def _rows(scene: Scene, end: float, step: float | None) -> tuple[int, float]:
+    """Rows of the recorder, and the interval between them [s]."""
+    interval = scene.output.get("interval", 0.0)
+    if step and end / step > MOST_STEPS:
+        raise Usage(f"{end / step:.3g} steps of {step:g} s to {end:g} s are more than {MOST_STEPS:g}: give a longer step or an earlier end")
+    rows = int(end / interval + 2) if interval else int(end / step + 3) if step else 1_000_000
+    if rows * (1 + len(scene.channels)) > MOST_ROWS:
+        raise Usage(f"{float(rows):.4g} rows of {1 + len(scene.channels)} numbers are more than {MOST_ROWS}: "
+                    "give a longer [output] interval")
+    return rows, interval
+
+
+class Course:
+    """A run to its end in stretches from one file for ParaView to the next."""
+
+    def __init__(self, scene: Scene, sim: Sim, output: Output, state: RunState, end: float, step: float | None) -> None:
+        self.sim, self.output, self.state, self.end, self.step = sim, output, state, end, step
+        every = scene.output.get("vtk_interval") if output.folder is not None else None
+        self.every = max(1, round(every / step)) * step if every and step else every  # whole steps: files change no step
+        self.begin, self.frame, self.elapsed = sim.time, 0, 0.0
+
+    def take_up(self, parts: dict[str, Kept]) -> None:
+        """Goes on from a state that was kept."""
+        kept = self.state.take_up(parts)
+        if kept:
+            self.begin, self.frame, self.elapsed = kept["begin"], kept["frame"], kept["elapsed"]
+            self.output.summary.update(kept["summary"])
+            for frame in range(self.frame):
+                self.output.path(f"string_{frame:04d}.vtp")
+
+    def kept(self) -> dict[str, Any]:
+        """For the state."""
+        return {"begin": self.begin, "frame": self.frame, "elapsed": self.elapsed,
+                "summary": {key: self.output.summary[key] for key in ("static",) if key in self.output.summary}}
+
+    def go(self, recorder: Any, counters: list[Any]) -> bool:
+        """Runs to the end; True where Ctrl-C stopped it."""
+        bar = None if self.output.quiet else Bar(self.begin, self.end)
+        at, before, started = self.sim.time, self.elapsed, time.perf_counter()
+        stopped = False
+        self.sim.on_progress = None  # the bar shows it
+
+        def shown(progress: Any) -> bool:
+            self.elapsed = before + time.perf_counter() - started
+            if bar is not None:
+                bar(progress)
+            return stop_asked(self.state, self.kept)
+
+        try:
+            with INTERRUPTS.held():
+                while not self._at_end() and not INTERRUPTS.pending:
+                    self._stretch(recorder, shown, counters)
+                stopped = INTERRUPTS.pending and not self._at_end()
+                INTERRUPTS.pending = stopped
+        except KeyboardInterrupt:
+            stopped = True
+        self.elapsed = before + time.perf_counter() - started
+        if bar is not None:
+            bar.close()
+        if stopped:
+            self.state.stopped(self.end, self.kept())
+        if self.every:
+            self.sim.write_vtk(self.output.path(f"string_{self.frame:04d}.vtp"))
+        self._report(at, time.perf_counter() - started, stopped)
+        return stopped
+
+    def _at_end(self) -> bool:
+        return not self.end - self.sim.time > (1e-6 * self.step if self.step else 0.0)
+
+    def _stretch(self, recorder: Any, shown: Any, counters: list[Any]) -> None:
+        """To the next file, or to the end; a stretch that was stopped goes on."""
+        if not self.every:
+            self.sim.run(self.end, self.step, recorder, shown, LOOK, counters, self.begin)
+            return
+        if self.sim.time >= self.begin + self.frame * self.every - 1e-6 * (self.step or 0.0):
+            self.sim.write_vtk(self.output.path(f"string_{self.frame:04d}.vtp"))
+            self.frame += 1
+        self.sim.run(min(self.end, self.begin + self.frame * self.every), self.step, recorder, shown, LOOK, counters,
+                     self.begin + (self.frame - 1) * self.every)
+
+    def _report(self, at: float, elapsed: float, stopped: bool) -> None:
+        sim, factor = self.sim, (self.sim.time - self.begin) / self.elapsed if self.elapsed else None
+        self.output.summary["run"] = {"time_s": sim.time, "end_s": self.end, "steps": sim.statistics().steps, "elapsed_s": self.elapsed,
+                                      "real_time_factor": factor}
+        self.output.say(f"{'stopped at' if stopped else 'ran to'} {sim.time:g} s in {sim.statistics().steps} steps"
+                        + (f", {(sim.time - at) / elapsed:.1f} times real time" if elapsed else ""))
 
 
 def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any) -> None:

@@ -82,6 +82,14 @@ class Recorder:
         """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
         return self.sim._told(_lib.dmb_recorder_take(byref(self._struct), self.sim._handle), _lib.dmb_recorder_take)
 
+    def take_up(self, table: Any) -> None:
+        """Begins with the rows of another recorder of the same channels and interval."""
+        rows, width = (*table.shape, 0, 0)[:2]
+        if width != self._width or rows > self._struct.capacity:
+            refuse_value("recorder", "table", (rows, width), f"be of {self._width} columns and at most {self._struct.capacity} rows")
+        need("numpy").frombuffer(self._memory, dtype="float64")[:rows * width] = need("numpy").asarray(table, dtype="float64").ravel()
+        self._struct.row_count = rows
+
     def __len__(self) -> int:
         return int(self._struct.row_count)
 

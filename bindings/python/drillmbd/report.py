@@ -7,8 +7,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from . import __version__, enums
+from . import __version__, enums, questions
 from ._optional import need
+from ._progress import INTERRUPTS
 from .analysis import OPERATIONS
 from .answers import Output, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
@@ -22,9 +23,11 @@ from .report_basis import Row, assumptions, headline, limits_at_the_rig
 from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded, value_axis
 from .report_hole import HoleView, hole_view
 from .report_linear import Speeds, buckling_tile, speeds, speeds_figure, speeds_tile
+from .report_frames import Frames
 from .report_page import page
 from .report_probability import Probability, read_probability
 from .rig_torque import balanced
+from .run_state import MOST_BYTES, Kept, KeptFatigue, KeptRecorder, RunState, stop_asked
 from .scene import Scene, words
 from .sim import Sim
 from .unit_systems import Units
@@ -48,7 +51,6 @@ class Study:
             ("push", phrase("Thrust at the rig"), "N"), ("pull", phrase("Pull at the rig"), "N"), ("torque", phrase("Torque at the rig"), "N m"),
             ("yield_stress", phrase("Von Mises stress"), "Pa"))}
         self.soft: list[str] = []                    # analyses that have the torque of the bit
-        self.stresses: list[tuple[float, str]] = []  # [Pa] of moments of the run
         self.tiles: list[Tile] = []
         self.figures: list[Figure] = []
         self.probability = probability
@@ -56,6 +58,7 @@ class Study:
         self.rows: list[Row] = []                    # limits at the rig
         self.hole: HoleView | None = None
         self.space: InSpace | None = None            # as at the end of the run
+        self.state: RunState | None = None           # of the complete run
         self.check, self.hash = "", ""
         self.headline: str = headline(self.string, self.plan, self.units)
         self.understood: list[str] = []
@@ -283,32 +286,33 @@ class Study:
                 self._static(sim, **{key: value for key, value in self.scene.fields_of("static").items()
                                      if key.startswith("slip")})
             self.hole = hole_view(self.scene, sim.profile(self.part, self.pipes), self.units)
-            shapes, times = [self._shape(sim)], [sim.time]
+            course = Frames([self._shape(sim)], [sim.time])
             self.figures.insert(0, (phrase("The string in its hole"), phrase("Displacement across the hole is enlarged so that the hole can be seen; the "
                                     "button draws it to scale. Drag to rotate, play or slide through the run."), {}))
             try:
                 if "end" in self.scene.run:
-                    self._in_time(sim, shapes, times)
+                    self._in_time(sim, course)
                 else:
                     self.tiles.append(Tile(phrase("Run in time"), phrase("not assessed"), phrase("the scene has no [run] end"), NOT_ASSESSED))
             finally:
                 self.hash = f"{sim.hash():016x}"
-                self.space = in_space(self.scene, shapes, self.units)
-                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.space, times, self.units))
+                self.space = in_space(self.scene, course.shapes, self.units)
+                self.figures[0] = (*self.figures[0][:2], picture_in_space(self.space, course.times, self.units))
 
-    def _in_time(self, sim: Sim, shapes: list[Any], times: list[float]) -> None:
+    def _in_time(self, sim: Sim, course: Frames) -> None:
         counters = count_fatigue(self.scene, sim)
-        window = sim.window([(self.part, "hook_load"), (self.part, "rotation_torque")])
+        course.watch(sim, [(self.part, "hook_load"), (self.part, "rotation_torque")])
         try:
-            self._frames(sim, shapes, times, [window, *counters.values()])
+            self._frames(sim, course, counters)
         finally:
             if sim.statistics().steps:
-                load, torque = window.result(0), window.result(1)
+                load, torque = course.extremes()
                 source = phrase("run of {time:.4g} s", time=sim.time)
-                self.demands["push"].add(-load.minimum, source)
-                self.demands["pull"].add(load.maximum, source)
-                self.demands["yield_stress"].found += [max(self.stresses)] if self.stresses else []
-                self.demands["torque"].add(max(abs(torque.minimum), abs(torque.maximum)), source)
+                self.demands["push"].add(-load[0], source)
+                self.demands["pull"].add(load[1], source)
+                self.demands["yield_stress"].found += [(stress, phrase("run, at {time:.3g} s (largest of {moments} moments)", time=time, moments=FRAMES))
+                                                       for stress, time in [max(course.stresses)] if course.stresses]
+                self.demands["torque"].add(max(abs(torque[0]), abs(torque[1])), source)
         if self.scene.sim.get("energy_ledger", 1):
             self.output.summary["energy_error"] = sim.energy().error
         self._fatigue(counters)
@@ -341,21 +345,38 @@ class Study:
                           "xaxis": {"title": {"text": phrase("stress range [{unit}]", unit=self.units.unit("MPa"))}},
                           "yaxis": {"title": {"text": phrase("cycles [-]")}, "rangemode": "tozero"}}}))
 
-    def _frames(self, sim: Sim, shapes: list[Any], times: list[float], counters: list[Any]) -> None:
+    def _frames(self, sim: Sim, course: Frames, counters: dict[str, StringFatigue]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")
         interval = max(self.scene.output.get("interval", 0.0), end / 4000.0)
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.channels],
                                 int(end / interval) + 3, interval) if self.scene.channels else None
+        state = RunState(self.scene, sim, self.output, [end, step])
+        parts: dict[str, Kept] = {"frames": course, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
+        state.take_up(parts if recorder is None else {**parts, "recorder": KeptRecorder(recorder)})
         every = max(1, round(end / FRAMES / step)) * step if step else end / FRAMES
+        begin, stopped = course.times[0], False
+
+        def at_end() -> bool:
+            return not end - sim.time > (1e-6 * step if step else 0.0)
+
         try:
-            while end - sim.time > (1e-6 * step if step else 0.0):
-                sim.run(min(end, sim.time + every), step, recorder, counters=counters)
-                shapes.append(self._shape(sim))
-                times.append(sim.time)
+            with INTERRUPTS.held():
+                while not at_end() and not INTERRUPTS.pending:
+                    done = len(course.times) - 1
+                    sim.run(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), questions.LOOK,
+                            [course, *counters.values()], begin + done * every)
+                    if not INTERRUPTS.pending or at_end():
+                        self._shape_of(sim, course)
+                stopped = INTERRUPTS.pending = INTERRUPTS.pending and not at_end()
         except KeyboardInterrupt:
-            self.output.stopped(phrase("the run was stopped by Ctrl-C at {time:g} s of {end:g} s", time=sim.time, end=end))
+            stopped = True
+        if stopped:
+            state.stopped(end, {})
             for demand in self.demands.values():
                 demand.failed.append(phrase("the rest of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
+        else:
+            state.keep({}, MOST_BYTES)  # until the page is made
+            self.state = state
         self.output.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
         note_bounces(sim, self.output)
         if recorder is not None and len(recorder):
@@ -366,11 +387,16 @@ class Study:
                     "data": [line(table[:, 0], factor * table[:, 1 + number], name, 0)],
                     "layout": {"xaxis": {"title": {"text": phrase("time [s]")}}, "yaxis": value_axis(name, factor * table[:, 1 + number])}}))
 
+    def _shape_of(self, sim: Sim, course: Frames) -> None:
+        """One more frame, and its largest stress."""
+        course.shapes.append(self._shape(sim))
+        course.times.append(sim.time)
+        stress = _largest(sim.profile(self.part, self.pipes, 1)["von_mises"])
+        if stress is not None:
+            course.stresses.append((stress, sim.time))
+
     def _shape(self, sim: Sim) -> tuple[Any, Any]:
         found = sim.profile(self.part, self.pipes, 1)
-        stress = _largest(found["von_mises"]) if sim.statistics().steps else None
-        if stress is not None:
-            self.stresses.append((stress, phrase("run, at {time:.3g} s (largest of {moments} moments)", time=sim.time, moments=FRAMES)))
         keep = slice(None, None, max(1, len(found.along) // POINTS))
         return found.position[keep], found.displacement[keep]
 
@@ -408,4 +434,6 @@ def report(scene: Scene, output: Output, options: Any) -> int:
         output.say(tile.line())
     output.path("report.html").write_text(page(study), encoding="utf-8")
     output.summary["hash"] = study.hash
+    if study.state is not None and not output.interrupted:
+        study.state.done()
     return output.finish()

@@ -4,6 +4,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import station
+from ._optional import need
 from .answers import Output
 from .enums import Status
 from .errors import Usage
@@ -33,6 +34,14 @@ class FirstTenth:
             self.balance = self.sim.energy().balance - self.start
         return Status.OK
 
+    def keep(self) -> dict[str, Any]:
+        """For a run that is stopped."""
+        return {"until": self.until, "start": self.start, "balance": self.balance}
+
+    def take_up(self, kept: dict[str, Any]) -> None:
+        """Of a run that goes on."""
+        self.until, self.start, self.balance = kept["until"], kept["start"], kept["balance"]
+
 
 class TurnAStep:
     """The largest rotation of each string in a step, with which the error of slow whirl and precession grows. Steps that follow an error
@@ -58,6 +67,14 @@ class TurnAStep:
                 self.most[name] = max(self.most[name], abs(turn - self.turns[name]) / passed)
             self.time, self.turns = self.sim.time, now
         return Status.OK
+
+    def keep(self) -> dict[str, Any]:
+        """For a run that is stopped."""
+        return {"interval": self.interval, "most": self.most, "time": self.time, "turns": self.turns}
+
+    def take_up(self, kept: dict[str, Any]) -> None:
+        """Of a run that goes on."""
+        self.interval, self.most, self.time, self.turns = kept["interval"], kept["most"], kept["time"], kept["turns"]
 
     def report(self, output: Output) -> None:
         """A note for each string that turns by more than the bound."""
@@ -98,6 +115,15 @@ class LastPart:
         if self.state is None:
             self.state, self.begin = self.sim.snapshot(), self.sim.time
         return int(self.recorder.take())
+
+    def keep(self) -> dict[str, Any]:
+        """For a run that is stopped."""
+        return {"begin": self.begin, "rows": need("numpy").array(self.recorder.table), "state": self.state or b""}
+
+    def take_up(self, kept: dict[str, Any]) -> None:
+        """Of a run that goes on."""
+        self.begin, self.state = kept["begin"], kept["state"] or None
+        self.recorder.take_up(kept["rows"])
 
     def verify(self, output: Output) -> None:
         """Runs the part again with half the step, and compares the largest magnitude of each channel. The sim is at the end of the run

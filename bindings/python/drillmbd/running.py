@@ -63,6 +63,13 @@ class Lengths:
             if rest > 1e-6 * step:
                 self.rest, self.count = rest, self.count + 1
 
+    def done(self, time: float) -> int:
+        """The calls that a run which stands at `time` [s] has behind it."""
+        if self.count == 0 or time <= self.begin:
+            return 0
+        passed = (time - self.begin) / (self.length or (self.end - self.begin) / self.count)
+        return self.count if time >= self.end else min(self.count, math.floor(passed + 1e-6))
+
     def step(self, number: int) -> float:
         """[s] length of step `number`, from 1."""
         return self.rest if self.rest and number == self.count else self.length or 0.0

@@ -137,14 +137,16 @@ class Sim(Handle, analysis.Analyses):
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,
-            counters: Sequence[Taker] = ()) -> Progress:
+            counters: Sequence[Taker] = (), begin: float | None = None) -> Progress:
         """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
         a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
         recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows.
         progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true, stops the
         run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on,
-        and the recorder has all rows so far. A full recorder warns, and status of the answer is NOTE_FULL."""
-        begin, started, end = self.time, clock.monotonic(), real(end, "run", "end", "s")
+        and the recorder has all rows so far. A full recorder warns, and status of the answer is NOTE_FULL. begin: of a run
+        that goes on from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
+        started, end = clock.monotonic(), real(end, "run", "end", "s")
+        begin = self.time if begin is None else real(begin, "run", "begin", "s")
         lengths = Lengths(begin, end, None if step is None else real(step, "run", "step", "s"))
         takers = own_takers(self, recorder, counters)
         if progress is not None and progress is not True and not callable(progress):
@@ -153,7 +155,7 @@ class Sim(Handle, analysis.Analyses):
         tell: Any = bar if bar is not None else progress
         if recorder is not None and len(recorder) == 0:
             recorder.take()
-        at, told, number = Progress(begin, end, 0, 0.0, begin), started, 0
+        at, told, number = Progress(self.time, end, 0, 0.0, begin), started, lengths.done(self.time)
         try:
             while number < lengths.count:
                 number += 1

@@ -1,0 +1,47 @@
+"""What the report watches during the run: shapes of the string, stresses, and the least and largest of hook load and torque."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ._optional import need
+from .sim import Sim
+
+
+class Frames:
+    """Shapes by time, from which the picture in space is made, and extremes of channels."""
+
+    def __init__(self, shapes: list[tuple[Any, Any]], times: list[float]) -> None:
+        self.shapes, self.times = shapes, times
+        self.stresses: list[tuple[float, float]] = []   #: [Pa] the largest at a time [s]
+        self.before: list[list[float]] = []             #: extremes of the part of the run before the state that it goes on from
+        self.sim: Any = None
+        self.window: Any = None
+
+    def watch(self, sim: Sim, channels: list[tuple[Any, str]]) -> None:
+        """Takes the extremes of these channels from now on."""
+        self.sim, self.window = sim, sim.window(channels)
+        self.before = [[math.inf, -math.inf] for _ in channels]
+
+    def take(self) -> int:
+        """A sample; returns the status."""
+        return int(self.window.take())
+
+    def extremes(self) -> list[list[float]]:
+        """Least and largest value of each channel; NaN where there was no sample."""
+        found = [self.window.result(number) for number in range(len(self.before))]
+        return [[min(low, one.minimum), max(high, one.maximum)] for (low, high), one in zip(self.before, found)]
+
+    # ---- A run that is stopped and goes on --------------------------------------------------------------------------
+    def keep(self) -> dict[str, Any]:
+        """For the state of the run."""
+        array = need("numpy").array
+        return {"positions": array([one for one, _ in self.shapes]), "displacements": array([one for _, one in self.shapes]),
+                "times": array(self.times), "stresses": array(self.stresses).reshape(-1, 2), "extremes": array(self.extremes())}
+
+    def take_up(self, kept: dict[str, Any]) -> None:
+        """Goes on from it."""
+        self.shapes = list(zip(kept["positions"], kept["displacements"]))
+        self.times = [float(one) for one in kept["times"]]
+        self.stresses = [(float(stress), float(time)) for stress, time in kept["stresses"]]
+        self.before = [[float(low), float(high)] for low, high in kept["extremes"]]
