@@ -1,4 +1,4 @@
-"""What the report watches during the run: shapes of the string, stresses, and the least and largest of hook load and torque."""
+"""Samples of the run for the report: shapes of the string, stresses, and the least and largest of hook load and torque."""
 from __future__ import annotations
 
 import math
