@@ -1,5 +1,5 @@
 /* Bands of many modes against those of all modes by LAPACK: undamped ones divided by their counts, damped ones, with
- * and without joints, from 0 and from above it. */
+ * and without joints, from 0 and from above it. Equations: eq:modes.count. */
 #include <stdio.h>
 
 #include "mechanism.h"

@@ -1,7 +1,7 @@
 /* Bands of hundreds of damped modes, which searches all over the half plane of their roots cover, held against a closed
  * form: damping proportional to the stiffness, C = tau K, makes s^2 + tau w^2 s + w^2 = 0 of each undamped mode, a pair
  * s = -tau w^2/2 +- i w sqrt(1 - (tau w/2)^2) or two real roots. And what is more than such searches take is refused.
- */
+ * Equations: eq:modes.strip, eq:modes.general. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

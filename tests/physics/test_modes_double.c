@@ -1,5 +1,6 @@
 /* Double roots of one shape, which rounding parts by its root: critical damping and straight motion in axes that spin,
- * by all ways of the search, against closed forms; and roots next to each other that are none. */
+ * by all ways of the search, against closed forms; and roots next to each other that are none. Equations:
+ * eq:modes.double. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* The lowest modes of long strings that lie in their hole: lateral modes k of a beam on the wall, s_k^2 = -(k_wall + EI
  * (k pi/L)^4)/m, crowd at the lower edge of their band, at 4.3 Hz here, which few modes reach in short strings and in
- * long ones only many. */
+ * long ones only many. Equations: eq:modes.count, eq:modes.shift-invert. */
 #include <stdio.h>
 
 #include "mechanism.h"

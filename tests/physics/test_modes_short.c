@@ -1,7 +1,7 @@
 /* Modes of strings of very short elements: rounding of K, eps k/(m h^2) of w^2, grows as elements become shorter, but
  * neither takes a vibration for a rigid-body motion nor moves it, as long as it is below w^2. Gravity bends the strings
  * by 1e-4 rad, so that they can turn about their own axis otherwise than as rigid bodies. Frequencies are those of
- * Timoshenko's cantilever (Huang 1961) and of the compound pendulum. */
+ * Timoshenko's cantilever (Huang 1961) and of the compound pendulum. Equations: eq:modes.rigid, eq:modes.refine. */
 #include <stdio.h>
 #include <string.h>
 

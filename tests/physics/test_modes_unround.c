@@ -1,5 +1,6 @@
 /* Shafts that are not round, and springs that hold them unlike across: answered in the axes in which coefficients stay
- * the same while the shaft turns, against closed forms, refused in the others, and in both where nothing stays. */
+ * the same while the shaft turns, against closed forms, refused in the others, and in both where nothing stays.
+ * Equations: eq:modes.turned. */
 #include <string.h>
 
 #include "harmonic.h"

@@ -1,5 +1,5 @@
 /* Modes of turning strings as they are seen from outside (Campbell): forward and backward whirl of a shaft, the same in
- * axes that turn, and of a string that turns on the wall of its hole. */
+ * axes that turn, and of a string that turns on the wall of its hole. Equations: eq:modes.still-axes. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Speeds to avoid: bands of a Jeffcott rotor that is shaken at two orders of its speed against its closed form. */
+/* Speeds to avoid: bands of a Jeffcott rotor that is shaken at two orders of its speed against its closed form.
+ * Equations: eq:response.severity. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Derivatives along runs against differences of whole runs (central, extrapolated), and the spring by its formula. */
+/* Derivatives along runs against differences of whole runs (central, extrapolated), and the spring by its formula.
+ * Equations: eq:sensitivity.step. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Stepped sine about a state that turns as a rigid body, a blade whose speed is shaken, held against the linear
  * response about that state at second order in the step; drive torque, axial force by the change of the centrifugal
  * force and bending at the root, lag and axial motion being coupled by Coriolis forces. Displacements in axes that do
- * not turn do not settle, and are told so. */
+ * not turn do not settle, and are told so. Equations: eq:response.sine. */
 #include <string.h>
 
 #include "rig.h"

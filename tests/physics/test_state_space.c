@@ -1,6 +1,6 @@
 /* State space against the frequency response, the damped modes and a run in time: strings on the wall, drives of every
  * kind, joints, a spinning rotor; all coordinates and reduced; inputs of control.h. Sparse matrices and arrays against
- * energies, balance and queries. */
+ * energies, balance and queries. Equations: eq:response.state-space. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -12,7 +12,7 @@
  * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
  * steps solve, at given body-frame v and a,
  *
- *     C = C_v + M v^,     K = K_H + C_v v^ + M a^
+ *     C = C_v + M v^,     K = K_H + C_v v^ + M a^                                   (eq:modes.linear)
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
  * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
@@ -20,7 +20,7 @@
  * g = v - w velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^ d) + b^
  * d with b = a + w^ g, by which g changes in these axes:
  *
- *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M b^,
+ *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M b^,                   (eq:modes.still-axes)
  *
  * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
  * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in

@@ -4,7 +4,8 @@
  *
  *     change = sum |d| |T^T P'(s) T d - P(s) d| / sum |d| (|K d| + |s|^2 |M d|),     P(s) = K + s C + s^2 M,
  *
- * T being the turning of the nodes as the axes of d see it. A mode's root is wrong by up to this part of it or so. */
+ * (eq:modes.turned) T being the turning of the nodes as the axes of d see it. A mode's root is wrong by up to this part
+ * of it or so. */
 #include <math.h>
 #include <string.h>
 

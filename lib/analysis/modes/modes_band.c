@@ -2,11 +2,11 @@
  * band is covered by such reaches.
  *
  *     symmetric:  the eigenvalues s^2 stand on a line, and the signs of the factors of K - s^2 M count them: a piece is
- *                 cut until a search finds as many as there are (Grimes, Lewis, Simon 1994)
+ *                 cut until a search finds as many as there are (eq:modes.count)
  *     general:    the roots s stand in the half plane of im >= 0; a rectangle of it that a search from its middle does
  *                 not reach to its corners is cut in two.
  *     A root s = a + i b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has
- *         a (1 + k/r^2) + c = 0        (real part of its equation over s)
+ *         a (1 + k/r^2) + c = 0        (real part of its equation over s, eq:modes.strip)
  *     so that with K and d (M + K/high^2) -+ C positive definite no root of r <= high has -+a > d: then these stand in
  *     a strip along the imaginary axis, which counts of w^2 divide before it is searched */
 #include <float.h>

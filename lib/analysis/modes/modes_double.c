@@ -4,7 +4,8 @@
  * residual of eta. Their mean is not (Kato, Perturbation Theory for Linear Operators, II.2: the sum of a group of roots
  * is smooth in the matrix), and neither is the mean of their shapes:
  *
- *     s = s0 -+ d,   x = u -+ d w,   Q(s0) u = 0,   Q'(s0) u + Q(s0) w = 0,   Q(s0) (x1 + x2)/2 = O(d^2) = O(eta)
+ *     (eq:modes.double)   s = s0 -+ d,   x = u -+ d w,   Q(s0) u = 0,   Q'(s0) u + Q(s0) w = 0,   Q(s0) (x1 + x2)/2 =
+ * O(d^2) = O(eta)
  *
  * Roots are therefore told as their mean where their shapes are parallel and the mean leaves no more of its equations
  * than they do: the equations do not tell them apart. Roots that are parted by more than rounding fail that test by

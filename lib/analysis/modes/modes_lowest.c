@@ -5,7 +5,7 @@
  *     s_k^2 = -(k_wall + EI (k pi/L)^4)/m,
  *
  * an interval is counted that holds the modes wanted and few others, and is searched from a shift inside it, where the
- * inverse separates them (Ericsson, Ruhe 1980; Grimes, Lewis, Simon 1994). */
+ * inverse separates them (eq:modes.shift-invert, eq:modes.count). */
 #include <math.h>
 
 #include "analysis/modes/modes.h"

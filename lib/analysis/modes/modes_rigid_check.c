@@ -4,7 +4,7 @@
  * about the axis less that of all sections is the sag of the string, turned out of its plane. The motions r found,
  * r_i^T M r_j = I, are therefore rotated among each other so that r_i^T K r_j is diagonal, and those stay for which
  *
- *     w^2 = |r^T K r| <= noise = eps sum |r_i| |K_ij| |r_j|,
+ *     w^2 = |r^T K r| <= noise = eps sum |r_i| |K_ij| |r_j|,                         (eq:modes.rigid)
  *
  * where an error of r counts by its square only. Forces F of the state turn a rotation across their element by phi back
  * with at most sum |F| h phi^2: where that is more than nothing and less than the noise, nobody can tell whether the

@@ -1,9 +1,9 @@
 /* Few modes: the inverse of K - shift M makes the wanted eigenvalues the largest of an operator.
  *
- *     symmetric:  A = (K - p M)^-1 M in the metric M,           s^2 = -(p + 1/value)
+ *     symmetric:  A = (K - p M)^-1 M in the metric M,           s^2 = -(p + 1/value)       (eq:modes.shift-invert)
  *     general:    (x; w), w = s x, from s (x; M w) = (w; -K x - C w) with a real shift p:
  *                 A (a; b) = (x; w),  Q x = -(M b + (C + p M) a),  Q = K + p C + p^2 M,  w = a + p x,
- *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size
+ *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size (eq:modes.general)
  * Where rigid-body motions r_i are apart, the inverse stands between P^T and P, P = I - sum r_i r_i^T M; where they are
  * pinned, p = 0 and K + pins is in the place of K. */
 #include <complex.h>

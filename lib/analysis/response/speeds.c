@@ -1,4 +1,4 @@
-/* Speeds to avoid: responses at the orders of the rotary speed, held against limits. */
+/* Speeds to avoid: responses at the orders of the rotary speed, held against limits (eq:response.severity). */
 #include "analysis/response/response.h"
 
 #include <math.h>

@@ -202,7 +202,7 @@ static void compare(sine_run *r)
     r->change[1] = worst;
 }
 
-/* Changes that no longer fall are what the motion itself does from window to window. */
+/* Changes that no longer fall come from the motion itself, from window to window (eq:response.sine). */
 static double remaining(const sine_run *r)
 {
     const double q = r->change[1] / r->change[0];

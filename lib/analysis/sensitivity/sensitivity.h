@@ -1,4 +1,4 @@
-/* Forward sensitivities along a run (THEORY 6).
+/* Forward sensitivities along a run (eq:sensitivity.step).
  *
  * A step is y1 = f(y0, p): the equations R(y1; y0, p) = 0 of generalized-alpha, then what contacts, drives and bits
  * keep. With rates S = dy/dp, S1 = f_y S0 + f_p is the difference of the two steps from y0 +- step S0 at p +- step over

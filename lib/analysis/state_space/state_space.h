@@ -9,6 +9,7 @@
  * p:
  *
  *     q' = w + B_1 u,     w' = M_x^-1 (X^T f - C_x (w + B_1 u) - K_x q - X^T C p u - X^T K p s),     s' = u
+ *                                                                                        (eq:response.state-space)
  *
  * A controller whose target is the input has the force (k_p u + k_i e) f, e' = u. An output is P d + S d' + T d'' +
  * F.f; forces of guides and constraints are linear in what the motion takes, r = M d'' + C d' + K d - f: a.r gives P +=

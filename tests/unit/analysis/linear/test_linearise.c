@@ -1,5 +1,6 @@
 /* The linear system about a state: its matrices against differences of the residual along random perturbed motions,
- * symmetry and definiteness, what the wall and friction do to it, and its prediction against a run in time. */
+ * symmetry and definiteness, what the wall and friction do to it, and its prediction against a run in time. Equations:
+ * eq:modes.linear, eq:modes.still-axes. */
 #include <string.h>
 
 #include "../../system/stirred_rig.h"

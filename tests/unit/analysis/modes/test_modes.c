@@ -1,4 +1,5 @@
-/* The modes of a string against its own matrices: orthonormal, complete by the Sturm count of K - s M, and sharp. */
+/* The modes of a string against its own matrices: orthonormal, complete by the Sturm count of K - s M, and sharp.
+ * Equations: eq:modes.undamped, eq:modes.damped. */
 #include <string.h>
 
 #include "modal.h"
