@@ -66,7 +66,7 @@ static void set_block(const double A[36], const double W[36], const double B[36]
 }
 
 /* Rows b: to_b^T W xi. Rows a have d(to_a)^T w = -to_a^T ad(xi)^T w = -to_a^T A(w) xi besides (dmb_ad_transpose_...):
- *     K = [to_a^T (W - A(w)); to_b^T W] [to_a, to_b] */
+ *     K = [to_a^T (W - A(w)); to_b^T W] [to_a, to_b]   (eq:joints.relative-tangent) */
 void dmb_relative_tangent(const dmb_relative *relative, const double w[6], const double W[36], double K[144])
 {
     double Wa[36];

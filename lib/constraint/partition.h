@@ -1,6 +1,7 @@
 /* Partition of the coordinates of a cluster of constraint rows into dependent and independent ones (eq:static.blocks),
  *
  *     B x = 0,   B = [C_d, C_i] (rows x columns),   x_d = G x_i,   G = -C_d^-1 C_i,   null space R = [G; I]
+ * (eq:joints.partition)
  *
  * by Gaussian elimination with complete pivoting on rows scaled to unit length in weighted columns (Wehage, Haug 1982).
  * Rows that vanish under elimination are redundant. The choice is kept as an order of rows and columns, so that later

@@ -8,7 +8,8 @@
 
 /* Motion of the trial to begin with; attempt->linear tells which of the two it is. */
 void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt);
-/* [J] |z . residual| that a linear prediction has saved, z being what its increments are more by; sim->chain_start
+/* [J] |z . residual| that a linear prediction has saved, z being what its increments are more by
+ * (eq:integration.prediction-increment); sim->chain_start
  * becomes the residual that it would have begun with. By lumped masses: of motion that the step resolves it is that,
  * of stiffer motion less. */
 double dmb_prediction_saved(dmb_sim *sim, const dmb_attempt *attempt);

@@ -122,7 +122,7 @@ static inline void dmb_ad_apply(const dmb_real v[6], const dmb_real y[6], dmb_re
     dmb_vec3_copy(c, out + 3);
 }
 
-/* out = ad(v)^T p = (-w x pu; -u x pu - w x pw): the coadjoint of the Euler-Poincare equations */
+/* out = ad(v)^T p = (-w x pu; -u x pu - w x pw): the coadjoint of eq:motion.euler-poincare */
 DMB_REAL_INLINE void dmb_ad_transpose(const dmb_real v[6], const dmb_real p[6], dmb_real out[6])
 {
     dmb_real a[3], b[3], c[3];
@@ -133,7 +133,7 @@ DMB_REAL_INLINE void dmb_ad_transpose(const dmb_real v[6], const dmb_real p[6], 
     dmb_vec3_add(b, c, out + 3);
 }
 
-/* out = A(p) = [0, pu~; pu~, pw~], so that ad(v)^T p = A(p) v: its derivative with respect to v at fixed p */
+/* out = A(p) (eq:motion.gyroscopic), so that ad(v)^T p = A(p) v: its derivative with respect to v at fixed p */
 static inline void dmb_ad_transpose_derivative(const dmb_real p[6], dmb_real out[36])
 {
     dmb_real P[9];
@@ -145,7 +145,7 @@ static inline void dmb_ad_transpose_derivative(const dmb_real p[6], dmb_real out
     dmb_mat6_set_block(P, 1, 1, out);
 }
 
-/* Ad(R,x) = [R, x~R; 0, R] */
+/* Ad(R,x) = [R, x~R; 0, R] (eq:kinematics.adjoint) */
 static inline void dmb_adjoint6(const dmb_real R[9], const dmb_real x[3], dmb_real out[36])
 {
     dmb_real X[9], XR[9];

@@ -156,21 +156,21 @@ static inline void dmb_so3_polynomial(const dmb_real O[3], dmb_real p, dmb_real 
     dmb_vec3_set(xz - p * O[1], yz + p * O[0], d + q * O[2] * O[2], out + 6);
 }
 
-/* R = exp(O) = I + a O~ + b O~^2; k may be NULL */
+/* R = exp(O) (eq:kinematics.exp-rotation); k may be NULL */
 static inline void dmb_so3_exp(const dmb_real O[3], const dmb_so3_coefficients *k, dmb_real R[9])
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(O, k);
     dmb_so3_polynomial(O, f.a, f.b, R);
 }
 
-/* T(O) = I - b O~ + a2 O~^2: body angular velocity = T(O) O'; T(-O) = T^T; k may be NULL */
+/* T(O) (eq:kinematics.tangent-rotation): body angular velocity = T(O) O'; T(-O) = T^T; k may be NULL */
 static inline void dmb_so3_tangent(const dmb_real O[3], const dmb_so3_coefficients *k, dmb_real T[9])
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(O, k);
     dmb_so3_polynomial(O, -f.b, f.a2, T);
 }
 
-/* S(O) = T(O)^-1 = I + O~/2 + c O~^2; S(-O) = S^T; k may be NULL */
+/* S(O) = T(O)^-1 (eq:kinematics.inverse-tangent-rotation); S(-O) = S^T; k may be NULL */
 static inline void dmb_so3_inverse_tangent(const dmb_real O[3], const dmb_so3_inverse_coefficients *k, dmb_real S[9])
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(O, k);
@@ -253,7 +253,8 @@ static inline dmb_real dmb_quat_log_factor(dmb_real q0, const dmb_real v[3])
     return f;
 }
 
-/* O = log q, |O| <= pi, from the branch q0 >= 0 of q and -q; the length of q does not matter */
+/* O = log q (eq:kinematics.log-rotation), |O| <= pi, from the branch q0 >= 0 of q and -q; the length of q does not
+ * matter */
 static inline void dmb_quat_log(const dmb_real q[4], dmb_real O[3])
 {
     const dmb_real f = dmb_quat_log_factor(dmb_real_abs(q[0]), q + 1);

@@ -17,8 +17,8 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
  * damping acts in it; `acceleration` of the configuration belongs to the motion that begins when friction follows the
  * velocities again, with the next step. */
 int dmb_is_quasi_static(const dmb_configuration *configuration);
-/* Columns of the body-frame motion of a PATH node per unit of its two rows, shape (2, 6); rotation is its present
- * one. */
+/* Columns of the body-frame motion of a PATH node per unit of its two rows (eq:kinematics.path-velocity), shape (2, 6);
+ * rotation is its present one. */
 void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                       const double rotation[9], double columns[12]);
 /* [m] measured depth of a PATH node. */

@@ -231,7 +231,8 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
     return status < 0 ? status : dmb_joints_refuse_edges(sim, 0, evaluation->time);
 }
 
-/* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy. */
+/* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy
+ * (eq:joints.impulse). */
 static int32_t least_energy(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;

@@ -1,7 +1,7 @@
 /* Error-controlled steps against as many equal ones: a double pendulum of bars, errors of both against an
  * independent integration, as root mean squares over several ends. Steps that change without need lose what equal steps
  * take back within a swing (eq:integration.energy-left); the bounds hold what is reached, steps and rejections are
- * counts. */
+ * counts. Checks eq:integration.error-ahead. */
 #include <string.h>
 
 #include "mechanism.h"

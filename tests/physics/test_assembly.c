@@ -1,5 +1,5 @@
 /* Joints closed at the start: rigid bodies move by any distance, strings move as rigid bodies, and elements are
- * strained only where the caller allows the energy. */
+ * strained only where the caller allows the energy. Checks eq:joints.levenberg and eq:joints.placement. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* Pipes under axial load with few elements: stiffness against the closed form of a Timoshenko beam, frequencies against
  * those of a tensioned beam, section forces against equilibrium; and strings that are pulled and twisted hard stay at
- * rest. The element counts how bending inside it shortens it (lib/element/beam_math.h). */
+ * rest. The element counts how bending inside it shortens it (lib/element/beam_math.h). Checks
+ * eq:beam.pulled-stiffness. */
 #include <stdio.h>
 #include <string.h>
 

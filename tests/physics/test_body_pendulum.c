@@ -220,7 +220,7 @@ static void every_spectral_radius_is_of_second_order(void **state)
     }
 }
 
-/* ---- Steps of changing length ------------------------------------------------------------------------------------ */
+/* ---- Steps of changing length (eq:integration.carry) ------------------------------------------------------------- */
 
 /* q'' = -sin q from 1.5 and 0.3 over 8 s, steps in the ratio 1 : 3 : 0.5 : 2, r 0.9. Errors of (q, q') of CASES.md. */
 static double pattern_error(uint32_t steps)

@@ -1,5 +1,6 @@
 /* Motion without slip: a knife edge on an incline, Chaplygin's sledge, discs that roll, against closed forms; and the
- * caller's constraints, of position and of speed, with and without a Jacobian, against joints that say the same. */
+ * caller's constraints, of position and of speed, with and without a Jacobian, against joints that say the same. Checks
+ * eq:joints.nonholonomic and eq:joints.rolling. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -1,5 +1,5 @@
 /* Joints that lock, open and close in a run: plastic impact of a two-bar pendulum against its closed form, free flight,
- * refusals that change nothing, and the energy ledger over every switch. */
+ * refusals that change nothing, and the energy ledger over every switch. Checks eq:joints.impulse. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -1,6 +1,6 @@
 /* Pipes that are bent: free fall, the right-angle cantilever of Simo and Vu-Quoc 1988, energy of a tumbling one;
  * statics against the closed form of an arc and frequencies against a fine mesh, with their orders. The last two print
- * the table of the element's accuracy. */
+ * the table of the element's accuracy. Checks eq:curved.flexibility and eq:curved.kinetic-energy. */
 #include <stdio.h>
 
 #include "modal.h"

@@ -1,4 +1,4 @@
-/* Linear dynamics: axial waves in S1, decay by material damping, energy over a million steps. */
+/* Linear dynamics: axial waves in S1, decay by material damping, energy over a million steps. Checks eq:bar.force. */
 #include <stdio.h>
 
 #include "rig.h"

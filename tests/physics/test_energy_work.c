@@ -1,6 +1,7 @@
 /* Work that the ledger counts is the work that the integrator does (eq:motion.work): at spectral radius 1 a
  * linear structure with any friction, dampers and controllers balances to rounding at every step length; a ring that
- * whirls backward on the wall and leaves it balances within a thousandth. */
+ * whirls backward on the wall and leaves it balances within a thousandth. Checks eq:motion.force-recursion and
+ * eq:motion.trapezoid-excess. */
 #include "contact_scene.h"
 
 /* ---- Bars with friction, dampers, a controller, and rock --------------------------------------------------------- */

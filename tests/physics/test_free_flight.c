@@ -1,6 +1,6 @@
 /* Free flight against the straight line and the parabola: the centre of mass of a rigid body or string keeps to them to
  * rounding over 100 s, whatever point was named; strings of flexible pipes and bodies that joints connect keep linear
- * and angular momentum to second order. */
+ * and angular momentum to second order. Checks eq:integration.free-rigid. */
 #include <stdio.h>
 
 #include "rig.h"

@@ -1,5 +1,6 @@
 /* Hard case 5 on the wall: 300 s at 200 rpm, 1000 revolutions, of pipes that lie in their hole and rub on it.
- * Rotations stay orthonormal to 1e-14, angles are counted exactly, and nothing depends on the number of turns. */
+ * Rotations stay orthonormal to 1e-14, angles are counted exactly, and nothing depends on the number of turns. Checks
+ * eq:kinematics.relative-pose. */
 #include "rig.h"
 
 enum { PIPES = 8, STEPS_A_TURN = 60, MEAN_TURNS = 20 };

@@ -1,6 +1,6 @@
 /* Joints where their angles or equations are not defined, against closed forms: a universal joint turned to a right
  * angle is refused there, at creation, in statics and in a run, and so are others that have something on their
- * angles. */
+ * angles. Checks eq:joints.coordinates. */
 #include "hash.h"
 #include "mechanism.h"
 

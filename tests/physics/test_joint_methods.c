@@ -1,4 +1,5 @@
-/* Steps in independent coordinates against steps with multipliers: the same motion and the same forces. */
+/* Steps in independent coordinates against steps with multipliers: the same motion and the same forces.
+ * Checks eq:joints.reduced-system and eq:joints.multipliers. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -1,6 +1,6 @@
 /* Estimated discretisation error of long elements against the spurious moment of a string that lies on the wall, which
  * statics of the same mesh have, and against its closed form in a curved hole; scenes without such an error have none.
- */
+ * Checks eq:beam.mesh-error. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Natural frequencies of straight strings against closed forms: CASES "Modes and frequency response". */
+/* Natural frequencies of straight strings against closed forms: CASES "Modes and frequency response". Checks
+ * eq:beam.mass and eq:beam.axial-mass. */
 #include <stdio.h>
 
 #include "modal.h"

@@ -1,5 +1,7 @@
 /* Iterations that follow the error of the step, against the same steps solved to 1e-12: what they leave is a small part
- * of the step's own error, found by halving, and long runs keep energy, momentum, joints and sticking as those do. */
+ * of the step's own error, found by halving, and long runs keep energy, momentum, joints and sticking as those do.
+ * Checks eq:integration.milne, eq:integration.contraction, eq:integration.stop, eq:integration.pace and
+ * eq:integration.stop-power. */
 #include <stdio.h>
 #include <string.h>
 

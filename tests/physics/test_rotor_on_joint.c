@@ -6,7 +6,7 @@
  * axis. With m the mass of both and l the height of their centre along the axis (Goldstein, Classical Mechanics, 5.7),
  *     m g l = (C w3 + C_c p cos T) p - A' p^2 cos T
  * A ring that only turns about the vertical has no part in it. In axes that do not spin with the rotor a step errs by
- * (p h)^2; in axes that do it erred by 0.69 (w3 h)^2. */
+ * (p h)^2; in axes that do it erred by 0.69 (w3 h)^2. Checks eq:motion.rotor-step. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Section forces against Newton's law: each piece of a string between two of its sections is in balance with its
- * weight, the contacts and the loads on it. */
+ * weight, the contacts and the loads on it. Checks eq:beam.section-force and eq:beam.section-pose. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

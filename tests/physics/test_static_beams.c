@@ -1,6 +1,6 @@
 /* Statics of beams without a hole: large bending against closed forms and tables, sag against the linear theory.
  * The element is nodally exact in linear statics and of fourth order in the elastica (Sonneville, Cardona, Bruls 2014).
- */
+ * Checks eq:beam.shear-correction and eq:beam.curvature-softening. */
 #include <stdio.h>
 
 #include "rig.h"

@@ -1,6 +1,6 @@
 /* Subs, bodies in the middle of a string, and the sections that continue it: against the same scenes typed by hand in
  * runs and in every analysis, poses in closed form along arcs, and a string that is not interrupted; refusals that
- * leave nothing. */
+ * leave nothing. Checks eq:kinematics.far-end. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -191,7 +191,7 @@ static int32_t convective_of(const question *ask, double convective[ROWS])
     return status < 0 ? status : add_second(ask, at_time, DMB_TURN_STEP, convective);
 }
 
-/* dC/dt at fixed poses; of a nonholonomic constraint b itself. */
+/* dC/dt at fixed poses; of a nonholonomic constraint b itself (eq:joints.nonholonomic). */
 static int32_t rate_of(const question *ask, const double value[ROWS], double rate[ROWS])
 {
     memcpy(rate, value, ROWS * sizeof(double));

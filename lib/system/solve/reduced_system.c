@@ -4,7 +4,8 @@
  *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]   (eq:static.newton)                (DMB_METHOD_INDEPENDENT)
  *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
  *
- * with S the iteration matrix of the nodes (blocks of the block-tridiagonal storage) and of the joints. */
+ * (eq:joints.reduced-system, eq:joints.saddle), with S the iteration matrix of the nodes (blocks of the
+ * block-tridiagonal storage) and of the joints. */
 #include "system/solve/solve.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 /* Rows of every kind of joint, of a locked joint, and the six coordinates: values against formulas, J against six-point
- * differences of the values along exp of a body-frame twist, JV and the tangent against differences of J. */
+ * differences of the values along exp of a body-frame twist, JV and the tangent against differences of J. Checks
+ * eq:joints.rows, eq:joints.rolling and eq:joints.coordinates. */
 #include <string.h>
 
 #include "check.h"

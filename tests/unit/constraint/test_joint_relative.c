@@ -1,5 +1,5 @@
 /* Frame b seen from frame a: pose, twist, convective term, forces and tangent, each against six-point differences of
- * the composed poses or against the power. */
+ * the composed poses or against the power. Checks eq:joints.relative-motion and eq:joints.relative-tangent. */
 #include <string.h>
 
 #include "check.h"

@@ -1,5 +1,6 @@
 /* Partition of coordinates against LAPACK: rank, null space, solves, projection, least multipliers; when the quality
- * falls; equal candidates; what is not a number; what is empty; clusters of many bodies. */
+ * falls; equal candidates; what is not a number; what is empty; clusters of many bodies. Checks eq:joints.partition,
+ * eq:joints.multipliers, eq:joints.least-norm and eq:joints.projection. */
 #include "check.h"
 
 #include <float.h>

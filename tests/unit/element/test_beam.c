@@ -1,5 +1,6 @@
 /* The flexible element by itself: forces against the energy, tangents against differences, momentum, mass, refusals.
- * Reference of every tangent: six-point central differences (error h^6) of the forces; of the forces: of the energy. */
+ * Reference of every tangent: six-point central differences (error h^6) of the forces; of the forces: of the energy.
+ * Checks eq:beam.strain-rate, eq:beam.strain, eq:beam.force, eq:beam.tangent, eq:beam.damping and eq:kinematics.arm. */
 #include <string.h>
 
 #include "check.h"

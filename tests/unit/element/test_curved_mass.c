@@ -1,5 +1,7 @@
 /* Mass of bent elements: rigid motion against rigid bodies, straight elements against the constant mass, forces of
- * inertia against Lagrange's equations by differences, the mass matrix by its smallest eigenvalue. */
+ * inertia against Lagrange's equations by differences, the mass matrix by its smallest eigenvalue. Checks
+ * eq:curved.line, eq:curved.centre, eq:curved.kinetic-energy, eq:curved.inertia, eq:curved.mean-axes, eq:curved.spin,
+ * eq:curved.forces and eq:curved.weight. */
 #include <string.h>
 
 #include "check.h"

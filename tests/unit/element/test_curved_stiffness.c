@@ -1,5 +1,6 @@
 /* Stiffness of elements whose unstressed shape is bent: forces against the energy, all tangents against differences,
- * with material damping, mass and weight. Reference: six-point central differences. */
+ * with material damping, mass and weight. Reference: six-point central differences. Checks eq:curved.flexibility and
+ * eq:curved.sideways. */
 #include <string.h>
 
 #include "check.h"

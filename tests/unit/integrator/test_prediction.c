@@ -1,5 +1,6 @@
 /* Where an iteration begins: the order of the linear prediction against the steps that were really taken, the inertia
- * forces of a change against kinetic energies, and when a step begins with which. */
+ * forces of a change against kinetic energies, and when a step begins with which. Checks eq:integration.memory,
+ * eq:integration.prediction and eq:integration.prediction-increment. */
 #include <math.h>
 #include <string.h>
 

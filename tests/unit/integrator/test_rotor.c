@@ -1,6 +1,6 @@
 /* Bodies that spin, in axes that do not: their iteration matrix against differences of the residual by the increments
  * of a step; the motion at the end of a step against the formulas of system/constrain/rotor.h; and the axes that
- * compile chooses. */
+ * compile chooses. Checks eq:motion.rotor, eq:motion.rotor-step and eq:motion.rotor-tangent. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -1,6 +1,7 @@
 /* The solver of a step from both ends of a chain, in every width, as a whole and in parts, against dense LU by LAPACK:
  * chains of 1 to 40 blocks of six, two, or 1 to 6 rows by turns, with good blocks, unequal units, pivots off the
- * diagonal, and soft chains of stiff links; errors against a solution that is given. */
+ * diagonal, and soft chains of stiff links; errors against a solution that is given. Checks eq:integration.elimination.
+ */
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,6 @@
-/* Poses: exponential and logarithm, tangent operators, their derivatives against central differences. */
+/* Poses: exponential and logarithm, tangent operators, their derivatives against central differences. Checks
+ * eq:kinematics.exp-pose, eq:kinematics.tangent-pose, eq:kinematics.inverse-tangent-pose, eq:kinematics.reversal,
+ * eq:beam.both-ends and eq:beam.stress-derivative. */
 #include "math_test.h"
 #include "matrices.h"
 

@@ -1,4 +1,6 @@
-/* Rotations: coefficients and operators against long double, identities, quaternions, the arc tangent of turns. */
+/* Rotations: coefficients and operators against long double, identities, quaternions, the arc tangent of turns. Checks
+ * eq:kinematics.exp-rotation, eq:kinematics.tangent-rotation, eq:kinematics.inverse-tangent-rotation,
+ * eq:kinematics.log-rotation, eq:kinematics.coefficients and eq:kinematics.coefficient-rates. */
 #include <stdio.h>
 
 #include "math_test.h"

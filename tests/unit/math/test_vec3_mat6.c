@@ -1,4 +1,4 @@
-/* Small matrices, adjoint maps, Gauss rules. */
+/* Small matrices, adjoint maps, Gauss rules. Checks eq:kinematics.adjoint and eq:motion.gyroscopic. */
 #include "math_test.h"
 #include "matrices.h"
 

@@ -1,5 +1,6 @@
 /* Large clusters, solved over nodes and multipliers in sparse blocks, against the same scenes with dense partitions:
- * motion, reactions, redundant equations, statics, modes; and what each of them must keep by itself. */
+ * motion, reactions, redundant equations, statics, modes; and what each of them must keep by itself. Checks
+ * eq:joints.quasi-definite, eq:joints.saddle and eq:joints.proximal. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -1,7 +1,7 @@
 /* Iteration matrix of springs, of stuck places, of bits that cut sideways, of loads at any place and of the caller's
  * forces (within nodes, inside elements, across parts) against differences of the residual by the increments of a step,
  * which move poses and velocities together; and the force of springs and stuck places against differences of their
- * energy. */
+ * energy. Checks eq:motion.section-map, eq:motion.spring, eq:motion.caller-force and eq:motion.stuck. */
 #include <string.h>
 
 #include "mechanism.h"
