@@ -51,7 +51,7 @@ def read(text: str) -> tuple[list[Sentence], list[str], str]:
 
 
 def run(program: pathlib.Path, folder: pathlib.Path, threads: int = 2, short: bool = False) -> str:
-    """What the program prints; its tables go into the folder."""
+    """Output of the program, whose tables go into the folder."""
     words = [str(program), "--threads", str(threads), "--output", str(folder)] + (["--short"] if short else [])
     return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
