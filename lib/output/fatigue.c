@@ -1,4 +1,5 @@
-/* Fatigue of places during a run: stress around the section, counted by rainflow, summed by an S-N curve. */
+/* Fatigue of places during a run: stress around the section (eq:fatigue.stress), counted by rainflow, summed by an S-N
+ * curve (eq:fatigue.damage). */
 #include "output/fatigue.h"
 
 #include <math.h>

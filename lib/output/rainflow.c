@@ -31,7 +31,7 @@ static void stay(dmb_rainflow *flow, double value)
 }
 
 /* X the range of the last two turns, Y that of the two before: Y is counted where X >= Y; as a cycle, and its turns go,
- * or as half a one with the start of all, which goes. */
+ * or as half a one with the start of all, which goes (eq:fatigue.rainflow). */
 static void reduce(dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
 {
     while (flow->count >= 3) {

@@ -235,6 +235,7 @@ double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double a
     return sqrt(normal * normal + 3.0 * shear * shear);
 }
 
+/* eq:drilling.von-mises */
 double dmb_tube_pressed_von_mises(const double diameters[2], double axial_force, double torque, double bending_moment,
                                   double pressure)
 {
@@ -263,7 +264,8 @@ double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force
 }
 
 /* Compression over the buckling load, NaN where nothing presses the pipe to the wall: `on_wall` of EI w_c/r under the
- * root, `upright` times the length scale of a heavy vertical column. */
+ * root, `upright` times the length scale of a heavy vertical column (eq:drilling.sinusoidal, eq:drilling.helical,
+ * eq:drilling.vertical). */
 static double share(const dmb_confined_pipe *pipe, double axial_force, double on_wall, double upright)
 {
     const double along = dmb_vec3_dot(pipe->weight, pipe->tangent);

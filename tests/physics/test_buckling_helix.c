@@ -1,5 +1,5 @@
 /* A weightless string in its hole under 200 kN: the helix (Lubinski, Althouse, Logan 1962), and how friction on the
- * hole eats up a push that goes through it. */
+ * hole eats up a push that goes through it. Equations: eq:drilling.helical. */
 #include <stdio.h>
 
 #include "rig.h"

@@ -1,6 +1,6 @@
 /* Linear buckling: Euler's column and the string that lies in its hole (Dawson, Paslay 1984), each as the half of a
  * pinned one: pinned at the rig end, and free to move but not to turn at the other, the middle of the whole. Equations:
- * eq:buckling.pencil. */
+ * eq:buckling.pencil. Equations: eq:drilling.sinusoidal. */
 #include <stdio.h>
 
 #include "rig.h"

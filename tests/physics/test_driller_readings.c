@@ -1,5 +1,6 @@
 /* The readings of a driller against closed forms (a hanging string, a twisted one), balances of momentum in a run, and
- * a bit speed that is known at every time; and as outputs of a response against a run in time. */
+ * a bit speed that is known at every time; and as outputs of a response against a run in time. Equations:
+ * eq:drilling.rig-end, eq:drilling.stretch, eq:drilling.window. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Fatigue of a pipe that turns while its weight bends it: each point of its surface goes through M r/I once a turn, so
- * that n turns do the damage n/N(S). And what refuses. */
+ * that n turns do the damage n/N(S). And what refuses. Equations: eq:fatigue.stress, eq:fatigue.damage. */
 #include <stdlib.h>
 #include <string.h>
 

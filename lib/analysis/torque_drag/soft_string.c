@@ -162,7 +162,7 @@ static double pull_of_flow(march *m, double depth)
     return m->pull;
 }
 
-/* Rates towards the rig, per metre. */
+/* Rates towards the rig, per metre (eq:drilling.soft-string, eq:drilling.transmission, eq:drilling.stretch). */
 static void rates(march *m, double depth, const double state[DMB_SOFT_COUNT], double rate[DMB_SOFT_COUNT])
 {
     const double v_a = m->operation->axial_speed, v_c = m->operation->rotary_speed * m->radius;

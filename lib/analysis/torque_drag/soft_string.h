@@ -1,10 +1,14 @@
-/* The soft string in steady motion, integrated from its far end up to the rig (Johancsik, Friesen, Dawson 1984;
- * Sheppard, Wick, Burgess 1987), in three dimensions. At measured depth s, t the tangent of the hole's axis, w the
- * buoyant weight per metre, N the effective axial force, v = (v_a, v_c) the speed of the pipe's surface along and
- * around: c = |w - (w.t) t + N dt/ds|                  wall force per metre -dN/ds = w.t - mu c v_a/|v| force along
+/* The soft string in steady motion, integrated from its far end up to the rig, in three dimensions. At measured depth
+ * s, t the tangent of the hole's axis, w the buoyant weight per metre, N the effective axial force, v = (v_a, v_c) the
+ * speed of the pipe's surface along and around:
+ *
+ *     c = |w - (w.t) t + N dt/ds|                  wall force per metre (eq:drilling.wall-force)
+ *     -dN/ds = w.t - mu c v_a/|v|                  force along (eq:drilling.soft-string)
  *     -dT/ds = mu c R |v_c|/|v|                    torque, R the radius that touches
+ *
  * Mud that flows takes its pull off -dN/ds, and its thrust off N at the far end (force/mud_flow.h).
- * A helix presses r N^2/(4 EI) more on the wall where -N is above its load (Mitchell 1986), r the clearance. */
+ * A helix presses r N^2/(4 EI) more on the wall where -N is above its load (eq:drilling.helix-force), r the clearance.
+ */
 #ifndef DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
 #define DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
 

@@ -24,7 +24,7 @@ g = 0.22
 forward, backward = np.sqrt(1 + (g * speed) ** 2) + g * speed, np.sqrt(1 + (g * speed) ** 2) - g * speed
 right.plot(speed, forward, color=BLUE)
 right.plot(speed, backward, color=BLUE, ls="--")
-right.text(2.05, 1.68, "forward", color=BLUE, fontsize=8)
+right.text(2.05, 1.76, "forward", color=BLUE, fontsize=8)
 right.text(2.1, 0.74, "backward", color=BLUE, fontsize=8)
 for order, style in ((1, "-"), (2, "-.")):
     right.plot(speed, order * speed, color=GREY, lw=1, ls=style)

@@ -1,6 +1,6 @@
 /* Rainflow counting against the example of ASTM E1049 (figure 6), and, on random sequences, against a second way: the
  * recursive definition on the whole sequence, in which the innermost ranges are taken out first. Ranges are compared by
- * levels; what is told are the values that stand farthest out in them. */
+ * levels; what is told are the values that stand farthest out in them. Equations: eq:fatigue.rainflow. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
