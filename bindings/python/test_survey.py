@@ -62,6 +62,13 @@ SAME = {
     "dip.csv": "depth [m],dip [deg],azimuth [deg]\n0,-90,0\n100,-90,0\n200,-80,45\n300,-70,45\n",
     "chinese.csv": "孔深(m),井斜角(°),方位角(°)\n0,0,0\n100,0,0\n200,10,45\n300,20,45\n",
     "full_width.csv": "测点，孔深（米），倾角（度），方位角（度）\n1，0，-90，0\n2，100，-90，0\n3，200，-80，45\n4，300，-70，45\n".replace("，", ","),
+    "slash.csv": "孔深/m,倾角/°,方位角/°\n0,-90,0\n100,-90,0\n200,-80,45\n300,-70,45\n",
+    "blank_unit.csv": "孔深 m,仰角 °,方位 °\n0,-90,0\n100,-90,0\n200,-80,45\n300,-70,45\n",
+    "down.csv": "孔深(m),俯角(°),方位角(°)\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
+    "plunge.csv": "depth [m],dip [deg] (down positive),azimuth [deg]\n0,90,0\n100,90,0\n200,80,45\n300,70,45\n",
+    "feet.las": LAS.replace("DEPT.M", "DEPT.F").replace("100 75", f"{100 / 0.3048!r} 75").replace("200 70", f"{200 / 0.3048!r} 70").replace(
+        "300 71", f"{300 / 0.3048!r} 71"),
+    "devi.las": LAS.replace("INCL.DEG", "DEVI.DEG").replace("AZIM.DEG", "HAZI.DEG"),
     "well.csv": "well,depth [m],inclination [deg],azimuth [deg]\nA,0,0,0\nA,100,0,0\nA,200,10,45\nA,300,20,45\n",
     "twice.csv": CSV.replace("200,10,45\n", "200,10,45\n200,10,45\n"),
     "log.las": LAS, "log.csv": LAS, "wrapped.las": LAS.replace("NO  :", "YES :").replace("200 70 10 45", "200\n70 10\n45"),
@@ -86,6 +93,9 @@ REFUSED = (("depth [m],inclination [deg],azimuth [deg]\n0,0,0\n100,,\n200,10,45\
            ("depth [m],azimuth [deg]\n0,0\n100,0\n", ("inclination", "dip")),
            ("well,depth [m],inclination [deg],azimuth [deg]\nA,0,0,0\nA,100,0,0\nB,200,0,0\n", ("2 holes", "A, B")),
            ("MD [m],Inc [deg],Azi [deg]\n0,0,0,0,0,0\n10,5,1,5,45,0\n20,5,2,5,45,0\n", ("6 cells", "semicolons")),
+           ("MD [m],Inc [deg],Azi [deg]\n0,0,0\n10,90,0\n20,90,180\n", ("line 4: the hole turns by 180 deg from line 3", "at most 143 deg")),
+           (LAS.replace("-999.25 :", "-1 :").replace("200 70 10 45", "200 70 -1.000 45"), ("\"-1.000\"", "missing value")),
+           (CSV.replace("200,10,45", "200," + "1" * 400 + "z,45"), ("111...\"",)),
            (LAS.replace("200 70 10 45", "200 70 -999.25 45"), ("-999.25", "missing value")))
 
 # north, east, down [m] at measured depth, inclination, azimuth: minimum curvature, published by well-path software.
@@ -132,6 +142,11 @@ class SurveyTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             book.save(pathlib.Path(folder, "s.xlsx"))
             self.same(scene.loads(SCENE % ("s.xlsx", ""), folder=folder), "Excel")
+        book.active["A4"] = "=50*2"
+        with tempfile.TemporaryDirectory() as folder:
+            book.save(pathlib.Path(folder, "s.xlsx"))
+            with self.assertRaisesRegex(scene.SceneError, "line 4, column 1 .MD .m.. = .=50.2.: is a formula without a value"):
+                scene.loads(SCENE % ("s.xlsx", ""), folder=folder)
         with self.assertRaisesRegex(scene.SceneError, "save it as .xlsx or CSV"):
             load("old.csv", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 100)
 
@@ -184,6 +199,23 @@ class SurveyTest(unittest.TestCase):
         self.assertIn("has no unit: deg is assumed", told("MD (m),inc,azi\n0,0,0\n100,1,0\n"))
         for name in ("ok.csv", "dip.csv", "log.las", "feet.csv", "chinese.csv", "turned.csv"):
             self.assertEqual(load(name, SAME[name]).remarks, [], name)
+
+    def test_columns_that_are_not_read(self):
+        """A second azimuth, or the depth in another unit, is named."""
+        def told(text):
+            return " | ".join(one.text for one in load("s.csv", text).remarks)
+
+        self.assertIn("column 4 (Azi Grid [deg]) is not read: the azimuth is column 3 (Azi Magn [deg])",
+                      told("MD [m],Inc [deg],Azi Magn [deg],Azi Grid [deg]\n0,0,0,5\n100,1,20,25\n"))
+        self.assertIn("column 4 (MD [ft]) is not read: the depth is column 1", told("MD [m],Inc [deg],Azi [deg],MD [ft]\n0,0,0,0\n100,1,20,328\n"))
+        self.assertIn("280 deg is read", told("MD [m],Inc [deg],Azi [deg]\n0,90,1000000\n100,90,280\n"))
+
+    def test_depths_of_nines(self):
+        """999 and 9999 are depths; as angles they are missing values."""
+        rows = "".join(f"{depth},{10.0 + 1e-4 * depth},0\n" for depth in range(0, 10001, 1))
+        self.assertEqual(load("s.csv", "MD [m],Inc [deg],Azi [deg]\n" + rows).remarks, [])
+        with self.assertRaisesRegex(scene.SceneError, "missing value"):
+            load("s.csv", "MD [m],Inc [deg],Azi [deg]\n0,0,0\n999,999,0\n")
 
     def test_dips(self):
         """A hole of dip 5 deg rises; rows of the scene file and a straight hole alike."""

@@ -73,14 +73,14 @@ def names_column(head: str, column: Column) -> bool:
 def _column_of(head: str, columns: tuple[Column, ...]) -> tuple[Column, str] | None:
     """The column that a head names, and its unit; "depth m" and "MD_ft" count, too."""
     name, unit = _name_and_unit(head)
-    for column in columns:
-        if _is(name, column):
-            return column, unit if unit and column.unit and units.fits(unit, column.unit) else ""
     words = name.split()
     if not unit and len(words) > 1 and words[-1] not in ("s",):
         for column in columns:
-            if column.unit and " ".join(words[:-1]) in column.names and units.fits(words[-1], column.unit):
+            if column.unit and _is(" ".join(words[:-1]), column) and units.fits(words[-1], column.unit):
                 return column, words[-1]
+    for column in columns:
+        if _is(name, column):
+            return column, unit if unit and column.unit and units.fits(unit, column.unit) else ""
     return None
 
 
@@ -93,6 +93,18 @@ def _places(row: Row, columns: tuple[Column, ...]) -> list[_Place]:
     return list(found.values())
 
 
+def _passed_over(row: Row, places: list[_Place]) -> list[str]:
+    """Heads that begin with the name of a column that another head gives: a second azimuth, depths in feet too."""
+    found = []
+    for index, head in enumerate(row.cells):
+        name = _name_and_unit(head)[0]
+        chosen = next((one for one in places if one.column.unit and one.index != index and (
+            _is(name, one.column) or name.split(" ")[0] in one.column.names)), None)
+        if name and chosen is not None and all(index != one.index for one in places):
+            found.append(f"column {index + 1} ({head[:40]}) is not read: the {chosen.column.key} is column {chosen.index + 1} ({chosen.head[:40]})")
+    return found
+
+
 def _is_number(cell: str) -> bool:
     try:
         number_text.split(cell)
@@ -101,12 +113,12 @@ def _is_number(cell: str) -> bool:
         return bool(re.match(r"[-+]?\d", cell))
 
 
-def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row], int]:
-    """Columns, the rows below their heads, and the number of heads."""
+def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -> tuple[list[_Place], list[Row], Row | None]:
+    """Columns, the rows below their heads, and the heads of the file."""
     if given is not None:
-        return _places(Row(0, given), columns), _from_numbers(table.rows), len(given)
+        return _places(Row(0, given), columns), _from_numbers(table.rows), None
     if table.heads is not None:
-        return _places(table.heads, columns), table.rows, len(table.heads.cells)
+        return _places(table.heads, columns), table.rows, table.heads
     best: tuple[list[_Place], int] = ([], -1)
     for at, row in enumerate(table.rows[:200]):
         if sum(map(_is_number, row.cells)) > 1:
@@ -114,7 +126,7 @@ def _heads(table: Table, columns: tuple[Column, ...], given: list[str] | None) -
         places = _places(row, columns)
         if len(places) > len(best[0]):
             best = places, at
-    return best[0], table.rows[best[1] + 1:], len(table.rows[best[1]].cells) if best[1] >= 0 else 0
+    return best[0], table.rows[best[1] + 1:], table.rows[best[1]] if best[1] >= 0 else None
 
 
 def _from_numbers(rows: list[Row]) -> list[Row]:
@@ -147,13 +159,14 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
     """The numbers of the wanted columns. given: heads in the order of the columns, for a file without. advice: to an author whose
     file has no such heads; key: of the scene file that gives them, "" if there is none. Raises TableError where the columns are not
     found."""
-    places, rows, width = _heads(table, columns, given)
+    places, rows, head_row = _heads(table, columns, given)
+    width = len(given) if given is not None else len(head_row.cells) if head_row is not None else 0
     rows = _take_units(places, rows)
     keys = {one.column.key for one in places}
     missing = [one for one in columns if one.needed and one.key not in keys]
     if missing:
         raise TableError(_no_columns(table, missing, given, advice))
-    found = Found([], {}, {}, [], [])
+    found = Found([], {}, {}, [], [] if head_row is None else _passed_over(head_row, places))
     for one in places:
         _settle_unit(one, found, rows, key)
     comma = _decimal_comma(table, places, rows)
@@ -220,7 +233,7 @@ def _read_row(row: Row, places: list[_Place], table: Table, comma: bool, found: 
             cells[one.column.key] = _cell(text, one, table.missing, comma)
         except units.UnitError as error:
             where = f"line {row.line}, column {one.index + 1} ({one.head})"
-            found.faults.append(f"{where} = \"{text}\": {error}")
+            found.faults.append(f"{where} = \"{text if len(text) <= 40 else text[:37] + '...'}\": {error}")
             return
     found.rows.append((row.line, cells))
 
@@ -230,8 +243,10 @@ def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
         return Cell(None, text)
     if not text:
         raise units.UnitError("is empty; fill in the value or delete the line")
-    if (missing and text == missing) or _MISSING.fullmatch(text):
+    if _is_missing(text, one, missing):
         raise units.UnitError("is a missing value; fill in the value or delete the line")
+    if text.startswith("="):
+        raise units.UnitError("is a formula without a value; open the file in Excel, so that it is computed, and save it")
     if comma:
         text = text.replace(",", ".")
     bearing = re.fullmatch(r"([NS])\s*([\d.]+)\s*°?\s*([EW])", text, re.I) if one.column.unit == "rad" else None
@@ -242,6 +257,20 @@ def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
     except number_text.NoNumber as error:
         raise units.UnitError(str(error) or "is no number") from error
     return _cell_of(number, one, rest)
+
+
+def _is_missing(text: str, one: _Place, missing: str) -> bool:
+    """The sign of a LAS file, in whatever number of digits, or a usual one. 999 and 9999 are depths, too."""
+    if missing and (text == missing or _same_number(text, missing)):
+        return True
+    return bool(_MISSING.fullmatch(text)) and not (one.column.key == "depth" and text[0] == "9")
+
+
+def _same_number(a: str, b: str) -> bool:
+    try:
+        return float(a) == float(b)
+    except ValueError:
+        return False
 
 
 def _of_bearing(match: re.Match[str]) -> Decimal:

@@ -17,16 +17,20 @@ COLUMNS = (
                           "along hole depth", "ahd", "ah depth", "measured depth md", "station depth", "survey depth", "depth measured",
                           "孔深", "井深", "测深", "斜深", "深度")),
     Column("inclination", "rad", ("inc", "incl", "inclination", "inclination angle", "incl angle", "inc angle", "deviation", "dev", "devi", "drift",
-                                  "drift angle", "zenith", "zenith angle", "hole inclination", "hole angle", "inclinaison", "neigung", "井斜", "顶角",
+                                  "drift angle", "zenith", "zenith angle", "hole inclination", "hole angle", "hole deviation", "hdev", "sdev", "inclinaison", "neigung", "井斜", "顶角",
                                   "天顶角"), "deg", False),
     Column("dip", "rad", ("dip", "dip angle", "pitch", "pitch angle", "elevation", "elevation angle", "倾角", "俯仰角", "仰角"), "deg", False),
+    Column("depression", "rad", ("depression", "depression angle", "angle of depression", "plunge", "dip down", "dip down positive", "dip positive down",
+                                 "俯角", "下倾角"), "deg", False),
     Column("azimuth", "rad", ("azi", "azim", "azimuth", "az", "azimuth angle", "azi angle", "azm", "azimuth grid", "grid azimuth", "azimuth true", "true azimuth",
-                              "azi grid", "azi true", "azimuth mag", "magnetic azimuth", "hole azimuth", "bearing", "brg", "direction",
+                              "azi grid", "azi true", "azimuth mag", "azi mag", "azi magn", "azimuth magn", "azimuth magnetic", "azimuth magnetic north", "hazi", "haz", "azin", "azmt", "magnetic azimuth", "hole azimuth", "bearing", "brg", "direction",
                               "hole direction", "azimut", "方位"), "deg", True, True),
     Column("hole", "", ("well", "well name", "well id", "hole", "hole id", "holeid", "bhid", "borehole", "wellbore", "uwi", "孔号", "钻孔", "井号"), "",
            False))
 
 VERTICAL = 1e-6      # [rad] no azimuth within this of the vertical
+MOST_BEND = 2.5      # [rad] between two stations, that of the library
+MANY_TURNS = 4.0 * math.pi + 1e-6   # [rad] of azimuth, above which it is noted
 MANY_DEGREES = math.radians(30.0) / 30.0
 EXAMPLE = '["30 m", "90 deg", "15 deg"]'
 
@@ -110,6 +114,8 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
     except (OSError, ImportError, ValueError, KeyError, EOFError) as error:
         problems.add(path, name, f"could not be read: {getattr(error, 'strerror', None) or error}" if not isinstance(error, table_file.TableError) else str(error))
         return None
+    if "depression" in found.heads and not {"dip", "inclination"} & set(found.heads):
+        _turn_down(found)
     by_dip = "dip" in found.heads and "inclination" not in found.heads
     if not by_dip and "inclination" not in found.heads and not found.faults:
         found.faults.append("no head names an inclination (from the downward vertical) or a dip (from the horizontal)")
@@ -118,12 +124,25 @@ def from_file(problems: Problems, path: Path, name: Any, folder: pathlib.Path, h
             problems.add(path, name, one)
         return None
     key = "dip" if by_dip else "inclination"
+    odd = next((one for line, cells in found.rows for one in [cells["azimuth"]] if abs(one.value or 0.0) > MANY_TURNS), None)
+    if odd is not None and odd.value is not None:
+        found.remarks.append(f"the azimuth {odd.text} is more than two turns; {math.degrees(odd.value) % 360.0:.6g} deg is read")
     stations = [Station(f"line {line}", cells["depth"], cells[key], cells["azimuth"], cells["hole"].text if "hole" in cells else "")
                 for line, cells in found.rows]
     survey = Survey([], by_dip, found.heads, found.unit, found.remarks)
     if "dip" in found.heads and not by_dip:
         survey.remarks.append("has columns of inclination and of dip: the inclination is read")
     return _finished(problems, path, name, stations, survey)
+
+
+def _turn_down(found: columns.Found) -> None:
+    """Angles below the horizontal, down positive, as dips."""
+    for _, cells in found.rows:
+        one = cells.pop("depression")
+        cells["dip"] = Cell(None if one.value is None else -one.value, one.text, -one.number)
+    for values in (found.heads, found.unit):
+        values["dip"] = values.pop("depression")
+    found.remarks.append(f"{found.heads['dip']} is read as an angle below the horizontal, down positive")
 
 
 # ---- Stations --------------------------------------------------------------------------------------------------------
@@ -135,6 +154,8 @@ def _finished(problems: Problems, path: Path, name: Any, stations: list[Station]
     _check_order(problems, path, name, stations)
     _fill_azimuth(problems, path, name, stations, survey)
     _check_angles(problems, path, name, stations, survey)
+    if len(problems.found) == before:
+        _check_bends(problems, path, name, stations, survey)
     if len(stations) < 2 and len(problems.found) == before:
         problems.add(path, name, "must have at least two stations at different depths")
     if len(problems.found) > before:
@@ -212,6 +233,18 @@ def _check_angles(problems: Problems, path: Path, name: Any, stations: list[Stat
         hint = _missing_hint(one.depth) or _missing_hint(one.azimuth)
         if hint:
             problems.add(path, name, f"{one.where}: depth {one.depth.text}, azimuth {one.azimuth.text}{hint}")
+
+
+def _check_bends(problems: Problems, path: Path, name: Any, stations: list[Station], survey: Survey) -> None:
+    """An arc between two stations has a direction of its own only below half a turn."""
+    def row(one: Station) -> list[float]:
+        return [_value(one.depth), _inclination(one, survey), _value(one.azimuth)]
+
+    for a, b in zip(stations, stations[1:]):
+        angle = dogleg(row(a), row(b)) * (_value(b.depth) - _value(a.depth))
+        if angle > MOST_BEND:
+            problems.add(path, name, f"{b.where}: the hole turns by {math.degrees(angle):.0f} deg from {a.where}, at most "
+                                     f"{math.degrees(MOST_BEND):.0f} deg fit between two stations; is a sign or an azimuth wrong?")
 
 
 def _missing_hint(cell: Cell) -> str:

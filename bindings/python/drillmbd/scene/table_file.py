@@ -6,6 +6,7 @@ import io
 import pathlib
 import re
 from dataclasses import dataclass, field
+from typing import Any
 
 from .._optional import need
 from .read_file import TooLarge, limited
@@ -148,7 +149,8 @@ def _las(lines: list[str]) -> Table:
         if match is None:
             continue
         if section == "C":
-            names.append(f"{match[1].strip()} [{match[2]}]" if match[2] else match[1].strip())
+            unit = "ft" if match[2].upper() == "F" else match[2]  # the sign of LAS for feet
+            names.append(f"{match[1].strip()} [{unit}]" if unit else match[1].strip())
         elif match[1].strip().upper() == "NULL":
             table.missing = match[3].strip()
         elif match[1].strip().upper() == "WRAP":
@@ -182,4 +184,17 @@ def _excel(path: pathlib.Path) -> Table:
     book.close()
     if not tables:
         raise TableError("has no sheet with cells")
-    return max(tables, key=lambda one: sum(sum(bool(cell) for cell in row.cells) >= 3 for row in one.rows))
+    best = max(range(len(tables)), key=lambda i: sum(sum(bool(cell) for cell in row.cells) >= 3 for row in tables[i].rows))
+    _mark_formulas(excel.load_workbook(path, read_only=True).worksheets[best], tables[best])
+    return tables[best]
+
+
+def _mark_formulas(sheet: Any, table: Table) -> None:
+    """Cells that are empty because nobody has computed their formula become that formula."""
+    rows = {row.line: row for row in table.rows if not all(row.cells)}
+    if not rows:
+        return
+    for number, values in enumerate(sheet.iter_rows(values_only=True), 1):
+        for index, value in enumerate(values):
+            if number in rows and isinstance(value, str) and value.startswith("=") and not rows[number].cells[index]:
+                rows[number].cells[index] = value

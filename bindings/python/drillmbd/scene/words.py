@@ -62,7 +62,7 @@ def _hole(scene: Scene, calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
     found: list[str] = [phrase("collar at {direction}", direction=_direction(scene.model.hole(top)))]
     if not stations:
         return found + [phrase("straight hole")]
-    found += [phrase("surveyed length {length:.4g} m", length=stations[-1][0] - top), _end(scene.model.hole(top), scene.model.hole(stations[-1][0]))]
+    found += [phrase("surveyed length {length:.6g} m", length=stations[-1][0] - top), _end(scene.model.hole(top), scene.model.hole(stations[-1][0]))]
     sharpest = max((dogleg(a, b), a[0], b[0]) for a, b in zip(stations, stations[1:]))
     found.append(phrase("largest dogleg {dogleg:.2g} deg/30 m between {begin:g} m and {end:g} m", dogleg=math.degrees(sharpest[0]) * 30.0,
                         begin=sharpest[1], end=sharpest[2]) if sharpest[0] > 1e-9 else phrase("no dogleg"))
@@ -92,7 +92,7 @@ def _end(top: Any, end: Any) -> Phrase:
             return phrase("ends {height} the collar and {away:.1f} m away", height=height, away=away)
         return phrase("ends {height} the collar and {away:.1f} m away towards azimuth {azimuth:.3g} deg", height=height, away=away,
                       azimuth=math.degrees(math.atan2(east, north)) % 360.0)
-    right = east * math.cos(top.azimuth) - north * math.sin(top.azimuth)
+    right = 0.0 + round(east * math.cos(top.azimuth) - north * math.sin(top.azimuth), 6)  # no -0.0
     aside = phrase("{distance:.1f} m right", distance=right) if right >= 0.0 else phrase("{distance:.1f} m left", distance=-right)
     return phrase("ends {height} and {aside} of the collar line", height=height, aside=aside)
 
