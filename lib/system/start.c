@@ -66,7 +66,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* M v' = what is left of the forces. */
+/* M v' = what is left of the forces (eq:joints.accelerations). */
 static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     const int32_t status = dmb_factor_mass(evaluation);
