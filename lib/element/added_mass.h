@@ -1,6 +1,6 @@
 /* Mud that goes along with a solid of revolution about the x axis of its node: along S, sideways in slices, a slice at
  * x with v_y + x w_z and v_z - x w_y, about x nothing. M is symmetric and constant in the body frame, so that with p =
- * M v, v = (u; w), Kirchhoff's equations of a solid in an ideal fluid hold (Lamb, Hydrodynamics, 1932, 124): forces
+ * M v, v = (u; w), Kirchhoff's equations of a solid in an ideal fluid hold (eq:mud.kirchhoff): forces
  * -p_u' - w x p_u, moments -p_w' - w x p_w - u x p_u, the last the moment of Munk. */
 #ifndef DMB_ELEMENT_ADDED_MASS_H
 #define DMB_ELEMENT_ADDED_MASS_H

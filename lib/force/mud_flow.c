@@ -54,7 +54,7 @@ static double root_between(rising function, const void *context, double low, dou
 
 /* ---- Laminar and turbulent --------------------------------------------------------------------------------------- */
 
-/* (f_i/f_l)^12 */
+/* (f_i/f_l)^12 of eq:mud.turbulent */
 static double turbulence(double n, double reynolds)
 {
     const double critical = 3470.0 - 1370.0 * n, log_n = logarithm(n) / LN_10;
@@ -82,7 +82,7 @@ typedef struct duct {
     bool slot;
 } duct;
 
-/* [m/s] Mean speed at a stress of the wall above the yield stress. */
+/* [m/s] Mean speed at a stress of the wall above the yield stress (eq:mud.pipe-yield, eq:mud.slot). */
 static double speed_at(const duct *d, double wall)
 {
     const double n = d->flow->exponent, phi = d->flow->yield_stress / wall, free = 1.0 - phi;
@@ -180,7 +180,7 @@ static double laminar_gradient(const dmb_mud_flow *flow, double hole_radius, dou
     return 2.0 * flow->consistency / R * dmb_pow(flow->rate * (3.0 * n + 1.0) / (n * PI * R * R * R * shape), n);
 }
 
-/* 8 mu Q/(pi G R^4) of the eccentric annulus, n = 1, and S/(R^2 delta), by kappa and e/R. */
+/* 8 mu Q/(pi G R^4) of the eccentric annulus, n = 1, and S/(R^2 delta), by kappa and e/R (eq:mud.eccentric). */
 static double newtonian(double k, double e, double *pull)
 {
     const double P = 0.5 * ((1.0 - k) * (1.0 + k) + e * e), S = sqrt((P - e) * (P + e)), far = P - e * e + S;
@@ -195,7 +195,7 @@ static double newtonian(double k, double e, double *pull)
     return 1.0 - k * k * k * k - 4.0 * S * S / delta - 16.0 * S * S * sum;
 }
 
-/* 1 - linear (eps/n) k^0.8454 - square eps^2 sqrt(n) k^0.1852 + cube eps^3 sqrt(n) k^0.2527 */
+/* 1 - linear (eps/n) k^0.8454 - square eps^2 sqrt(n) k^0.1852 + cube eps^3 sqrt(n) k^0.2527 (eq:mud.eccentric-power) */
 static double correlation(double n, double k, double e, double linear, double square, double cube)
 {
     const double root = sqrt(n);
@@ -224,7 +224,7 @@ typedef struct yielding {
     double exponent; /* [-] local one */
 } yielding;
 
-/* From the gradient and lambda of the power law. */
+/* From the gradient and lambda of the power law (eq:mud.annulus-yield). */
 static yielding with_yield(const duct *slot, double gradient, double ratio, double lambda)
 {
     const double n = slot->flow->exponent, H = slot->width;

@@ -1,6 +1,6 @@
 /* Steady flow of mud down through a pipe and back through the annulus between it and the wall: losses of pressure, and
- * the force on the pipe. The fluid of Herschel and Bulkley: shear stress = tau_y + K (shear rate)^n; tau_y = 0 is the
- * power law, n = 1 Bingham's fluid, both together a Newtonian one.
+ * the force on the pipe (eq:mud.pipe to eq:mud.eccentric-power). The fluid of Herschel and Bulkley: shear stress =
+ * tau_y + K (shear rate)^n; tau_y = 0 is the power law, n = 1 Bingham's fluid, both together a Newtonian one.
  *
  * Laminar in a pipe of diameter d (Rabinowitsch 1929; Metzner, Reed 1955): G = (4 K/d) ((3 n + 1)/(4 n) 8 V/d)^n.
  * Laminar in a concentric annulus of radii r = kappa R and R (Fredrickson, Bird 1958; Hanks, Larsen 1979): with x =
@@ -88,10 +88,10 @@ dmb_annulus_shape dmb_annulus_shape_of(const dmb_mud_flow *flow, double ratio);
 /* As dmb_annulus_loss, for a shape that is known. */
 dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter,
                                   const dmb_annulus_shape *shape);
-/* [-] lambda: radius without shear stress over that of the hole, laminar. */
+/* [-] lambda: radius without shear stress over that of the hole, laminar (eq:mud.zero-shear). */
 double dmb_annulus_zero_shear(double exponent, double ratio);
-/* [Pa] rho Q^2/(2 C^2 A^2) through nozzles, and [N] their thrust rho Q V on the string's end, towards the rig, less
- * which the effective axial force there is 0. */
+/* eq:mud.nozzle: [Pa] rho Q^2/(2 C^2 A^2) through nozzles, and [N] their thrust rho Q V on the string's end, towards
+ * the rig, less which the effective axial force there is 0. */
 double dmb_nozzle_loss(const dmb_mud_flow *flow);
 double dmb_nozzle_thrust(const dmb_mud_flow *flow);
 

@@ -131,8 +131,8 @@ dmb_mud_pressure dmb_mud_pressure_at(const dmb_sim *sim, uint32_t string, double
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */
 
-/* [m] (1 - 2 nu)(p_i A_i - p_o A_o)/(E A) L by Lame's stresses, and rho Q V/(E A) L, at the piece's near end; both are
- * straight between its ends but for the bend of the string. */
+/* eq:mud.stretch: [m] (1 - 2 nu)(p_i A_i - p_o A_o)/(E A) L by Lame's stresses, and rho Q V/(E A) L, at the piece's
+ * near end; both are straight between its ends but for the bend of the string. */
 static double stretch_of(const dmb_sim *sim, const dmb_flow_piece *piece)
 {
     const dmb_scene *scene = sim->scene;

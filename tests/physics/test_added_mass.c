@@ -1,6 +1,6 @@
 /* Mud that goes along with bodies, bits, rings and rigid pipes: accelerations, frequencies and coupled modes in closed
  * form, the tumbling of a body in an ideal fluid against Kirchhoff's equations integrated by themselves, its energy and
- * momentum, and what is refused. */
+ * momentum, and what is refused. Equations: eq:mud.kirchhoff, eq:mud.added-mass. */
 #include <string.h>
 
 #include "mechanism.h"

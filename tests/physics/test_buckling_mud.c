@@ -1,6 +1,6 @@
 /* Buckling of a vertical string that stands on its bit in mud, of two densities and as it flows: the effective force
  * alone rules. Against an integration of the column under N_e (Lubinski 1950), his neutral point, and the string of the
- * same effective weight in air. */
+ * same effective weight in air. Equations: eq:mud.effective. */
 #include <string.h>
 
 #include "ode.h"

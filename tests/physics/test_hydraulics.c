@@ -1,5 +1,6 @@
 /* Pressures of mud by depth: against the flow of the described string, muds with a yield stress against pressures by
- * hand, tripping in Newtonian mud against the exact flow past a pipe that moves, equivalent densities, refusals. */
+ * hand, tripping in Newtonian mud against the exact flow past a pipe that moves, equivalent densities, refusals.
+ * Equations: eq:mud.ecd, eq:mud.trip. */
 #include <string.h>
 
 #include "drillmbd/drilling.h"

@@ -1,5 +1,6 @@
 /* Mud of two densities, its inertia, and bodies in it, against closed forms: hook load, true and effective axial force
- * of a hanging string, torque and drag, frequencies in an annulus, a body that falls and one that rises. */
+ * of a hanging string, torque and drag, frequencies in an annulus, a body that falls and one that rises. Equations:
+ * eq:mud.effective, eq:mud.added-mass. */
 #include <string.h>
 
 #include "drillmbd/drilling.h"

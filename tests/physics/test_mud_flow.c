@@ -1,6 +1,7 @@
 /* Mud that flows down a string and back: hook load, true and effective force, pressures, stretch and stress against the
  * balance of forces on the steel and Lame's tube; torque and drag, a run in time and its energy, the rate as an input
- * against scenes compiled with it, what is refused. */
+ * against scenes compiled with it, what is refused. Equations: eq:mud.along, eq:mud.balance, eq:mud.nozzle,
+ * eq:mud.stretch. */
 #include <stdlib.h>
 #include <string.h>
 

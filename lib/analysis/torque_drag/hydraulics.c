@@ -1,7 +1,7 @@
 /* Pressures of the mud with the string's far end at any depth: circulation, and tripping with a closed end.
  *
  * A closed string that moves along at the speed v displaces v A_o into the annulus of the area A, and its surface drags
- * mud along: the pressure is that of a flow A (v A_o/A + K v) past a string at rest (Burkhardt 1961). K is the mean
+ * mud along: the pressure is that of a flow A (v A_o/A + K v) past a string at rest (eq:mud.trip). K is the mean
  * speed over v of mud that the surface of the pipe drags along, kappa the ratio of the diameters:
  *     laminar K = (kappa^2 - 2 kappa^2 ln kappa - 1)/(2 (1 - kappa^2) ln kappa), exact for Newtonian mud;
  *     turbulent K = (sqrt((kappa^4 + kappa)/(1 + kappa)) - kappa^2)/(1 - kappa^2)   (Burkhardt 1961). */
@@ -115,7 +115,7 @@ static double vertical_depth(const dmb_scene *scene, double start, double depth)
     return g > 0.0 ? dmb_vec3_dot(scene->gravity, down) / g : 0.0;
 }
 
-/* [kg/m3] of a mud at rest with the same pressure; none above or at the height of the collar. */
+/* [kg/m3] of a mud at rest with the same pressure (eq:mud.ecd); none above or at the height of the collar. */
 static double equivalent(const column *c, double pressure)
 {
     const double column_weight = dmb_vec3_norm(c->scene->gravity) * c->sum.vertical_depth;

@@ -1,6 +1,7 @@
 /* Laws of the eccentric annulus against the flow itself: a fluid of the power law, div(|grad w|^(n-1) grad w) = -1, by
  * finite volumes in bipolar coordinates, in which the annulus is a rectangle, iterated on its viscosity and
- * extrapolated from two meshes. Newtonian it is the exact law; below, deviations of the correlations are told. */
+ * extrapolated from two meshes. Newtonian it is the exact law; below, deviations of the correlations are told.
+ * Equations: eq:mud.eccentric, eq:mud.eccentric-power. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* Losses of mud that flows and its pull on the pipe: Poiseuille's flow in closed form, the power law against an
  * integration of the speed across the annulus, turbulent friction against the formulas of API RP 13D, eccentric annuli
- * against a solution by other series, the narrow slit and each other. */
+ * against a solution by other series, the narrow slit and each other. Equations: eq:mud.pipe, eq:mud.zero-shear,
+ * eq:mud.annulus, eq:mud.turbulent. */
 #include <math.h>
 
 #include "check.h"

@@ -1,5 +1,6 @@
 /* Muds with a yield stress: Buckingham and Reiner's pipe in closed form, Herschel and Bulkley's fluid against the
- * integrated flow in pipe and annulus, limits of no yield stress and of no flow, local exponent, turbulence. */
+ * integrated flow in pipe and annulus, limits of no yield stress and of no flow, local exponent, turbulence. Equations:
+ * eq:mud.pipe-yield, eq:mud.slot, eq:mud.annulus-yield. */
 #include <math.h>
 
 #include "check.h"
