@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import time
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -25,6 +26,8 @@ from .unit_choice import NAMES
 from .unit_systems import SI, Units
 
 RPM = 2.0 * math.pi / 60.0
+_FORMULA = re.compile(r"[=+\-@\t\r\n]")  # the first character of a cell that a spreadsheet computes
+_AMOUNT = re.compile(r"[-+][0-9.]+(?:[eE][-+]?[0-9]+)?(?: ?[A-Za-z%][A-Za-z0-9/^ %]*)?")
 
 
 class Output:
@@ -84,9 +87,10 @@ class Output:
         if self.folder is not None:
             with open(self.path(name), "w", encoding="utf-8", newline="") as file:
                 writer = csv.writer(file, lineterminator="\n")
-                writer.writerow([self.units.head(head) for head in heads])
+                writer.writerow([no_formula(self.units.head(head)) for head in heads])
                 factors = [self.units.factor_of(head) for head in heads]
-                writer.writerows([[repr(float(one) * factor) if isinstance(one, float) else one for one, factor in zip(row, factors)] for row in rows])
+                writer.writerows([[repr(float(one) * factor) if isinstance(one, float) else no_formula(one) for one, factor in zip(row, factors)]
+                                  for row in rows])
 
     def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
         """A picture by a function of drillmbd.plots, where matplotlib is there."""
@@ -115,6 +119,12 @@ class Output:
         self.summary.update(status=status, elapsed_s=time.perf_counter() - self.started)
         if self.folder is not None:
             self.path("summary.json").write_text(json.dumps(finite(self.summary), indent=1) + "\n", encoding="utf-8")
+
+
+def no_formula(cell: Any) -> Any:
+    """A cell of a CSV file. Spreadsheets compute a text that begins with = + - @ or a control character; an apostrophe before it makes it text.
+    A number with its unit, as "-5 mm", is no formula."""
+    return f"'{cell}" if isinstance(cell, str) and _FORMULA.match(cell) and not _AMOUNT.fullmatch(cell) else cell
 
 
 def note_bounces(sim: Any, output: Output) -> None:

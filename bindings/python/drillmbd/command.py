@@ -226,6 +226,7 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("--failure", metavar="NAME", help="which failure subset and indices are about; left out: any, by margin over limit")
     asked.add_argument("--indices", type=int, metavar="N", help="Sobol' indices of N rows, N (2 + number of what varies) samples")
     asked.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
+    asked.add_argument("--salvage", action="store_true", help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
     asked.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
                        help="where samples are computed; the numbers are the same (default %(default)s)")
     asked.add_argument("--workers", type=int, metavar="N", help="left out: as many as processors")
@@ -265,7 +266,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def program() -> None:
     """The command as a program, which ends here with its exit status."""
     status = main()
-    if status == exit_status.STOPPED:  # Python would end by the signal itself if Ctrl-C came within an exec, as of a dataclass
+    # Python would end by the signal itself if Ctrl-C came within an exec, as of a dataclass, and HDF5 that could not write its file crashes at exit
+    if status in (exit_status.STOPPED, exit_status.FILE):
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(status)

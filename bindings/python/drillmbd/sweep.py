@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from . import __version__
-from .answers import Output, units_of
+from .answers import Output, no_formula, units_of
 from .errors import Error, Usage
 from .exit_status import FAILED, STOPPED, line_of
 from .probability.study import code
@@ -159,9 +159,9 @@ class Sweep:
         """All rows as CSV, a column for every number that any of them has."""
         heads = list(dict.fromkeys(key for row in self.rows for key in row))
         with open(path, "w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, heads, restval="", lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(self.rows)
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow([no_formula(head) for head in heads])
+            writer.writerows([[no_formula(row.get(head, "")) for head in heads] for row in self.rows])
 
     def finish(self, status: int, file: str) -> int:
         """Table and summary; returns the status."""

@@ -73,7 +73,8 @@ def probability(options: argparse.Namespace) -> int:
             if size < 2:
                 raise Usage("--engine mpi needs two ranks or more: mpirun -n 3 drillmbd probability ... --engine mpi")
             if rank > 0:
-                engines.mpi_work(sample)
+                with engines.mpi_together():
+                    engines.mpi_work(sample)
                 return 0
         asked = _Asked(sample, options)
         return carry_out(sample.draw.scene, asked.output, options, lambda *_: _answer(asked))
@@ -126,7 +127,7 @@ class _Asked:
             settings.update(rows=self.options.indices)
         file = None
         if self.output.folder is not None:
-            file = StudyFile(self.output.path("study.h5"), self.sample, settings)
+            file = StudyFile(self.output.path("study.h5"), self.sample, settings, self.options.salvage)
         study = Study(self.sample, engine, file, None if self.options.quiet else self._progress)
         if study.results:
             self.output.say(f"{len(study.results)} samples are in {self.output.folder}/study.h5 already")

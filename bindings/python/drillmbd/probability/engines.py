@@ -3,10 +3,13 @@ result depends on its number and z alone, so all engines give the same."""
 from __future__ import annotations
 
 import collections
+import contextlib
 import math
 import multiprocessing
 import multiprocessing.connection
 import os
+import sys
+import traceback
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
@@ -163,9 +166,12 @@ def processes(workers: int) -> Callable[..., Iterator[Result]]:
 
 def _cause(status: int | None) -> str:
     import signal
-    if status is not None and status < 0:
+    if status is None or status >= 0:
+        return f"exit status {status}"
+    try:
         return f"signal {signal.Signals(-status).name}"
-    return f"exit status {status}"
+    except ValueError:  # a real-time signal between SIGRTMIN and SIGRTMAX has no name
+        return f"signal {-status}"
 
 
 # ---- MPI ---------------------------------------------------------------------------------------------------------------
@@ -176,6 +182,23 @@ def mpi_rank() -> tuple[int, int]:
     """Rank and size of this process in MPI's world."""
     world = need("mpi4py.MPI").COMM_WORLD
     return int(world.Get_rank()), int(world.Get_size())
+
+
+@contextlib.contextmanager
+def mpi_together() -> Iterator[None]:
+    """An exception that is no answer to the user ends all ranks with its message: the others would wait for this one for ever."""
+    try:
+        yield
+    except (Exception, KeyboardInterrupt) as error:
+        from ..exit_status import FAILED as STATUS
+        from ..exit_status import status_and_message
+        rank, told = mpi_rank()[0], status_and_message(error)
+        if told is None:
+            traceback.print_exc()
+        print(f"drillmbd: rank {rank} of {mpi_rank()[1]} failed, all are ended: {told[1] if told else f'{type(error).__name__}: {error}'}",
+              file=sys.stderr, flush=True)
+        need("mpi4py.MPI").COMM_WORLD.Abort(told[0] if told else STATUS)
+        raise
 
 
 def mpi_work(sample: Any) -> None:

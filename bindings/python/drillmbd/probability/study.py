@@ -4,14 +4,20 @@ The file has one table, "samples", a row for each sample in the order in which t
 of. A run that was killed goes on from the rows that are there. A file of another scene, code or seed is refused."""
 from __future__ import annotations
 
+import contextlib
 import difflib
+import errno
 import fcntl
 import functools
+import glob
 import hashlib
+import io
 import json
 import math
 import os
 import pathlib
+import re
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -19,14 +25,8 @@ from typing import Any, Protocol
 from .. import __version__
 from .._library import lib
 from .._optional import need
-from .sample import DONE, FAILED, Result
-
-LONGEST = 240  #: bytes of a message that are kept
-_OPEN: set[str] = set()  # files that this process writes
-
-
-class StudyError(ValueError):
-    """A study file that is refused."""
+from .rows import Damaged, StudyError, content_of, end_of, head_of, mark_of, packed, read_rows, recovered, result, row_type
+from .sample import FAILED, Result
 
 
 class Sample(Protocol):
@@ -96,86 +96,189 @@ def differences(old: dict[str, str], new: dict[str, str]) -> list[str]:
     return told
 
 
-def _row_type(names: int, inputs: int) -> Any:
-    numpy = need("numpy")
-    return numpy.dtype([("number", "<i8"), ("status", "<i4"), ("seconds", "<f8"), ("margin", "<f8", (names,)),
-                        ("demand", "<f8", (names,)), ("input", "<f8", (inputs,)), ("message", f"S{LONGEST}")])
+# ---- The file ----------------------------------------------------------------------------------------------------------
+CHUNK = 256  #: rows that HDF5 keeps together
+SPARE, INDEX = 1 << 16, 1 << 8  #: bytes that a study file may need beside its rows, in all and for each chunk
+_GUARD = threading.Lock()
+_OPEN: set[tuple[int, int]] = set()  # lock files that this process holds, by device and inode
+
+
+class _Lock:
+    """The right to write a study file, a POSIX lock on a file beside it. Such a lock is lost with any close of that file by its process, so
+    a process that holds it never opens the file again. Workers that outlive their parent do not hold it."""
+
+    def __init__(self, path: pathlib.Path) -> None:
+        place, busy = path.with_name(path.name + ".lock"), StudyError(f"{path}: another run writes it now; wait for it, or give another file")
+        with _GUARD:
+            if place.exists() and _place_of(place) in _OPEN:
+                raise busy
+            self._file = open(place, "w", encoding="utf-8")
+            try:
+                fcntl.lockf(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                self._file.close()
+                raise busy from None
+            self._key = _place_of(self._file.fileno())
+            _OPEN.add(self._key)
+
+    def release(self) -> None:
+        with _GUARD:
+            _OPEN.discard(self._key)
+            self._file.close()
+
+
+def _place_of(file: Any) -> tuple[int, int]:
+    """Device and inode."""
+    found = os.stat(file)
+    return found.st_dev, found.st_ino
+
+
+def _image(rows: Any, attributes: dict[str, str]) -> bytes:
+    """A study file in memory: a full disk then fails where Python writes it, not within HDF5."""
+    stream, head = io.BytesIO(), head_of(attributes)
+    with need("h5py").File(stream, "w", libver="latest", userblock_size=len(head)) as file:
+        file.create_dataset("samples", data=rows, maxshape=(None,), chunks=(CHUNK,), dtype=rows.dtype)
+        for key, value in attributes.items():
+            file.attrs[key] = value
+    stream.seek(0)
+    stream.write(head)
+    return stream.getvalue()
 
 
 class StudyFile:
     """The file; one writer at a time, held by a lock beside it. Rows that a killed writer left are copied to a new file, which then
-    takes the old one's place, so that nothing that is there is ever written over."""
+    takes the old one's place, so that nothing that is there is ever written over. A damaged file is refused (Damaged); with `salvage` its
+    sound rows are taken and it is kept beside as NAME.damaged."""
 
-    def __init__(self, path: Any, sample: Sample, settings: dict[str, Any]) -> None:
+    def __init__(self, path: Any, sample: Sample, settings: dict[str, Any], salvage: bool = False) -> None:
         self.path = pathlib.Path(path)
-        h5py, numpy = need("h5py"), need("numpy")
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        self._lock = open(self.path.with_name(self.path.name + ".lock"), "w", encoding="utf-8")
-        try:
-            if str(self.path.resolve()) in _OPEN:
-                raise OSError
-            fcntl.lockf(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # of this process; workers that outlive it do not hold it
-        except OSError:
-            self._lock.close()
-            raise StudyError(f"{self.path}: another run writes it now; wait for it, or give another file") from None
         self.names, self.inputs = list(sample.names), list(sample.inputs)
-        known = identity(sample, settings)
-        kind = _row_type(len(self.names), len(self.inputs))
-        try:
-            rows = self._old(known) if self.path.exists() else numpy.zeros(0, kind)
-        except BaseException:
-            self._lock.close()
-            raise
-        new = self.path.with_name(self.path.name + ".new")
-        self._file = h5py.File(new, "w", libver="latest")
-        self._table = self._file.create_dataset("samples", data=rows.astype(kind), maxshape=(None,), chunks=(256,), dtype=kind)
-        self._file.attrs["study"] = json.dumps(known)
-        self._file.attrs["names"], self._file.attrs["inputs"] = json.dumps(self.names), json.dumps(self.inputs)
-        self._file.flush()
-        os.replace(new, self.path)
-        self._file.swmr_mode = True
-        _OPEN.add(str(self.path.resolve()))
-        self.results = {int(row["number"]): _result(row) for row in rows}
+        self._known = identity(sample, settings)
+        self._attributes = {"study": json.dumps(self._known), "names": json.dumps(self.names), "inputs": json.dumps(self.inputs)}
+        self._mark, self._kind = mark_of(self._attributes), row_type(len(self.names), len(self.inputs))
         self._waiting: list[Result] = []
+        self._lock = _Lock(self.path)
+        try:
+            self._open(salvage)
+        except BaseException:
+            self._lock.release()
+            raise
 
-    def _old(self, known: dict[str, str]) -> Any:
-        rows, attributes = read_rows(self.path)
-        different = differences(json.loads(attributes["study"]), known)
+    def _open(self, salvage: bool) -> None:
+        old, kept = self._old(salvage), self._kept_files()
+        self.results = {int(row["number"]): result(row) for rows in [old, *(recovered(one, self._attributes) for one in kept)] for row in rows}
+        new = self.path.with_name(self.path.name + ".new")
+        _write(new, self._whole())
+        os.replace(new, self.path)
+        for one in kept:
+            one.unlink()
+        self._file = need("h5py").File(self.path, "r+", libver="latest")
+        self._table = self._file["samples"]
+        self._file.swmr_mode = True
+        self._place = _place_of(self.path)
+        self._end = os.open(self.path, os.O_RDWR)
+        self._reserved = self._begin = os.fstat(self._end).st_size  # [bytes]
+
+    def _whole(self) -> bytes:
+        """A file with all results."""
+        return _image(packed(list(self.results.values()), self._kind, self._mark, 0), self._attributes)
+
+    def _kept_files(self) -> list[pathlib.Path]:
+        """Rows of this study that a writer put aside when it had lost its file."""
+        found = sorted(self.path.parent.glob(glob.escape(self.path.name) + ".kept-*"))
+        return [one for one in found if len(recovered(one, self._attributes))]
+
+    def _old(self, salvage: bool) -> Any:
+        """The rows of the file that is there."""
+        if not self.path.exists():
+            return need("numpy").zeros(0, self._kind)
+        try:
+            return self._sound_rows()
+        except Damaged as error:
+            if not salvage:
+                raise
+            os.replace(self.path, self.path.with_name(self.path.name + ".damaged"))
+            return error.rows
+
+    def _sound_rows(self) -> Any:
+        try:
+            found = content_of(self.path)
+        except StudyError as error:
+            rows = recovered(self.path, self._attributes)
+            if len(rows):
+                raise Damaged(self.path, str(error).split(": is no study file: ", 1)[-1], rows) from error
+            raise
+        different = differences(json.loads(found.attributes["study"]), self._known)
         if different:
             raise StudyError(f"{self.path}: is a study of something else; give another file, or move this one away. What differs:\n  "
                              + "\n  ".join(different))
-        return rows
+        if found.damage:
+            raise Damaged(self.path, found.damage, found.rows)
+        return found.rows
 
-    def add(self, result: Result) -> None:
+    def add(self, one: Result) -> None:
         """One more; every number once."""
-        if result.number not in self.results:
-            self.results[result.number] = result
-            self._waiting.append(result)
+        if one.number not in self.results:
+            self.results[one.number] = one
+            self._waiting.append(one)
 
     def flush(self) -> None:
-        """Puts what was added into the file."""
-        numpy = need("numpy")
+        """Puts what was added into the file. Raises OSError if the disk is full."""
         if not self._waiting:
             return
-        rows = numpy.zeros(len(self._waiting), self._table.dtype)
-        for row, one in zip(rows, self._waiting):
-            row["number"], row["status"], row["seconds"] = one.number, one.status, one.seconds
-            row["margin"], row["demand"], row["input"] = one.margins, one.demands, one.inputs
-            row["message"] = one.message.encode()[:LONGEST]
-        count = len(self._table)
-        self._table.resize((count + len(rows),))
-        self._table[count:] = rows
-        self._table.flush()
+        self._still_there()
+        rows = packed(self._waiting, self._kind, self._mark, len(self._table))
+        self._reserve(len(self._table) + len(rows))
+        try:
+            count = len(self._table)
+            self._table.resize((count + len(rows),))
+            self._table[count:] = rows
+            self._table.flush()
+        except (RuntimeError, OSError) as error:
+            raise _os_error(error, self.path) from error
         self._waiting.clear()
+
+    def _reserve(self, rows: int) -> None:
+        """Makes the file longer than HDF5 needs it for so many rows. Raises OSError if the disk has no room: HDF5 itself ends the process
+        then."""
+        end = self._begin + SPARE + (rows // CHUNK + 2) * (CHUNK * self._kind.itemsize + INDEX)
+        if end <= self._reserved or not hasattr(os, "posix_fallocate"):
+            return
+        try:
+            os.posix_fallocate(self._end, self._reserved, end - self._reserved)
+        except OSError as error:
+            raise OSError(error.errno, f"{os.strerror(error.errno or errno.EIO)}; the rows so far are in the file", str(self.path)) from error
+        self._reserved = end
+
+    def _still_there(self) -> None:
+        """Raises StudyError if another file has taken the place of this one; all rows are put aside then, for the next run."""
+        try:
+            if _place_of(self.path) == self._place:
+                return
+        except FileNotFoundError:
+            pass
+        aside = self.path.with_name(f"{self.path.name}.kept-{os.getpid()}")
+        _write(aside, self._whole())
+        self._waiting.clear()
+        raise StudyError(f"{self.path}: was moved or replaced while this run wrote it, as by another run on a file system without locks; "
+                         f"its {len(self.results)} finished rows are in {aside.name}, which the same command takes in when it is called again")
 
     def close(self) -> None:
         """Writes the rest and lets the file go."""
         try:
             self.flush()
         finally:
-            _OPEN.discard(str(self.path.resolve()))
-            self._file.close()
-            self._lock.close()
+            try:
+                self._file.close()
+                end = end_of(os.pread(self._end, 1 << 20, 0))
+                if end:  # what was reserved and not used
+                    os.ftruncate(self._end, end)
+            except RuntimeError as error:
+                raise _os_error(error, self.path) from error
+            finally:
+                os.close(self._end)
+                self._lock.release()
 
     def __enter__(self) -> StudyFile:
         return self
@@ -184,24 +287,24 @@ class StudyFile:
         self.close()
 
 
-def _result(row: Any) -> Result:
-    return Result(int(row["number"]), int(row["status"]), [float(v) for v in row["margin"]], [float(v) for v in row["demand"]],
-                  [float(v) for v in row["input"]], float(row["seconds"]), row["message"].decode("utf-8", "replace"))
-
-
-def read_rows(path: Any) -> tuple[Any, dict[str, str]]:
-    """The rows of a study file that are complete, a numpy array of records (number, status, seconds, margin, demand, input,
-    message), and its attributes; also while another process writes it."""
-    h5py, numpy = need("h5py"), need("numpy")
+def _write(path: pathlib.Path, data: bytes) -> None:
+    """The whole or nothing."""
     try:
-        with h5py.File(path, "r", libver="latest", swmr=True) as file:
-            rows = file["samples"][:]
-            attributes = {key: str(value) for key, value in file.attrs.items()}
-            attributes["study"], attributes["names"]
-    except (OSError, KeyError, ValueError) as error:
-        raise StudyError(f"{path}: is no study file: {error}") from error
-    rows = rows[(rows["status"] == DONE) | (rows["status"] == FAILED)]  # a row that was cut off is all 0
-    return rows[numpy.unique(rows["number"], return_index=True)[1]], attributes
+        with open(path, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError:
+        with contextlib.suppress(OSError):
+            path.unlink()
+        raise
+
+
+def _os_error(error: BaseException, path: pathlib.Path) -> OSError:
+    """An error of HDF5 as one of the system."""
+    number = re.search(r"errno = (\d+)", str(error))
+    code = int(number.group(1)) if number else errno.EIO
+    return OSError(code, os.strerror(code), str(path))
 
 
 @dataclass
@@ -262,3 +365,6 @@ class Study:
 def usable(margins: Sequence[float]) -> bool:
     """Whether a result has all of its margins."""
     return not any(math.isnan(one) for one in margins)
+
+
+__all__ = ["Damaged", "Progress", "Sample", "Study", "StudyError", "StudyFile", "code", "differences", "identity", "read_rows", "usable"]

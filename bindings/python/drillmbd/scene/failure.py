@@ -2,6 +2,7 @@
 drillmbd.probability.limits."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -123,6 +124,25 @@ class Reader:
             self.problems.add(path + ("limit",), table["limit"], "must be > 0")
         if "from" in values and "to" in values and not values["to"] > values["from"]:
             self.problems.add(path + ("to",), table["to"], "must be > from")
+        self._within_run(path, table, values)
+
+    def _within_run(self, path: Path, table: dict[str, Any], values: dict[str, float]) -> None:
+        """A failure that nothing is looked at for would have no margin in any sample."""
+        if self.loader.table(("variability",)).get("question") == "static":
+            end, about = 0.0, "the time of the static equilibrium; leave it out"
+        else:
+            end, about = self._end(), "the end of the run"
+        if values.get("from", -math.inf) > end:
+            self.problems.add(path + ("from",), table["from"], f"must be <= {end:g} s, {about}")
+        if values.get("to", math.inf) < 0.0:
+            self.problems.add(path + ("to",), table["to"], "must be >= 0 s, the beginning of the run")
+
+    def _end(self) -> float:
+        """[s] of the run; infinite where the scene does not say."""
+        try:
+            return units.parse(self.loader.table(("run",))["end"], "s")
+        except (KeyError, units.UnitError):
+            return math.inf
 
     def _parts(self, path: Path, table: dict[str, Any], needs: list[str]) -> tuple[dict[str, Id], dict[str, str]]:
         """The parts that a kind is about: as written, or the only one that fits."""
