@@ -38,7 +38,7 @@ class DamageTest(FolderTest):
         self.known = {int(row["number"]): row["margin"].tolist() for row in read_rows(self.file)[0]}
 
     def study(self, numbers, salvage=False):
-        """What is computed, and the rows after it."""
+        """Number of samples that are computed, and all rows after them."""
         with StudyFile(self.file, Toy(self.folder), {}, salvage) as file:
             study = Study(Toy(self.folder), engines.serial, file)
             study.run(numbers, point)
@@ -246,7 +246,7 @@ class InputTest(FolderTest):
                       self.ask("check", self.write("rig.toml", late), status=2))
         self.ask("check", self.write("rig.toml", late.replace("31 ms", "30 ms")))
         static = SCENE.replace("seed = 7", 'seed = 7\nquestion = "static"').replace('limit = "111 N m"', 'limit = "111 N m"\nfrom = "1 ms"')
-        with self.assertRaisesRegex(scene.SceneError, "must be <= 0 s, the time of the static equilibrium"):
+        with self.assertRaisesRegex(scene.SceneError, "must be <= 0 s, the time of a static state"):
             scene.loads(static)
         with self.assertRaisesRegex(scene.SceneError, "must be >= 0 s, the beginning of the run"):
             scene.loads(SCENE.replace('limit = "111 N m"', 'limit = "111 N m"\nto = "-1 ms"'))

@@ -235,8 +235,9 @@ def as_operation(one: Any) -> Operation:
 def usual_operation(kind: int | str, **fields: Any) -> Operation:
     """The Operation OPERATION_..., or of a name as "pick-up", at usual speeds, with further fields such as weight_on_bit
     [N]."""
-    operation, names = Operation(), [operation_name(one) for one in OPERATIONS]
+    operation = Operation()
     if isinstance(kind, str):
+        names = [operation_name(one) for one in OPERATIONS]
         if kind not in names:
             refuse_value("operation", "kind", kind, f"be one of {' '.join(names)}")
         kind = names.index(kind)

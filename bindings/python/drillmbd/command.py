@@ -61,6 +61,10 @@ libcholmod must be installed where it runs."""
 PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     on all processors
   drillmbd probability rig.toml -o out --samples 1000                     again: goes on where it was stopped, or adds samples
+  drillmbd probability rig.toml -o out --question torque-drag --samples 100000   as a soft string: thousands of samples a second
+  drillmbd probability rig.toml -o out --question auto --samples 10000    runs in time only where torque and drag do not decide
+  drillmbd probability rig.toml -o out --vary "programme[1].term.h1=60 rpm,100 rpm,130 rpm" --vary "programme[0].term.h1=8 mm/s,12 mm/s"   a map
+  drillmbd probability rig.toml -o out --until 30%                         as many samples as that needs
   drillmbd probability rig.toml -o out --method subset --failure stress   a rare failure
   drillmbd probability rig.toml -o out --indices 64                       what matters most: Sobol' indices
   mpirun -n 9 drillmbd probability rig.toml -o out --engine mpi
@@ -133,7 +137,7 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report"])
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
@@ -220,6 +224,12 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
     asked.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
     asked.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
+    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"], help="that each sample answers, instead of [variability] question: "
+                       "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
+    asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES", help="a map of the probability over KEY=V1,V2,... or "
+                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key")
+    asked.add_argument("--until", metavar="RULE", help='adds samples up to --samples until half of the interval is "30%%" of the probability, or it is '
+                       '"below 1e-2" or above')
     asked.add_argument("--samples", type=int, metavar="N", help="instead of [variability] samples; of a subset simulation: in a level")
     asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"], help="instead of [variability] method")
     asked.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
@@ -290,6 +300,9 @@ def _tell(status: int, text: str) -> int:
 
 
 def _sweep(options: Any) -> int:
+    if options.question == "probability":
+        raise Usage("sweep does not repeat probability, which has a map of its own with the same random numbers everywhere: "
+                    f"drillmbd probability {options.scene} " + " ".join(f"--vary {text!r}" for text in options.vary))
     from . import scene
     from .sweep import MOST_CASES, sweep, varied
     try:

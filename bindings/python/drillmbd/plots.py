@@ -406,6 +406,42 @@ def study(values: Sequence[float], columns: dict[str, Sequence[float]], paramete
     return figure
 
 
+def demands(found: Sequence[Any]) -> Any:
+    """Histograms of the demands of a study (drillmbd.probability.demands), with percentiles 5 and 95 and the limit."""
+    from .scene.failure import KINDS
+    figure, all_axes = _axes(len(found), 1, (7.0, 2.2 * len(found)))
+    for axes, one in zip(all_axes[:, 0], found):
+        axes.stairs(one.counts, one.edges, fill=True, color=COLOURS[5])
+        for point in (one.percentiles[0], one.percentiles[-1]):
+            axes.axvline(point.value, color=COLOURS[1], linestyle=":", label=f"P{point.percent}")
+        axes.axvline(one.failure.limit, color=COLOURS[2], linestyle="--", label="limit")
+        axes.set_xlabel(f"{one.failure.name} [{KINDS[one.failure.kind].unit}]")
+        axes.set_ylabel("samples [-]")
+        _legend(axes)
+    return figure
+
+
+def probability_map(vary: Sequence[tuple[str, Sequence[Any]]], cells: Sequence[tuple[float, float, float] | None], name: str) -> Any:
+    """Failure probability over one or two parameters: in each cell the probability and its interval in percent; empty where there is none."""
+    numpy = need("numpy")
+    rows, columns = (vary[0], vary[1]) if len(vary) == 2 else (("", [""]), vary[0])
+    figure, all_axes = _axes(1, 1, (2.5 + 1.4 * len(columns[1]), 1.8 + 0.9 * len(rows[1])))
+    axes = all_axes[0, 0]
+    values = numpy.array([math.nan if one is None else one[0] for one in cells]).reshape(len(rows[1]), len(columns[1]))
+    image = axes.imshow(100.0 * values, cmap="cividis", vmin=0.0, vmax=max(1.0, 100.0 * float(numpy.nanmax(values, initial=0.0))), aspect="auto")
+    for i, one in enumerate(cells):
+        if one is not None:
+            axes.text(i % len(columns[1]), i // len(columns[1]), f"{100 * one[0]:.3g} %\n{100 * one[1]:.2g} .. {100 * one[2]:.2g} %", ha="center",
+                      va="center", bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5}, fontsize=8)
+    axes.grid(False)
+    axes.set_xticks(range(len(columns[1])), [str(one) for one in columns[1]])
+    axes.set_yticks(range(len(rows[1])), [str(one) for one in rows[1]])
+    axes.set_xlabel(columns[0])
+    axes.set_ylabel(rows[0])
+    figure.colorbar(image, label=f"probability of {name} [%]")
+    return figure
+
+
 def spectrum(table: Any, columns: Sequence[str], title: str = "") -> Any:
     """Amplitudes of the columns by frequency, of rows at equal times: discrete Fourier transform under a Hann window,
     without the mean. `table`: shape (rows, columns), its first column time [s]."""

@@ -121,7 +121,7 @@ def read_probability(folder: str, scene: Scene) -> Probability:
     margins = _margins(place / "samples.csv")
     limits = {one.name: (KINDS[one.kind].unit, one.limit) for one in scene.failures}
     scales = {name: abs(limit) or 1.0 for name, (_, limit) in limits.items()}
-    outcomes, static = [], scene.variability is not None and scene.variability.question == "static"
+    outcomes, static = [], summary.get("question") == "static"
     for name, estimate in summary["estimates"].items():
         if name in limits:
             outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, []))), static))

@@ -135,13 +135,18 @@ class Draw:
         z = numpy.asarray(z, dtype=float)
         if z.shape != (self.dimension,):
             raise ValueError(f"z has the shape {z.shape}, must be ({self.dimension},)")
-        parts = numpy.split(z, numpy.cumsum(self.sizes)[:-1])
-        correlated = self.mix @ parts[0]
-        found: dict[str, Any] = {one.name: float(self.translations[one.name](correlated[i]))
-                                 for i, one in enumerate(self.varies.scatters)}
+        return self.values_of([z])[0]
+
+    def values_of(self, many: Any) -> list[dict[str, Any]]:
+        """The values of several samples, of each the same as alone: products row by row, distributions of all rows at once."""
+        numpy = need("numpy")
+        rows = numpy.asarray(many, dtype=float)
+        parts = [rows[:, end - size:end] for size, end in zip(self.sizes, numpy.cumsum(self.sizes))]
+        correlated = numpy.array([self.mix @ row for row in parts[0]])
+        found: dict[str, Any] = {one.name: self.translations[one.name](correlated[:, i]).tolist() for i, one in enumerate(self.varies.scatters)}
         made = [(one.name, how) for one, how in self.fields] + [(one.name, how) for one, how, _ in self.processes]
-        found.update({name: self.translations[name](how(part)) for (name, how), part in zip(made, parts[1:])})
-        return found
+        found.update({name: self.translations[name](how.many(part)) for (name, how), part in zip(made, parts[1:])})
+        return [{name: values[i] for name, values in found.items()} for i in range(len(rows))]
 
     def changes(self, values: dict[str, Any]) -> dict[str, Any]:
         """Changes for scene.load that make the scene of one sample."""

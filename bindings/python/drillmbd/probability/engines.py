@@ -25,8 +25,11 @@ LOOK = 1.0      #: [s] between looks for Ctrl-C
 SUBMISSIONS = 3  #: of a sample to a Dask cluster that loses it
 
 
-def lost(sample: Any, number: int, message: str) -> Result:
-    """The result of a sample that nobody could compute."""
+def lost(sample: Any, task: tuple[int, Any], message: str) -> Any:
+    """The result of a task that nobody could compute: of its sample, or a list of those of its samples (Blocks)."""
+    number, z = task
+    if isinstance(z, list):
+        return [lost(sample, one, message) for one in z]
     count = len(sample.names)
     return Result(number, FAILED, [math.nan] * count, [math.nan] * count, [math.nan] * len(sample.inputs), 0.0, message)
 
@@ -148,7 +151,7 @@ def processes(workers: int) -> Callable[..., Iterator[Result]]:
                         if kills[number] < TRIES:
                             again.append((number, z))
                         else:
-                            found = lost(sample, number, f"{told}, {TRIES} times")
+                            found = lost(sample, (number, z), f"{told}, {TRIES} times")
                     task = following()
                     if task is not None:
                         one.give(task)
@@ -209,7 +212,8 @@ def mpi_work(sample: Any) -> None:
         task = world.recv(source=0, status=status)
         if status.Get_tag() == _END:
             return
-        world.send(sample(*task), dest=0)
+        number, z = task
+        world.send(sample.many(z) if isinstance(z, list) else sample(number, z), dest=0)
 
 
 def mpi(sample: Any, tasks: Iterable[tuple[int, Any]]) -> Iterator[Result]:
@@ -269,19 +273,27 @@ def dask(workers: int, address: str | None = None) -> Callable[..., Iterator[Res
                 give(next(source, None), 1)
             for future in coming:
                 task, times = running.pop(future.key)
-                if future.status == "finished":
-                    found = future.result()
-                else:
-                    reason = None if future.status in ("cancelled", "lost") else future.exception()
+                found, reason = _outcome(future)
+                if found is None:
                     future.release()
                     if times < SUBMISSIONS and not isinstance(reason, distributed.KilledWorker):
                         give(task, times + 1)
                         continue
-                    found = lost(sample, task[0], f"its worker died: {reason or future.status}")
+                    found = lost(sample, task, f"its worker died: {reason or future.status}")
                 future.release()
                 give(next(source, None), 1)
                 yield found
     return run
+
+
+def _outcome(future: Any) -> tuple[Any, Any]:
+    """Result and reason of its lack. The worker that holds a finished result may be lost before it is fetched."""
+    if future.status in ("cancelled", "lost"):
+        return None, None
+    try:
+        return future.result(), None
+    except Exception as error:  # of the sample, or of the cluster
+        return None, error
 
 
 def _call(sample: Any, number: int, z: Any) -> Any:

@@ -59,6 +59,10 @@ class Expansion:
     def __call__(self, z: Any) -> Any:
         return need("numpy").asarray(z, dtype=float) if self.matrix is None else self.matrix @ z
 
+    def many(self, z: Any) -> Any:
+        """Of several rows; row by row, so that the digits of one do not depend on the others."""
+        return need("numpy").array([self(row) for row in z])
+
 
 class Markov:
     """The exponential kernel on an even grid without a matrix: x_0 = z_0, x_k = a x_(k-1) + sqrt(1 - a^2) z_k with
@@ -68,10 +72,14 @@ class Markov:
         self.a, self.modes = math.exp(-spacing / length), count
 
     def __call__(self, z: Any) -> Any:
-        numpy = need("numpy")
-        scaled = math.sqrt(1.0 - self.a * self.a) * numpy.asarray(z, dtype=float)
-        scaled[0] = z[0]
-        return need("scipy.signal").lfilter([1.0], [1.0, -self.a], scaled)
+        return self.many([z])[0]
+
+    def many(self, z: Any) -> Any:
+        """Of several rows."""
+        z = need("numpy").asarray(z, dtype=float)
+        scaled = math.sqrt(1.0 - self.a * self.a) * z
+        scaled[:, 0] = z[:, 0]
+        return need("scipy.signal").lfilter([1.0], [1.0, -self.a], scaled, axis=1)
 
 
 @functools.lru_cache(maxsize=16)

@@ -4,15 +4,16 @@ little is bad), below 0 in a failure."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
 from .._keep import as_place
 from .._optional import need
+from .._structs import TorqueDragRow
 from ..profile import values_of
-from ..scene.failure import Failure
+from ..scene.failure import KINDS, Failure
 from ..sim import Sim
 
 if TYPE_CHECKING:
@@ -45,8 +46,8 @@ def mean_in_time(times: Any, values: Any) -> float:
     return float(numpy.trapz(values, times) / (times[-1] - times[0]))
 
 
-def _rig_torque(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
-    return float(abs(s["torque"]).max())
+def _magnitude(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return float(abs(s["value"]).max())
 
 
 def _bit_stuck(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
@@ -63,63 +64,102 @@ def _stick_slip(times: Any, s: dict[str, Any], values: dict[str, float]) -> floa
     return float(s["spin"].max() - s["spin"].min()) / (2.0 * mean) if mean > 0.0 else 0.0
 
 
-def _connection(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+def _tightening(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
     """Torque that tightens a right-hand thread (TORQUE_SIGN)."""
-    return max(0.0, float(s["most"].max()) if values["sign"] > 0.0 else float(-s["least"].min()))
+    return max(0.0, float(s["most"].max()) if TORQUE_SIGN > 0.0 else float(-s["least"].min()))
 
 
-def _back_off(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
-    return max(0.0, float(-s["least"].min()) if values["sign"] > 0.0 else float(s["most"].max()))
+def _loosening(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return max(0.0, float(-s["least"].min()) if TORQUE_SIGN > 0.0 else float(s["most"].max()))
 
 
 def _largest(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
     known = s["value"][~need("numpy").isnan(s["value"])]
-    return float(known.max()) * values.get("factor", 1.0) if len(known) else math.nan
+    return float(known.max()) if len(known) else math.nan
+
+
+def _over(key: str) -> Callable[[Any, dict[str, Any], dict[str, float]], float]:
+    """The largest value over a key of the failure."""
+    return lambda times, s, values: _largest(times, s, values) / values[key]
 
 
 def _profile(quantity: int) -> dict[str, tuple[str, int, str]]:
     return {"value": ("string", int(quantity), "max")}
 
 
+# ---- From torque and drag to a demand ----------------------------------------------------------------------------------
+@dataclass
+class Soft:
+    """Torque and drag of one sample: rows of the operations by their word, the load on the bit, the largest wall force per length."""
+    rows: dict[str, TorqueDragRow]  #: "pulled out", "pushed in", "rotated"
+    weight_on_bit: float       #: [N]
+    yield_strength: float      #: [Pa] that the shares of the rows are of
+    wall_force: float = 0.0    #: [N/m]
+
+    def largest(self, of: Callable[[TorqueDragRow], float]) -> float:
+        """Over the operations; infinite where one of them locks up, because no thrust at the rig does it."""
+        values = [math.inf if row.locked else of(row) for row in self.rows.values()]
+        return math.nan if any(math.isnan(one) for one in values) else max(values)
+
+
+def _soft_lock_up(soft: Soft, values: dict[str, float]) -> float:
+    push = soft.largest(lambda row: -row.hook_load)
+    return soft.weight_on_bit / push if push > 0.0 else math.inf
+
+
 @dataclass(frozen=True)
 class How:
-    """The function that finds the demand of a kind, and the channels it needs."""
+    """The functions that find the demand of a kind from series in time or from torque and drag, and the channels that the series are of."""
     demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
     signals: dict[str, tuple[str, int, str]]  #: part, quantity, what of it
-    fails_below: bool = False
+    soft: Callable[[Soft, dict[str, float]], float] | None = None
 
 
 C, P = enums.Quantity, enums.ProfileQuantity
 HOW: dict[str, How] = {
     "bit-stuck": How(_bit_stuck, {"spin": ("bit", C.SPIN, ""), "turning": ("head", C.DRIVE_SPEED, "")}),
-    "rig-torque": How(_rig_torque, {"torque": ("head", C.DRIVE_FORCE, "")}),
-    "rig-push": How(_largest, {"value": ("feed", C.DRIVE_FORCE, "")}),
-    "rig-pull": How(lambda t, s, v: float(-s["value"].min()), {"value": ("feed", C.DRIVE_FORCE, "")}),
-    "lock-up": How(_lock_up, {"push": ("feed", C.DRIVE_FORCE, ""), "weight": ("bit", C.BIT_WEIGHT, "")}, True),
-    "helical-buckling": How(_largest, _profile(P.HELICAL_SHARE)),
-    "stress": How(_largest, _profile(P.VON_MISES)),
-    "connection-torque": How(_connection, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")}),
-    "back-off": How(_back_off, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")}),
+    "rig-torque": How(_magnitude, {"value": ("head", C.DRIVE_FORCE, "")}, lambda soft, v: soft.largest(lambda row: row.torque)),
+    "rig-push": How(_largest, {"value": ("feed", C.DRIVE_FORCE, "")}, lambda soft, v: soft.largest(lambda row: -row.hook_load)),
+    "rig-pull": How(lambda t, s, v: float(-s["value"].min()), {"value": ("feed", C.DRIVE_FORCE, "")},
+                    lambda soft, v: math.inf if soft.rows["pulled out"].locked else soft.rows["pulled out"].hook_load),
+    "lock-up": How(_lock_up, {"push": ("feed", C.DRIVE_FORCE, ""), "weight": ("bit", C.BIT_WEIGHT, "")}, _soft_lock_up),
+    "helical-buckling": How(_largest, _profile(P.HELICAL_SHARE), lambda soft, v: soft.largest(lambda row: row.helical_share)),
+    "stress": How(_over("strength"), _profile(P.VON_MISES),
+                  lambda soft, v: soft.largest(lambda row: row.yield_share) * soft.yield_strength / v["strength"]),
+    "connection-torque": How(_tightening, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")},
+                             lambda soft, v: soft.largest(lambda row: row.torque)),
+    "back-off": How(_loosening, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")}),
     "fatigue": How(_largest, {"value": ("string", -1, "damage")}),
     "lateral-acceleration": How(_largest, _profile(P.ACCELERATION_LATERAL)),
     "bit-off-bottom": How(lambda t, s, v: longest(t, s["weight"] <= v["load"]), {"weight": ("bit", C.BIT_WEIGHT, "")}),
-    "wall-pressure": How(_largest, _profile(P.NORMAL_FORCE)),
+    "wall-pressure": How(_over("width"), _profile(P.NORMAL_FORCE), lambda soft, v: soft.wall_force / v["width"]),
     "stick-slip": How(_stick_slip, {"spin": ("bit", C.SPIN, "")})}
 
 
+def margin_of(failure: Failure, demand: float) -> float:
+    """limit - demand, or demand - limit where little is bad. NaN is refused: it is no margin."""
+    if math.isnan(demand):
+        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks what {failure.kind} is about")
+    return demand - failure.limit if KINDS[failure.kind].low else failure.limit - demand
+
+
 def margin(failure: Failure, times: Any, signals: dict[str, Any]) -> tuple[float, float]:
-    """Margin and demand of a failure, by its signals in time. NaN is refused: it is no margin."""
-    numpy = need("numpy")
-    how, values = HOW[failure.kind], dict(failure.values)
+    """Margin and demand of a failure, by its signals in time."""
+    numpy, values = need("numpy"), failure.values
     keep = (times >= values.get("from", -math.inf)) & (times <= values.get("to", math.inf))
     if not keep.any():
         raise ValueError(f"{failure.name}: no look at the run within from .. to; it was looked at {times[0]:g} .. {times[-1]:g} s")
-    values.update(factor={"stress": 1.0 / values.get("strength", 1.0), "wall-pressure": 1.0 / values.get("width", 1.0)}.get(failure.kind, 1.0))
-    values.setdefault("sign", TORQUE_SIGN)
-    demand = how.demand(times[keep], {name: numpy.asarray(one)[keep] for name, one in signals.items()}, values)
-    if math.isnan(demand):
-        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks what {failure.kind} is about")
-    return (demand - failure.limit if how.fails_below else failure.limit - demand), demand
+    demand = HOW[failure.kind].demand(times[keep], {name: numpy.asarray(one)[keep] for name, one in signals.items()}, values)
+    return margin_of(failure, demand), demand
+
+
+def soft_margin(failure: Failure, soft: Soft) -> tuple[float, float]:
+    """Margin and demand of a failure by torque and drag."""
+    function = HOW[failure.kind].soft
+    if function is None:
+        raise ValueError(f"{failure.name}: torque and drag say nothing about {failure.kind}")
+    demand = function(soft, failure.values)
+    return margin_of(failure, demand), demand
 
 
 #: Sign of the section torque where a rig turns a string towards +x against a resistance, clockwise looking into the hole,
@@ -187,8 +227,11 @@ class Watch:
                 found[signal] = rows[:, [(a, int(b), c) for a, b, c in self.profiles].index(key)]
         return found
 
-    def margins(self) -> dict[str, tuple[float, float]]:
-        """Margin and demand of each failure, by its name."""
-        times = need("numpy").array(self.times)
-        return {one.name: margin(one, times, self.signals(one)) for one in self.failures}
+    def margins(self, more: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+        """Margin and demand of each failure, by its name; more: added to demands by kind, as what a static state lacks."""
+        times, found = need("numpy").array(self.times), {}
+        for one in self.failures:
+            demand = margin(one, times, self.signals(one))[1] + more.get(one.kind, 0.0) / one.values.get("strength", 1.0)
+            found[one.name] = (margin_of(one, demand), demand)
+        return found
 

@@ -6,16 +6,20 @@ import importlib.util
 import inspect
 import math
 import pathlib
+import threading
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from .._optional import need
 from ..errors import Error
 from ..scene import CannotSave, Scene, SceneError, loads
+from ..scene.failure import KINDS, Failure
+from . import statics
 from .draw import CannotDraw, Draw
 from .limits import Watch
+from .soft import SoftString
 
 DONE, FAILED = 1, 2  #: of a sample: it has margins; it has a message instead
 
@@ -80,12 +84,39 @@ class SceneSample:
     folder: str = "."
     own: Mapping[str, Any] = field(default_factory=dict)  #: functions or Own by the failure's name
     changes: Mapping[str, Any] = field(default_factory=dict)  #: of the scene, in all samples
+    asked: str = ""       #: the question, instead of that of [variability]
+    known: bool = False   #: only of failures that the question finds a demand of
 
     def __post_init__(self) -> None:
         self._draw: Draw | None = None
+        self._soft = dict[int, SoftString]()
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_draw": None}
+        return {**self.__dict__, "_draw": None, "_soft": {}}
+
+    @property
+    def question(self) -> str:
+        """torque-drag, static or run."""
+        return self.asked or self.draw.varies.question
+
+    @property
+    def quick(self) -> bool:
+        """Samples take a millisecond: engines get several at a time."""
+        return self.question == "torque-drag"
+
+    @property
+    def failures(self) -> list[Failure]:
+        """Those with a margin in each sample."""
+        found = self.draw.scene.failures
+        return [one for one in found if self.question in KINDS[one.kind].questions] if self.known else found
+
+    @property
+    def soft(self) -> SoftString:
+        """Made once in each thread, whose samples change it; forked processes have that of their parent."""
+        thread = threading.get_ident()
+        if thread not in self._soft:
+            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw, self.failures)
+        return self._soft[thread]
 
     @property
     def draw(self) -> Draw:
@@ -95,10 +126,22 @@ class SceneSample:
             self._draw = Draw(scene)
             if not scene.failures:
                 raise CannotDraw(f"{self.name} has no [[failure]]: nothing can fail")
+            self._refuse_others(scene.failures)
             missing = [one.name for one in scene.failures if one.kind == "own" and one.name not in self.own]
             if missing:
                 raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own {missing[0]}=FILE.py:NAME)")
         return self._draw
+
+    def _refuse_others(self, failures: list[Failure]) -> None:
+        """Failures that the question of the command line says nothing about."""
+        for one in failures:
+            if self.known or not self.asked:
+                continue
+            if self.asked not in KINDS[one.kind].questions:
+                raise CannotDraw(f"failure {one.name} ({one.kind}): the question {self.asked} says nothing about it; ask --question "
+                                 f"{' or '.join(KINDS[one.kind].questions)}, or auto, or take it out")
+            if self.asked != "run" and one.values.get("from", 0.0) > 0.0:
+                raise CannotDraw(f"failure {one.name}: from = {one.values['from']:g} s is for runs in time, and the question is {self.asked}")
 
     @property
     def dimension(self) -> int:
@@ -108,7 +151,7 @@ class SceneSample:
     @property
     def names(self) -> list[str]:
         """Of the failures."""
-        return [one.name for one in self.draw.scene.failures]
+        return [one.name for one in self.failures]
 
     @property
     def inputs(self) -> list[str]:
@@ -119,14 +162,24 @@ class SceneSample:
         """All that the results depend on, for the study file."""
         from ..scene import saves
         scene = self.draw.scene
-        known = {"scene": saves(scene, False)}
+        known = {"scene": saves(scene, False), "question": self.question}
         return {**known, **{f"function {name}": source_of(function) for name, function in sorted(self.own.items())}}
 
     def __call__(self, number: int, z: Any) -> Result:
         """A sample that the library refuses, or that does not converge, is FAILED with its message; never an exception."""
-        numpy, started, count = need("numpy"), clock.thread_time(), len(self.names)
-        values = self.draw.values(z)
-        inputs = [float(numpy.mean(values[name])) for name in self.inputs]
+        started = clock.thread_time()
+        return self._result(number, self.draw.values(z), started)
+
+    def many(self, tasks: Sequence[tuple[int, Any]]) -> list[Result]:
+        """Several samples, of each the same as alone."""
+        started = clock.thread_time()
+        drawn = self.draw.values_of([z for _, z in tasks])
+        each = (clock.thread_time() - started) / max(1, len(tasks))
+        return [self._result(number, values, clock.thread_time() - each) for (number, _), values in zip(tasks, drawn)]
+
+    def _result(self, number: int, values: dict[str, Any], started: float) -> Result:
+        count = len(self.names)
+        inputs = [value if isinstance(value, float) else float(value.mean()) for value in (values[name] for name in self.inputs)]
         try:
             found = self._margins(values)
             margins, demands, status, message = [a for a, _ in found], [b for _, b in found], DONE, ""
@@ -135,22 +188,38 @@ class SceneSample:
         return Result(number, status, margins, demands, inputs, clock.thread_time() - started, message)
 
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
+        if self.question == "torque-drag":
+            return self.soft.margins(values)
         scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
-        varies = self.draw.varies
+        if self.question == "static":
+            return self._static(scene, values)
         end = scene.run.get("end", 0.0)
-        look = varies.settings.get("look") or scene.output.get("interval") or scene.run.get("step") or end
+        look = self.draw.varies.settings.get("look") or scene.output.get("interval") or scene.run.get("step") or end
         with scene.new_sim() as sim:
-            watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
-            recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], int(end / look) + 4) \
-                if self.own and scene.channels else None
-            if varies.question == "static" or scene.run.get("static"):
+            if scene.run.get("static"):
                 sim.static(**scene.fields_of("static"))
-            self._run(scene, sim, end if varies.question == "run" else 0.0, look, watch, recorder)
-            found = watch.margins()
-            for one in scene.failures:
-                if one.kind == "own":
-                    found[one.name] = self._own(one.name, one.limit, scene, sim, values, watch, recorder)
-        return [found[one.name] for one in scene.failures]
+            return self._looked(scene, sim, values, end, look, {})
+
+    def _static(self, scene: Scene, values: dict[str, Any]) -> list[tuple[float, float]]:
+        """The worst of the stiff string pushed in, pulled out and rotated, with the load of the bit."""
+        found = []
+        for state in statics.states(scene):
+            with statics.at_rest(state) as sim:
+                found.append(self._looked(state.scene, sim, values, 0.0, 1.0, state.torque))
+        return [min(one) for one in zip(*found)]
+
+    def _looked(self, scene: Scene, sim: Any, values: dict[str, Any], end: float, look: float, more: Mapping[str, float]
+                ) -> list[tuple[float, float]]:
+        """Margins and demands of a sim from now to `end` [s]; more: of demands, what the sim lacks, by kind."""
+        watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
+        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], int(end / look) + 4) \
+            if self.own and scene.channels else None
+        self._run(scene, sim, end, look, watch, recorder)
+        found = watch.margins(more)
+        for one in scene.failures:
+            if one.kind == "own":
+                found[one.name] = self._own(one.name, one.limit, scene, sim, values, watch, recorder)
+        return [found[one.name] for one in self.failures]
 
     @staticmethod
     def _run(scene: Scene, sim: Any, end: float, look: float, watch: Watch, recorder: Any) -> None:

@@ -3,7 +3,7 @@ drillmbd.probability.limits."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
@@ -16,40 +16,52 @@ from .problems import meant
 if TYPE_CHECKING:
     from .load import Loader
 
+QUESTIONS = ("run", "static", "torque-drag", "auto")  #: of [variability]
+
+
+@dataclass(frozen=True)
+class Key:
+    """A further key of a kind of failure."""
+    unit: str
+    default: float | str | None = None  #: a text names a key of [limits]; None: it must be given
+    positive: bool = False              #: must be > 0, not >= 0
+
 
 @dataclass(frozen=True)
 class Kind:
-    """Requirements of a kind of failure."""
-    unit: str                          #: of the limit
+    """A limit state. This registry is all that the other modules know of a kind; the functions that find its demand from a run, a static
+    state or torque and drag stand beside it by the same name in drillmbd.probability.limits."""
+    unit: str                           #: of demand and limit
     about: str
     default: float | str | None = None  #: of the limit; a text names a key of [limits]
-    needs: str = ""                    #: "bit", "head" (drive of rotation), "feed", "string"
-    more: dict[str, tuple[str, float | None]] | None = None  #: further keys: unit and default
+    needs: tuple[str, ...] = ()         #: parts: bit, head (drive of rotation), feed, string
+    keys: dict[str, Key] = field(default_factory=dict)
+    questions: tuple[str, ...] = ("torque-drag", "static", "run")  #: that find its demand
+    low: bool = False                   #: fails where the demand is below the limit
+    free: bool = False                  #: the limit may be 0 or negative
 
 
+IN_TIME = ("run",)
 KINDS: dict[str, Kind] = {
-    "bit-stuck": Kind("s", "longest time that the bit does not turn while the rig does", None, "bit,head", {"speed": ("rad/s", 0.1)}),
-    "rig-torque": Kind("N m", "largest torque of the rotation drive", "torque", "head"),
-    "rig-push": Kind("N", "largest push of the feed drive", "push", "feed"),
-    "rig-pull": Kind("N", "largest pull of the feed drive", "pull", "feed"),
+    "bit-stuck": Kind("s", "longest time that the bit does not turn while the rig does", None, ("bit", "head"), {"speed": Key("rad/s", 0.1)},
+                      IN_TIME),
+    "rig-torque": Kind("N m", "largest torque of the rotation drive", "torque", ("head",)),
+    "rig-push": Kind("N", "largest push of the feed drive", "push", ("feed",)),
+    "rig-pull": Kind("N", "largest pull of the feed drive", "pull", ("feed",)),
     "lock-up": Kind("-", "share of the push at the rig that arrives as load of the bit, means over the time; fails below", 0.1,
-                    "bit,feed"),
-    "helical-buckling": Kind("-", "largest share of the load of helical buckling", 1.0, "string"),
-    "stress": Kind("-", "largest equivalent stress over the strength", 1.0, "string", {"strength": ("Pa", None)}),
-    "connection-torque": Kind("N m", "largest torque that tightens right-hand threads, as turning towards +x does", None, "string"),
-    "back-off": Kind("N m", "largest torque that loosens right-hand threads", None, "string"),
-    "fatigue": Kind("-", "damage of a pass (Miner's sum)", 1.0, "string",
-                    {"curve_stress": ("Pa", None), "curve_cycles": ("-", 1e6), "slope": ("-", None), "endurance": ("Pa", 0.0),
-                     "concentration": ("-", 1.0)}),
-    "lateral-acceleration": Kind("m/s2", "largest acceleration across the axis", None, "string"),
-    "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, "bit", {"load": ("N", 0.0)}),
-    "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", None, "string", {"width": ("m", None)}),
-    "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, "bit"),
-    "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0)}
-
-
-#: Kinds that one state at rest says nothing about.
-NEED_RUN = ("bit-stuck", "fatigue", "lateral-acceleration", "bit-off-bottom", "stick-slip")
+                    ("bit", "feed"), low=True),
+    "helical-buckling": Kind("-", "largest share of the load of helical buckling", 1.0, ("string",)),
+    "stress": Kind("-", "largest equivalent stress over the strength", 1.0, ("string",), {"strength": Key("Pa", "yield_stress", True)}),
+    "connection-torque": Kind("N m", "largest torque that tightens right-hand threads, as turning towards +x does", None, ("string",)),
+    "back-off": Kind("N m", "largest torque that loosens right-hand threads", None, ("string",), {}, ("static", "run")),
+    "fatigue": Kind("-", "damage of a pass (Miner's sum)", 1.0, ("string",),
+                    {"curve_stress": Key("Pa", None, True), "curve_cycles": Key("-", 1e6, True), "slope": Key("-", None, True),
+                     "endurance": Key("Pa", 0.0), "concentration": Key("-", 1.0)}, IN_TIME),
+    "lateral-acceleration": Kind("m/s2", "largest acceleration across the axis", None, ("string",), {}, IN_TIME),
+    "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, ("bit",), {"load": Key("N", 0.0)}, IN_TIME),
+    "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", None, ("string",), {"width": Key("m", None, True)}),
+    "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, ("bit",), {}, IN_TIME),
+    "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0, (), {}, ("static", "run"), free=True)}
 
 
 @dataclass
@@ -88,12 +100,10 @@ class Reader:
         elif name in self.names:
             self.problems.add(path + ("name",), name, "names a failure already; give each a name of its own")
         self.names.add(str(name))
-        if word in NEED_RUN and self.loader.table(("variability",)).get("question") == "static":
-            self.problems.add(path + ("kind",), word, 'needs a run in time: [variability] question = "run"')
-        kind = KINDS[word]
+        kind, needs = KINDS[word], KINDS[word].needs
+        self._answers(path, word, kind)
         keys = {"limit": Field("limit", "quantity", kind.unit), "from": Field("from", "quantity", "s"), "to": Field("to", "quantity", "s"),
-                **{key: Field(key, "quantity", unit) for key, (unit, _) in (kind.more or {}).items()}}
-        needs = [one for one in kind.needs.split(",") if one]
+                **{key: Field(key, "quantity", one.unit) for key, one in kind.keys.items()}}
         values = self.loader.read(path, table, keys, ("name", "kind", *needs))
         self._defaults(path, table, kind, word, values)
         parts, names = self._parts(path, table, needs)
@@ -101,26 +111,28 @@ class Reader:
             return None
         return Failure(str(name), word, values.pop("limit"), values, parts, names)
 
+    def _answers(self, path: Path, word: str, kind: Kind) -> None:
+        """The question of [variability] must find the demand."""
+        question = self.loader.table(("variability",)).get("question", "run")
+        if question in QUESTIONS and question != "auto" and question not in kind.questions:
+            self.problems.add(path + ("kind",), word, f"needs {_asked(kind.questions)}; the question is {question}")
+
     def _defaults(self, path: Path, table: dict[str, Any], kind: Kind, word: str, values: dict[str, float]) -> None:
-        for key, (unit, default) in (kind.more or {}).items():
-            if key == "strength" and default is None:
-                default = self.limits.get("yield_stress")
+        for key, one in kind.keys.items():
+            default = self.limits.get(one.default) if isinstance(one.default, str) else one.default
             if key not in table and default is not None:
                 values[key] = default
             elif key not in table:
-                self.problems.add(path, None, f"{word} must have a {key} [{unit}]")
-            elif key in values and values[key] < 0.0:
-                self.problems.add(path + (key,), table[key], "must be >= 0")
-        for key in ("strength", "width", "curve_stress", "curve_cycles", "slope"):
-            if values.get(key) == 0.0:
-                self.problems.add(path + (key,), table.get(key), "must be > 0")
+                self.problems.add(path, None, f"{word} must have a {key} [{one.unit}]")
+            elif key in values and (values[key] < 0.0 or (one.positive and values[key] == 0.0)):
+                self.problems.add(path + (key,), table[key], "must be > 0" if one.positive else "must be >= 0")
         limit = self.limits.get(kind.default) if isinstance(kind.default, str) else kind.default
         if "limit" not in table and limit is not None:
             values["limit"] = limit
         elif "limit" not in table:
             also = f", or [limits] {kind.default}" if isinstance(kind.default, str) else ""
             self.problems.add(path, None, f"{word} must have a limit [{kind.unit}]{also}")
-        elif "limit" in values and word != "own" and not values["limit"] > 0.0:
+        elif "limit" in values and not kind.free and not values["limit"] > 0.0:
             self.problems.add(path + ("limit",), table["limit"], "must be > 0")
         if "from" in values and "to" in values and not values["to"] > values["from"]:
             self.problems.add(path + ("to",), table["to"], "must be > from")
@@ -128,8 +140,8 @@ class Reader:
 
     def _within_run(self, path: Path, table: dict[str, Any], values: dict[str, float]) -> None:
         """A failure that nothing is looked at for would have no margin in any sample."""
-        if self.loader.table(("variability",)).get("question") == "static":
-            end, about = 0.0, "the time of the static equilibrium; leave it out"
+        if self.loader.table(("variability",)).get("question") in ("static", "torque-drag"):
+            end, about = 0.0, "the time of a static state; leave it out"
         else:
             end, about = self._end(), "the end of the run"
         if values.get("from", -math.inf) > end:
@@ -144,7 +156,7 @@ class Reader:
         except (KeyError, units.UnitError):
             return math.inf
 
-    def _parts(self, path: Path, table: dict[str, Any], needs: list[str]) -> tuple[dict[str, Id], dict[str, str]]:
+    def _parts(self, path: Path, table: dict[str, Any], needs: tuple[str, ...]) -> tuple[dict[str, Id], dict[str, str]]:
         """The parts that a kind is about: as written, or the only one that fits."""
         parts, names = dict[str, Id](), dict[str, str]()
         for need in needs:
@@ -175,6 +187,11 @@ class Reader:
                 if self.loader.word(component, table.get("component"), 0) == wanted]
 
 
+def _asked(questions: tuple[str, ...]) -> str:
+    words = {"run": 'a run in time: [variability] question = "run"', "static": 'question = "static"', "torque-drag": 'question = "torque-drag"'}
+    return " or ".join(words[one] for one in reversed(questions))
+
+
 def _called(need: str) -> str:
     return {"bit": "a bit", "string": "a string", "head": "a drive of rotation (rx)", "feed": "a drive along the string (x)"}[need]
 
@@ -182,15 +199,15 @@ def _called(need: str) -> str:
 def table_of(one: Failure) -> dict[str, Any]:
     """The keys of a failure as they are written."""
     kind = KINDS[one.kind]
-    known = {"from": "s", "to": "s", **{key: unit for key, (unit, _) in (kind.more or {}).items()}}
+    known = {"from": "s", "to": "s", **{key: one.unit for key, one in kind.keys.items()}}
     return {"name": one.name, "kind": one.kind, "limit": units.text(one.limit, kind.unit), **one.names,
             **{key: units.text(value, known[key]) for key, value in one.values.items()}}
 
 
 def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     """The part of the JSON schema, by functions of scene.schema."""
-    keys = {key for kind in KINDS.values() for key in kind.more or {}} | {"limit", "from", "to"}
-    parts = {one for kind in KINDS.values() for one in kind.needs.split(",") if one}
+    keys = {key for kind in KINDS.values() for key in kind.keys} | {"limit", "from", "to"}
+    parts = {one for kind in KINDS.values() for one in kind.needs}
     about = "; ".join(f"{word} [{kind.unit}]: {kind.about}" for word, kind in KINDS.items())
     return many(table({}, ("kind",), name=name, kind={"enum": list(KINDS), "description": about},  # type: ignore[no-any-return]
                       **{key: quantity for key in sorted(keys)}, **{key: name for key in sorted(parts)}))

@@ -16,6 +16,8 @@ def largest_of(terms: Any) -> float | None:
     terms = [{**term, "kind": int(enums.TERM_TABLE if "table" in term else term.get("kind", enums.TERM_CONSTANT))} for term in terms]
     if any(term["kind"] == enums.TERM_CALLBACK or term.get("function") is not None for term in terms):
         return None
+    if len(terms) == 1 and terms[0].get("table"):
+        return float(max(abs(value) for _, value in terms[0]["table"]))
     swing = sum(abs(term.get("h1", 0.0)) for term in terms if term["kind"] == enums.TERM_HARMONIC)
     return float(swing + max(abs(sum(_value_at(term, time) for term in terms)) for time in _times(terms)))
 

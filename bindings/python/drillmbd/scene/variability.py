@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from .._optional import need
 from . import units
 from .changes import path_of_key
+from .failure import QUESTIONS
 from .fields import DEFINITIONS, Field, fields_of
 from .lines import Path
 from .problems import meant
@@ -31,7 +32,6 @@ DISTRIBUTIONS: dict[str, dict[str, str]] = {
 PARAMETERS = ("mean", "deviation", "low", "mode", "high", "shape", "scale")
 KERNELS = ("exponential", "gaussian", "matern-3/2", "matern-5/2", "independent")
 METHODS = ("monte-carlo", "latin-hypercube", "sobol", "subset")
-QUESTIONS = ("run", "static")
 PROCESS = ("factor", "added")
 ALONG_HOLE = ("mu_static", "mu_dynamic", "diameter", "stiffness", "restitution", "damping")  #: of a section of the hole
 MOST_POINTS = 4000  #: of a field or a process: the covariance is a full matrix
@@ -189,8 +189,8 @@ class Reader:
         if not found.names and not self.problems.found:
             self.problems.add(path, None, "must have something that varies: [[variability.scatter]], [[variability.field]] or "
                                           "[[variability.process]]")
-        if found.question == "run" and "end" not in self.loader.table(("run",)):
-            self.problems.add(path, None, "needs [run] end, as end = \"40 s\"; or question = \"static\"")
+        if found.question in ("run", "auto") and "end" not in self.loader.table(("run",)):
+            self.problems.add(path, None, "needs [run] end, as end = \"40 s\"; or question = \"static\" or \"torque-drag\"")
         if found.correlations and not self.problems.found:
             self._definite(found)
         return found

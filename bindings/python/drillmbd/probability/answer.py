@@ -1,0 +1,251 @@
+"""The answer of a study: probabilities with intervals, demands, what they go with, cost; on the terminal, in summary.json, as tables."""
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import sys
+import time as clock
+from typing import Any
+
+from .._optional import need
+from ..answers import Output
+from ..errors import Usage
+from . import engines
+from .demands import Demand, demand_of
+from .estimates import Estimate, Indices, Subset, Surrogate, counted, sobol_indices
+from .points import Points
+from .sample import FAILED, Result, SceneSample
+from .study import Progress, Study, StudyFile, usable
+from .until import MOST, Rule, following, rule
+
+ANY = "any failure"
+LEFT_OUT = {"torque-drag": "by torque and drag of a soft string: pulled out, pushed in and rotated with the load of the bit; dynamics and bending within the "
+                           "clearance of the hole are left out",
+            "static": "by static states of the stiff string: pushed in, pulled out and rotated with the load of the bit; dynamics are left out",
+            "run": "by a run in time of each sample"}
+
+
+class Asked:
+    """Settings of a study, of the command line and the scene."""
+
+    def __init__(self, sample: SceneSample, options: argparse.Namespace) -> None:
+        scene, varies = sample.draw.scene, sample.draw.varies
+        known = varies.settings
+        self.sample, self.options, self.failures = sample, options, sample.failures
+        self.method = options.method or varies.method
+        self.seed = options.seed if options.seed is not None else int(known.get("seed", 1))
+        self.samples = options.samples or int(known.get("samples", 100))
+        self.replicates, self.confidence = int(known.get("replicates", 10)), float(known.get("confidence", 0.95))
+        names = [one.name for one in scene.failures]
+        if options.failure is not None and options.failure not in names:
+            raise Usage(f"--failure {options.failure}: is none of the scene's: {', '.join(names)}")
+        self.of = options.failure or ANY
+        self.rule: Rule | None = rule(options.until) if options.until is not None else None
+        if self.rule is not None and (self.sampling != "monte-carlo" or options.surrogate):
+            raise Usage("--until adds samples to a Monte Carlo study: leave --indices, --surrogate and other methods out")
+        if self.rule is not None:
+            self.samples = options.samples or MOST
+
+    @property
+    def sampling(self) -> str:
+        """The design of the points."""
+        return "subset" if self.method == "subset" else "indices" if self.options.indices else self.method
+
+    def settings(self) -> dict[str, Any]:
+        """All that the samples of a study depend on beside the scene."""
+        found: dict[str, Any] = {"seed": self.seed, "points": self.sampling}
+        if self.sampling in ("latin-hypercube", "sobol", "subset"):
+            found.update(samples=self.samples, replicates=self.replicates)
+        if self.sampling == "subset":
+            found.update(failure=self.of)
+        if self.sampling == "indices":
+            found.update(rows=self.options.indices)
+        return found
+
+    def scales(self) -> list[float]:
+        """By which margins of different failures are compared."""
+        return [abs(one.limit) or 1.0 for one in self.failures]
+
+
+class Answer:
+    """One answer."""
+
+    def __init__(self, asked: Asked, output: Output) -> None:
+        self.asked, self.sample, self.options, self.output = asked, asked.sample, asked.options, output
+        if asked.sample.draw.scene.output.get("units"):
+            output.note_text("[output] units is ignored: probability writes SI units")
+        self.question = self.sample.question
+        self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
+        self.scales = None if self.options.failure else asked.scales()
+        self.started = self.told = clock.monotonic()
+        self.estimates: dict[str, Estimate] = {}
+        self.demands: dict[str, Demand] = {}
+        self.failing: dict[int, bool] = {}  # whether anything fails, by the number of a sample with all of its margins
+
+    def answer(self) -> int:
+        """Computes it; returns the exit status."""
+        asked = self.asked
+        for text in self.sample.soft.notes() if self.sample.quick else ():
+            self.output.note_text(text)
+        self.output.say(f"question {self.sample.question}: {LEFT_OUT[self.sample.question]}")
+        study = self.study(self.sample, "study.h5")
+        if study.results:
+            self.output.say(f"{len(study.results)} samples are in {self.output.folder}/study.h5 already")
+        try:
+            {"indices": self._indices, "subset": self._subset}.get(asked.sampling, self._counted)(study)
+        except KeyboardInterrupt:
+            self.stopped(study)
+        finally:
+            self.close(study)
+        return self.finish(study)
+
+    def study(self, sample: SceneSample, name: str) -> Study:
+        """A study and its file."""
+        engine = engines.engine(self.options.engine, self.options.workers, self.options.address)
+        file = None
+        if self.output.folder is not None:
+            file = StudyFile(self.output.path(name), sample, self.asked.settings(), self.options.salvage)
+        return Study(sample, engine, file, None if self.options.quiet else self._progress)
+
+    @staticmethod
+    def close(study: Study) -> None:
+        if study.file is not None:
+            study.file.close()
+
+    def stopped(self, study: Study) -> None:
+        """A note that Ctrl-C ended it."""
+        more = "; the same command goes on from there" if study.file is not None else ""
+        self.output.stopped(f"stopped by Ctrl-C after {len(study.results)} samples, before there were estimates{more}")
+
+    def _progress(self, at: Progress) -> None:
+        now = clock.monotonic()
+        if now - self.told < 1.0 and at.done < at.asked:
+            return
+        self.told = now
+        if sys.stderr.isatty():
+            print(f"\r{at.done}/{at.asked} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="", file=sys.stderr)
+
+    def tell(self, name: str, one: Estimate) -> None:
+        """An estimate."""
+        lost = f", {one.lost} samples without a margin" if one.lost else ""
+        self.output.say(f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
+                        f"({one.failures} of {one.samples}{lost}; {one.about})")
+        self.estimates[name] = one
+        self.output.summary.setdefault("estimates", {})[name] = {**vars(one)}
+
+    # ---- The three ways ----------------------------------------------------------------------------------------------
+    def _counted(self, study: Study) -> None:
+        numpy, asked = need("numpy"), self.asked
+        points = Points(asked.method, asked.seed, self.sample.dimension, asked.samples, asked.replicates)
+        results = self._until(study, points) if asked.rule is not None else study.run(range(points.samples), points.z)
+        margins = numpy.array([one.margins for one in results])
+        for i, name in enumerate(self.sample.names):
+            self.tell(name, counted(margins[:, i], asked.method, points.replicates, asked.confidence))
+        least = (margins / numpy.array(asked.scales())).min(axis=1)
+        self.tell(ANY, counted(least, asked.method, points.replicates, asked.confidence))
+        if asked.rule is not None:
+            self.output.say(f"--until {self.options.until}: {self.asked.of}: {asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
+        self.say_demands(results)
+        if self.options.surrogate:
+            z = numpy.array([points.z(number) for number in range(points.samples)])
+            self._surrogate(z, least if self.scales else margins[:, self.limit])
+        self.table(results)
+
+    def _until(self, study: Study, points: Points) -> list[Result]:
+        """Results in growing number, until the estimate of what is asked about meets the rule."""
+        numpy, asked, count = need("numpy"), self.asked, 0
+        assert asked.rule is not None
+        while True:
+            count = following(count, asked.samples)
+            results = study.run(range(count), points.z)
+            margins = numpy.array([one.margins for one in results])
+            column = (margins / numpy.array(asked.scales())).min(axis=1) if self.scales else margins[:, self.limit]
+            if count >= asked.samples or asked.rule.met(counted(column, confidence=asked.confidence)):
+                return results
+
+    def say_demands(self, results: list[Result]) -> None:
+        """Percentiles of the demands and what they go with."""
+        numpy = need("numpy")
+        demands, inputs = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs"))
+        for i, one in enumerate(self.asked.failures):
+            found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence)
+            if found is None:
+                continue
+            self.demands[one.name] = found
+            self.output.summary.setdefault("demands", {})[one.name] = found.record()
+            self.output.say(found.sentence(self.asked.confidence))
+            self._say_matters(found)
+        if self.demands:
+            self.output.picture("demands.png", lambda plots: plots.demands(list(self.demands.values())))
+
+    def _say_matters(self, found: Demand) -> None:
+        counting = [one for one in found.matters if abs(one.rank) > one.least]
+        if not found.matters:
+            self.output.say(f"{found.failure.name}: what it goes with is not assessed, because the demand is the same in all samples or there are "
+                            "fewer than 10")
+            return
+        told = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of what varies"
+        self.output.say(f"{found.failure.name}: goes with {told} (rank correlation; below {found.matters[0].least:.2f} is chance)")
+
+    def _surrogate(self, z: Any, margins: Any) -> None:
+        """The estimate by a polynomial; a reason where the samples allow none."""
+        try:
+            found = Surrogate(z, margins)
+        except ValueError as error:
+            self.output.note_text(f"surrogate: not assessed, because of {error}; compute more samples")
+            return
+        self.tell(f"{self.asked.of}, by a surrogate", found.estimate(self.asked.seed, confidence=self.asked.confidence))
+        self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "
+                        f"{found.tested} margins with the wrong sign")
+
+    def _subset(self, study: Study) -> None:
+        asked = self.asked
+        made = Subset(asked.seed, self.sample.dimension, max(20, asked.samples // asked.replicates), asked.replicates)
+        self.tell(asked.of, made.run(study.evaluate(self.limit, self.scales), asked.confidence))
+
+    def _indices(self, study: Study) -> None:
+        draw = self.sample.draw
+        groups = dict(zip(self.sample.inputs, [1] * len(draw.varies.scatters) + draw.sizes[1:]))
+        found: Indices = sobol_indices(study.evaluate(self.limit, self.scales), groups, self.options.indices, self.asked.seed, self.asked.confidence)
+        rows = []
+        for i in sorted(range(len(found.names)), key=lambda i: -float(found.total[i])):
+            self.output.say(f"{found.names[i]}: first order {found.first[i]:.3f} ({found.first_interval[i, 0]:.3f} .. "
+                            f"{found.first_interval[i, 1]:.3f}), total {found.total[i]:.3f} ({found.total_interval[i, 0]:.3f} .. "
+                            f"{found.total_interval[i, 1]:.3f})")
+            rows.append([found.names[i], *(float(one) for one in (found.first[i], *found.first_interval[i], found.total[i],
+                                                                  *found.total_interval[i]))])
+        self.output.summary["indices"] = {row[0]: {"first": row[1:4], "total": row[4:7]} for row in rows}
+        self.output.summary["indices_lost_rows"] = found.lost
+        self.output.table("indices.csv", ["what varies", "first order", "low", "high", "total", "low", "high"], rows)
+
+    # ---- The end -----------------------------------------------------------------------------------------------------
+    def table(self, results: list[Result]) -> None:
+        """All samples."""
+        sample = self.sample
+        self.failing = {one.number: min(one.margins) <= 0.0 for one in results if usable(one.margins)}
+        heads = ["number", "status", "seconds", *sample.inputs, *(f"margin of {name}" for name in sample.names),
+                 *(f"demand of {name}" for name in sample.names), "message"]
+        rows = ([one.number, "failed" if one.status == FAILED else "done", one.seconds, *one.inputs, *one.margins, *one.demands,
+                 one.message] for one in results)
+        self.output.table("samples.csv", heads, rows)
+
+    def finish(self, study: Study) -> int:
+        """Cost, samples without a margin, summary; returns the exit status: 1 where no sample has margins."""
+        if not self.options.quiet and sys.stderr.isatty():
+            print(file=sys.stderr)
+        lost = sorted(number for number, one in study.results.items() if one.status == FAILED)
+        seconds = math.fsum(one.seconds for one in study.results.values())
+        elapsed = clock.monotonic() - self.started
+        self.output.summary.update(
+            seed=self.asked.seed, method=self.asked.method, engine=self.options.engine, dimension=self.sample.dimension, question=self.question,
+            samples=len(study.results), evaluated=study.evaluated, seconds_of_samples=seconds, elapsed=elapsed,
+            lost=[{"number": n, "message": study.results[n].message} for n in lost[:1000]])
+        for number in lost[:3]:
+            self.output.note_text(f"sample {number} (seed {self.asked.seed}) has no margin: {study.results[number].message}")
+        if len(lost) > 3:
+            self.output.note_text(f"{len(lost)} samples have no margin; summary.json has the first 1000 of them")
+        rate = study.evaluated / elapsed if elapsed > 0.0 else 0.0
+        self.output.say(f"{study.evaluated} samples computed in {elapsed:.1f} s, {rate:.3g} a second, {seconds / max(1, len(study.results)):.3g} "
+                        f"s of a processor each; {os.path.basename(self.options.scene)}, seed {self.asked.seed}")
+        return self.output.finish(1 if study.results and len(lost) == len(study.results) else 0)

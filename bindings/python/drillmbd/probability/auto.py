@@ -1,0 +1,157 @@
+"""The question auto: torque and drag of all samples, and runs in time only of those near a limit and of a random part of the others.
+
+A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the probability FAR, by a random
+number of its own, so that they stand for 1/FAR samples each. With A the failures among the samples near a limit and, among the others, those that
+torque and drag predict, and with B+ and B- the shares of the others that fail in time against the prediction and that do not fail against it,
+
+    P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)
+
+is unbiased whatever torque and drag leave out. Failures that only a run shows are predicted in no sample: B+ alone finds them."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from .._optional import need
+from ..answers import Output
+from ..errors import Usage
+from ..scene.failure import KINDS
+from .answer import ANY, Answer, Asked
+from .draw import CannotDraw
+from .estimates import Estimate, clopper_pearson
+from .points import Points, stream
+from .sample import SceneSample
+
+NEAR = 0.5  #: of a limit: a margin of torque and drag below it is not trusted
+FAR = 0.1   #: of the samples that are not near a limit are run
+
+
+def chosen(seed: int, number: int) -> bool:
+    """Whether a sample that is not near a limit is run."""
+    return bool(stream(seed, (1 << 61) + (1 << 60) + number).random() < FAR)
+
+
+@dataclass
+class Stage:
+    """Samples of both stages: what torque and drag predict, which of them are near a limit, which are run, which fail in time."""
+    predicted: Any
+    near: Any
+    ran: Any      #: with a margin
+    failed: Any   #: of those
+    lost: int     #: chosen to be run, and without a margin
+
+    def estimate(self, confidence: float) -> Estimate:
+        """P with the interval that holds for its three parts together (Bonferroni): counts of a part each, by Clopper and Pearson."""
+        numpy, samples = need("numpy"), len(self.predicted)
+        near, far = self.near & self.ran, ~self.near & self.ran
+        parts = 1.0 - (1.0 - confidence) / 3.0
+        certain = int((near & self.failed).sum() + (~self.near & self.predicted).sum())
+        missing = int((self.near & ~self.ran).sum())
+        low, high = clopper_pearson(certain, samples, parts)[0], clopper_pearson(certain + missing, samples, parts)[1]
+        value = certain / samples
+        for sign, group in ((1.0, ~self.near & ~self.predicted), (-1.0, ~self.near & self.predicted)):
+            count, looked = int(group.sum()), int((group & far).sum())
+            wrong = int((group & far & (self.failed != self.predicted)).sum())
+            ends = clopper_pearson(wrong, looked, parts) if looked else (0.0, 1.0)
+            ends = (ends[0], min(1.0, ends[1])) if count else (0.0, 0.0)
+            share = _upper_share(count, samples, parts)
+            value += sign * (wrong / looked if looked else 0.0) * count / samples
+            low, high = (low, high + ends[1] * share) if sign > 0.0 else (low - ends[1] * share, high)
+        value = float(numpy.clip(value, 0.0, 1.0))
+        run = int(self.ran.sum())
+        return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples, int((self.ran & self.failed).sum()), self.lost,
+                        f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} of them near a limit with the "
+                        f"weight 1 and {int(far.sum())} others with the weight {1.0 / FAR:g}",
+                        {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / FAR, "effective_samples": effective(value, low, high, confidence)})
+
+
+def _upper_share(count: int, samples: int, parts: float) -> float:
+    """Upper end of the share of a group."""
+    return clopper_pearson(count, samples, parts)[1] if count else 0.0
+
+
+def effective(probability: float, low: float, high: float, confidence: float) -> float | None:
+    """Samples of plain Monte Carlo whose interval would be as wide; None where that is not defined."""
+    width, quantile = high - low, float(need("scipy.stats").norm.isf(0.5 * (1.0 - confidence)))
+    if not 0.0 < probability < 1.0 or not width > 0.0:
+        return None
+    return 4.0 * quantile * quantile * probability * (1.0 - probability) / (width * width)
+
+
+class Auto(Answer):
+    """Both stages."""
+
+    def __init__(self, asked: Asked, output: Output) -> None:
+        super().__init__(asked, output)
+        self.question = "auto"
+        if asked.sampling != "monte-carlo" or asked.rule is not None or asked.options.surrogate:
+            raise Usage("--question auto is a Monte Carlo study: leave --indices, --until, --surrogate and other methods out")
+        whole = asked.sample
+        self.quick = SceneSample(whole.text, whole.name, whole.folder, whole.own, whole.changes, "torque-drag", True)
+
+    def answer(self) -> int:
+        asked, whole = self.asked, self.sample
+        if not self.quick.names:
+            raise CannotDraw("no failure of the scene has a demand of torque and drag: ask --question run")
+        for text in self.quick.soft.notes():
+            self.output.note_text(text)
+        dynamic = [one.name for one in asked.failures if "torque-drag" not in KINDS[one.kind].questions]
+        self.output.say(f"question auto: torque and drag of all samples; runs in time where they leave less than {100 * NEAR:g} % of a limit, and of "
+                        f"{100 * FAR:g} % of the others" + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
+        points = Points("monte-carlo", asked.seed, whole.dimension, asked.samples)
+        soft = self.study(self.quick, "study_torque_drag.h5")
+        study = None
+        try:
+            quick = soft.run(range(asked.samples), points.z)
+            study = self.study(whole, "study.h5")
+            self._runs(study, points, quick)
+        except KeyboardInterrupt:
+            self.stopped(study or soft)
+        finally:
+            for one in (soft, study):
+                if one is not None:
+                    self.close(one)
+        seconds = math.fsum(one.seconds for one in soft.results.values())
+        self.output.say(f"torque and drag: {soft.evaluated} samples computed, {seconds / max(1, len(soft.results)):.3g} s of a processor each")
+        self.output.summary.update(torque_drag_samples=len(soft.results), seconds_of_torque_drag=seconds)
+        return self.finish(study or soft)
+
+    def _runs(self, study: Any, points: Points, quick: list[Any]) -> None:
+        numpy, asked = need("numpy"), self.asked
+        scale = {one.name: abs(one.limit) or 1.0 for one in asked.failures}
+        margins = numpy.array([one.margins for one in quick]) / numpy.array([scale[name] for name in self.quick.names])
+        least = margins.min(axis=1)  # NaN of a sample without torque and drag: run
+        near = ~(abs(margins).min(axis=1) > NEAR)
+        run = [number for number in range(asked.samples) if near[number] or chosen(asked.seed, number)]
+        results = study.run(run, points.z)
+        found = numpy.full((asked.samples, len(self.sample.names)), math.nan)
+        for one in results:
+            found[one.number] = one.margins
+        for i, name in enumerate(self.sample.names):
+            soft = margins[:, self.quick.names.index(name)] if name in self.quick.names else numpy.full(asked.samples, math.inf)
+            self._tell(name, soft, near, found[:, i], len(run))
+        self._tell(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
+        self._compare(margins, found, scale)
+        self.table(results)
+
+    def _tell(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
+        numpy = need("numpy")
+        ran = ~numpy.isnan(found)
+        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()))
+        self.tell(name, stage.estimate(self.asked.confidence))
+
+    def _compare(self, margins: Any, found: Any, scale: dict[str, float]) -> None:
+        """Differences between torque and drag and the runs, over the limit."""
+        numpy = need("numpy")
+        for i, name in enumerate(self.quick.names):
+            column = found[:, self.sample.names.index(name)] / scale[name]
+            both = numpy.isfinite(column) & numpy.isfinite(margins[:, i])
+            if not both.any():
+                continue
+            off = column[both] - margins[both, i]
+            other = int(((column[both] <= 0.0) != (margins[both, i] <= 0.0)).sum())
+            self.output.summary.setdefault("torque_drag_against_runs", {})[name] = {
+                "samples": int(both.sum()), "mean_of_limit": float(off.mean()), "largest_of_limit": float(abs(off).max()), "other_decisions": other}
+            self.output.say(f"{name}: in {int(both.sum())} samples that have both, the margin in time is larger than that of torque and drag by "
+                            f"{100 * off.mean():+.3g} % of the limit in the mean, {100 * abs(off).max():.3g} % at most; {other} decisions differ")

@@ -1,0 +1,170 @@
+"""A map: the study of a scene for all combinations of some of its values, with the same random numbers in each, so that differences between
+cells are those of the values."""
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from .._optional import need
+from ..answers import Output
+from ..errors import Error, Usage
+from ..exit_status import FAILED, STOPPED, line_of
+from ..runner import carry_out
+from ..scene import CannotSave, SceneError
+from ..scene.failure import KINDS
+from .answer import ANY, Answer, Asked
+from .auto import Auto
+from .demands import Demand, amount
+from .draw import CannotDraw
+from .estimates import Estimate
+from .sample import SceneSample
+from .study import StudyError
+
+MOST_CELLS = 400
+
+
+@dataclass
+class Cell:
+    """One combination."""
+    values: dict[str, Any]
+    message: str = ""                                       #: why it has no answer
+    estimates: dict[str, Estimate] = field(default_factory=dict)
+    demands: dict[str, Demand] = field(default_factory=dict)
+    failing: dict[int, bool] = field(default_factory=dict)  #: samples with margins, by number: any failure
+    dimension: int = 0
+
+    @property
+    def words(self) -> str:
+        """The values."""
+        return ", ".join(f"{key} = {value}" for key, value in self.values.items())
+
+
+def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
+    from ..sweep import varied
+    try:
+        found = [varied(text) for text in texts]
+    except ValueError as error:
+        raise Usage(f"--vary {error}") from None
+    if len({key for key, _ in found}) < len(found):
+        raise Usage("--vary: each key once")
+    count = math.prod(len(values) for _, values in found)
+    if count > MOST_CELLS:
+        raise Usage(f"--vary asks for {count} cells, must be <= {MOST_CELLS}")
+    return found
+
+
+class Map:
+    """All cells of one command."""
+
+    def __init__(self, sample: SceneSample, options: argparse.Namespace, question: str, output: Output) -> None:
+        self.sample, self.options, self.question, self.output = sample, options, question, output
+        self.vary = _varied(options.vary)
+        self.cells: list[Cell] = []
+
+    def answer(self) -> int:
+        """All cells, then the map; returns the exit status: 1 where a cell has no answer."""
+        status = 0
+        try:
+            for number, values in enumerate(itertools.product(*(listed for _, listed in self.vary)), 1):
+                self.cells.append(self._cell(number, dict(zip((key for key, _ in self.vary), values))))
+        except KeyboardInterrupt:
+            self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells" + ("; the same command goes on from there" if self.output.folder else ""))
+        if any(one.message for one in self.cells) or not self.cells:
+            status = FAILED
+        if len({one.dimension for one in self.cells if not one.message}) > 1:
+            self.output.note_text("the cells have different numbers of random numbers, because fields or processes have other lengths: they are not common")
+        self._write()
+        return self.output.finish(status)
+
+    def _cell(self, number: int, values: dict[str, Any]) -> Cell:
+        cell, file = Cell(values), self.options.scene
+        whole, folder = self.sample, self.output.folder
+        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **values}, whole.asked)
+        try:
+            asked = Asked(sample, self.options)
+            output = Output(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene, "probability", True)
+            made = Auto(asked, output) if self.question == "auto" else Answer(asked, output)
+            status = carry_out(sample.draw.scene, output, self.options, lambda *_: made.answer())
+            if status == STOPPED:
+                raise KeyboardInterrupt
+            cell.estimates, cell.demands, cell.dimension = made.estimates, made.demands, sample.dimension
+            cell.failing = made.failing
+            cell.message = "" if status == 0 else "no sample has a margin"
+            for text in output.summary["warnings"] + output.summary["notes"]:
+                if text not in self.output.summary["warnings"] and not text.startswith("sample "):
+                    self.output.warn(text)
+        except (CannotDraw, StudyError, SceneError, CannotSave, Error, ArithmeticError) as error:
+            cell.message = str(error) if isinstance(error, (CannotDraw, StudyError)) else line_of(error)
+        self._say(number, cell)
+        return cell
+
+    def _say(self, number: int, cell: Cell) -> None:
+        one = cell.estimates.get(self.options.failure or ANY)
+        told = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})" if one else "no estimate")
+        told += "".join(f", P95 of {name} {amount(demand.percentiles[-1].value, KINDS[demand.failure.kind].unit)}" for name, demand in cell.demands.items())
+        self.output.say(f"cell {number}: {cell.words}: {told}")
+
+    # ---- The map -----------------------------------------------------------------------------------------------------
+    def _write(self) -> None:
+        keys = [key for key, _ in self.vary]
+        first = next((one for one in self.cells if not one.message), None)
+        names, demands = list(first.estimates) if first else [], list(first.demands) if first else []
+        heads = [*keys, *(head for name in names for head in (f"probability of {name}", f"low of {name}", f"high of {name}")),
+                 *(f"P{percent} demand of {name} [{KINDS[first.demands[name].failure.kind].unit}]" for name in demands for percent in (5, 50, 95) if first),
+                 *(f"P95 demand of {name}: {end}" for name in demands for end in ("low", "high")),
+                 *(f"share of the limit at P95 of {name} [-]" for name in demands),
+                 "fails only here", "fails only in the first cell", "chance of so unequal counts", "message"]
+        rows = [[*one.values.values(), *self._numbers(one, names, demands), *self._against(first, one), one.message] for one in self.cells]
+        self.output.table("map.csv", heads, rows)
+        self.output.summary["cells"] = [{"values": {key: str(value) for key, value in one.values.items()}, "message": one.message,
+                                         "estimates": {name: vars(estimate) for name, estimate in one.estimates.items()},
+                                         "demands": {name: demand.record() for name, demand in one.demands.items()}} for one in self.cells]
+        if first and len(self.vary) <= 2:
+            self.output.picture("map.png", lambda plots: plots.probability_map(self.vary, self._grid(), self.options.failure or ANY))
+
+    def _grid(self) -> list[Any]:
+        """Probability and interval of each cell in order; None where there is no answer."""
+        name = self.options.failure or ANY
+        found = [(one.estimates[name].probability, one.estimates[name].low, one.estimates[name].high) if name in one.estimates else None for one in self.cells]
+        return found + [None] * (math.prod(len(values) for _, values in self.vary) - len(found))
+
+    @staticmethod
+    def _numbers(cell: Cell, names: list[str], demands: list[str]) -> list[Any]:
+        def of(name: str) -> list[float]:
+            one = cell.estimates.get(name)
+            return [one.probability, one.low, one.high] if one else [math.nan] * 3
+        known = [cell.demands.get(name) for name in demands]
+        return [*(number for name in names for number in of(name)),
+                *(one.percentiles[i].value if one else math.nan for one in known for i in range(3)),
+                *(end for one in known for end in ((one.percentiles[-1].low, one.percentiles[-1].high) if one else (math.nan, math.nan))),
+                *(one.percentiles[-1].share if one else math.nan for one in known)]
+
+    @staticmethod
+    def _against(first: Cell | None, cell: Cell) -> list[Any]:
+        """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal counts if both were as likely
+        (McNemar 1947, exact)."""
+        if first is None or not cell.failing or first.dimension != cell.dimension:
+            return ["", "", ""]
+        both = first.failing.keys() & cell.failing.keys()
+        here = sum(cell.failing[n] and not first.failing[n] for n in both)
+        there = sum(first.failing[n] and not cell.failing[n] for n in both)
+        chance = float(need("scipy.stats").binomtest(here, here + there, 0.5).pvalue) if here + there else 1.0
+        return [here, there, chance]
+
+
+def answer(sample: SceneSample, options: argparse.Namespace) -> int:
+    """The map that --vary asks for; returns the exit status."""
+    if options.engine == "mpi":
+        raise Usage("--vary has one study after the other, and --engine mpi one: choose another --engine")
+    if options.indices or (options.method or sample.draw.varies.method) == "subset":
+        raise Usage("--vary maps probabilities of plain samples: leave --indices and --method subset out")
+    question = options.question or sample.draw.scene.variability.question  # type: ignore[union-attr]
+    output = Output(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
+    output.started = options.started
+    output.summary.update(question=question, vary=options.vary)
+    made = Map(sample, options, question, output)
+    return carry_out(sample.draw.scene, output, options, lambda *_: made.answer())
+

@@ -1,0 +1,115 @@
+"""Demands of a study beside their probabilities of failure: percentiles and their share of the limit, a histogram, and rank correlations with
+all that varies."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .._optional import need
+from ..scene.failure import KINDS, Failure
+from ..unit_systems import SI, Units
+from ..verdict import shown
+
+PERCENTS = (5, 50, 95)
+BINS = 20  #: of a histogram
+
+
+@dataclass
+class Percentile:
+    """A percentile of the demand with its interval; an end that so few samples do not bound is infinite."""
+    percent: int
+    value: float
+    low: float
+    high: float
+    share: float  #: of the limit; where little is bad the limit over the value
+
+
+@dataclass
+class Matter:
+    """The rank correlation (Spearman 1904) of a demand with one of the inputs."""
+    name: str
+    rank: float
+    least: float  #: of so many samples that have nothing to do with each other, 95 of 100 stay below it
+
+
+@dataclass
+class Demand:
+    """The demand of one failure over all samples that have one."""
+    failure: Failure
+    percentiles: list[Percentile]
+    edges: list[float]      #: of the histogram
+    counts: list[int]
+    infinite: int           #: samples in which the string locks up
+    matters: list[Matter]   #: the largest first
+
+    def sentence(self, confidence: float) -> str:
+        """One line."""
+        unit, worst = KINDS[self.failure.kind].unit, self.percentiles[0 if KINDS[self.failure.kind].low else -1]
+        parts = [f"P{one.percent} {amount(one.value, unit)}" for one in self.percentiles]
+        interval = f"{100 * confidence:g} % interval of P{worst.percent} {amount(worst.low, unit)} .. {amount(worst.high, unit)}"
+        share = f"{100.0 * worst.share:.3g} % of the limit {amount(self.failure.limit, unit)}" if math.isfinite(worst.share) else \
+            f"limit {amount(self.failure.limit, unit)}"
+        return f"{self.failure.name}: demand {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
+
+    def record(self) -> dict[str, Any]:
+        """For summary.json."""
+        return {"unit": KINDS[self.failure.kind].unit, "limit": self.failure.limit, "fails_below": KINDS[self.failure.kind].low,
+                "percentiles": {f"P{one.percent}": {key: value for key, value in vars(one).items() if key != "percent"} for one in self.percentiles},
+                "histogram": {"edges": self.edges, "counts": self.counts, "locked_up": self.infinite},
+                "rank_correlation": {one.name: {"value": one.rank, "least_that_counts": one.least} for one in self.matters}}
+
+
+def amount(value: float, unit: str, units: Units = SI) -> str:
+    """A number with its unit, with a prefix where that is usual."""
+    if math.isinf(value):
+        return "without bound" if value > 0.0 else "-"
+    return shown(value, unit, units) if unit in ("N", "N m", "Pa") else f"{value:.3g}" if unit == "-" else units.text(value, unit, ".3g")
+
+
+def percentile(ranked: Any, percent: int, confidence: float) -> tuple[float, float, float]:
+    """Value and interval of a percentile of n ranked values, by order statistics: x_(i) is below the percentile q with the probability that a
+    binomial number of n and q is i at least (David and Nagaraja 2003)."""
+    binom, n, q = need("scipy.stats").binom, len(ranked), percent / 100.0
+    low, high = int(binom.ppf(0.5 * (1.0 - confidence), n, q)), int(binom.isf(0.5 * (1.0 - confidence), n, q)) + 1
+    return (float(ranked[max(0, math.ceil(q * n) - 1)]), float(ranked[low - 1]) if low >= 1 else -math.inf,
+            float(ranked[high - 1]) if high <= n else math.inf)
+
+
+def _share(value: float, failure: Failure) -> float:
+    if not failure.limit or not math.isfinite(value):
+        return math.nan if not math.isinf(value) or KINDS[failure.kind].low else math.inf
+    if KINDS[failure.kind].low:
+        return failure.limit / value if value > 0.0 else math.inf
+    return value / failure.limit
+
+
+def matters(demands: Any, inputs: Any, names: Sequence[str]) -> list[Matter]:
+    """The rank correlation of a demand with each input."""
+    numpy, stats, n = need("numpy"), need("scipy.stats"), len(demands)
+    if n < 10 or numpy.ptp(numpy.where(numpy.isinf(demands), 0.0, demands)) == 0.0:
+        return []
+    ranks, least = stats.rankdata(demands), 1.96 / math.sqrt(n - 1)
+    found = []
+    for i, name in enumerate(names):
+        column = stats.rankdata(inputs[:, i])
+        spread = float(numpy.std(column) * numpy.std(ranks))
+        rank = float(numpy.mean((column - column.mean()) * (ranks - ranks.mean()))) / spread if spread > 0.0 else 0.0
+        found.append(Matter(name, rank, least))
+    return sorted(found, key=lambda one: -abs(one.rank))
+
+
+def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float) -> Demand | None:
+    """Of the samples of one failure in order, NaN where there is none; None where no sample has one."""
+    numpy = need("numpy")
+    good = ~numpy.isnan(demands)
+    known = demands[good]
+    if not len(known):
+        return None
+    ranked = numpy.sort(known)
+    finite = known[numpy.isfinite(known)]
+    counts, edges = numpy.histogram(finite, BINS) if len(finite) else (numpy.zeros(0, int), numpy.zeros(0))
+    points = [(percent, *percentile(ranked, percent, confidence)) for percent in PERCENTS]
+    return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(), counts.tolist(),
+                  int(len(known) - len(finite)), matters(known, inputs[good], names))

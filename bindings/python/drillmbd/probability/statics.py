@@ -1,0 +1,75 @@
+"""Static states of a sample: the stiff string pushed in, pulled out and rotated, with the largest load of the bit, as friction is then."""
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from .. import enums
+from ..errors import Error
+from ..model import remake
+from ..operating import operating, polar_moduli
+from ..scene import Scene
+from ..scene.largest import largest_of
+from ..sim import Sim
+
+USUAL_SPEED, USUAL_ROTATION = 0.01, 10.0  #: [m/s, rad/s] where the scene gives none; friction depends on their direction
+
+
+@dataclass(frozen=True)
+class State:
+    """One of them."""
+    name: str
+    scene: Scene                 #: with the loads of the state at time 0
+    slip: dict[str, float]
+    torque: dict[str, float]     #: by kind of failure, what its demand lacks of the torque of the bit
+
+
+def _loaded(scene: Scene) -> Scene:
+    """The scene with the programmes of bit loads at their largest from the beginning."""
+    numbers = {arguments[0]["load"].index & 0xFFFFFF for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")}
+    calls, number, changed = [], -1, False
+    for name, arguments in scene.model.calls:
+        number += name == "add_programme"
+        if name == "add_programme" and number in numbers:
+            largest = largest_of(arguments)
+            if largest is not None:
+                arguments, changed = ({"h0": largest},), True
+        calls.append((name, arguments))
+    if not changed:
+        return scene
+    model = remake(type(scene.model), calls)
+    return replace(scene, model=model, names={key: model.own(part) for key, part in scene.names.items()},
+                   failures=[replace(one, parts={key: model.own(part) for key, part in one.parts.items()}) for one in scene.failures],
+                   channels=[(name, model.own(place), quantity) for name, place, quantity in scene.channels])
+
+
+def states(scene: Scene) -> list[State]:
+    """Of a scene; without a drive of rotation only pushed in and pulled out."""
+    plan, given = operating(scene), scene.analyses.get("static", {})
+    speed = abs(given.get("slip_axial", 0.0)) or plan.feed or USUAL_SPEED
+    rotation = abs(given.get("slip_rotation", 0.0)) or plan.rotation or USUAL_ROTATION
+    loaded = _loaded(scene)
+    found = [State("pushed in", loaded, {"slip_axial": speed}, {}), State("pulled out", scene, {"slip_axial": -speed}, {})]
+    if any(name == "add_drive" and arguments[0].get("component") == enums.RX for name, arguments in scene.model.calls):
+        stress = math.sqrt(3.0) * plan.torque_on_bit / min(polar_moduli(scene), default=math.inf)  # von Mises of sums <= sum
+        found.append(State("rotated", loaded, {"slip_rotation": rotation}, {
+            "rig-torque": plan.torque_on_bit, "connection-torque": plan.torque_on_bit, "stress": stress}))
+    return found
+
+
+@contextlib.contextmanager
+def at_rest(state: State) -> Iterator[Sim]:
+    """A sim in that state; in ten load steps where one does not converge, as with friction around a string, which climbs."""
+    values: dict[str, Any] = {**state.scene.fields_of("static"), "slip_axial": 0.0, "slip_rotation": 0.0, **state.slip}
+    with state.scene.new_sim() as sim:
+        try:
+            sim.static(**values)
+        except Error as error:
+            if error.status != enums.ERR_NO_CONVERGENCE:
+                raise
+            values["load_steps"] = 10
+            sim.static(**values)
+        yield sim

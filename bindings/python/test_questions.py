@@ -1,0 +1,383 @@
+"""Tests of the questions of a study: torque and drag, static states, runs, and auto; against closed forms, against each other, and against the
+analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
+import csv
+import json
+import math
+import unittest
+
+from shared_tests import FolderTest, needs
+
+needs("h5py", "numpy", "scipy")
+
+import numpy as np
+import scipy.stats as stats
+
+from drillmbd import scene
+from drillmbd.operating import operating, operations_of
+from drillmbd.probability import auto, demands, engines, limits, soft, until
+from drillmbd.probability.draw import CannotDraw
+from drillmbd.probability.estimates import Estimate, counted
+from drillmbd.probability.points import Points, drawn
+from drillmbd.probability.sample import SceneSample
+from drillmbd.probability.study import Study, read_rows
+from drillmbd.scene.failure import KINDS
+from test_engines import SCENE as SHORT
+
+#: A straight horizontal hole of 60 m without buoyancy: thrust = load + mu w L, pull = mu w L, torque = mu w L D/2 + 0.5 load d/3.
+LEVEL = """[environment]
+fluid_density = 0
+[hole]
+diameter = "94 mm"
+mu_static = 0.3
+mu_dynamic = 0.3
+survey = [["0 m", "90 deg", 0], ["60 m", "90 deg", 0]]
+[[programme]]
+name = "rock"
+term = {table = [["0 s", 0], ["1 s", "8 kN"]]}
+[[programme]]
+name = "turning"
+term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+[[programme]]
+name = "feeding"
+term = {kind = "step5", x1 = "1 s", h1 = "10 mm/s"}
+[[string]]
+name = "rods"
+[[string.pipes]]
+count = 40
+length = "1.5 m"
+outer_diameter = "73 mm"
+inner_diameter = "61 mm"
+[[bit]]
+name = "bit"
+load = "rock"
+mass = "1 g"
+diameter = "94 mm"
+[[drive]]
+name = "feed"
+programme = "feeding"
+[[drive]]
+name = "head"
+component = "rx"
+programme = "turning"
+[static]
+lay_on_wall = true
+[run]
+end = "2 s"
+step = "1 ms"
+[variability]
+question = "torque-drag"
+[[variability.scatter]]
+name = "friction"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+distribution = "normal"
+mean = 0.3
+deviation = 0.03
+"""
+WEIGHT = 9.81 * 7850.0 * math.pi / 4.0 * (0.073 ** 2 - 0.061 ** 2) * 60.0  # [N]
+
+
+def failure(kind, **keys):
+    return f'[[failure]]\nkind = "{kind}"\n' + "".join(f"{key} = {value!r}\n" for key, value in keys.items())
+
+
+FORCES = failure("rig-push", limit="12 kN") + failure("rig-pull", limit="3 kN") + failure("rig-torque", limit="250 N m")
+ALL = FORCES + failure("lock-up") + failure("helical-buckling") + failure("stress", strength="500 MPa") \
+    + failure("connection-torque", limit="2 kN m") + failure("wall-pressure", limit="1 MPa", width="20 mm")
+FIELD = """[[variability.field]]
+name = "size"
+key = "hole.diameter"
+distribution = "uniform"
+low = "94.5 mm"
+high = "100 mm"
+correlation_length = "8 m"
+to = "60 m"
+[[variability.scatter]]
+name = "wear"
+key = "string[0].pipes[0].outer_diameter"
+relative = true
+distribution = "uniform"
+low = 0.97
+high = 1
+[[variability.scatter]]
+name = "mud"
+key = "environment.fluid_density"
+distribution = "uniform"
+low = "900 kg/m3"
+high = "1100 kg/m3"
+[[variability.process]]
+name = "rock load"
+programme = "rock"
+distribution = "gamma"
+mean = 1
+deviation = 0.2
+correlation_time = "0.1 s"
+"""
+
+
+def known_demands(sample, z):
+    """Torque and drag by the analyses of the library on the whole scene, read anew for the sample."""
+    made = scene.loads(sample.text, changes={**sample.draw.changes(sample.draw.values(z)), "string[0].pipes[0].yield_strength": "500 MPa"})
+    plan = operating(made)
+    with made.new_sim() as sim:
+        usual = operations_of(plan)
+        chosen = [usual[int(kind)] for kind in soft.STATES.values()]
+        pull, push, turn = rows = sim.torque_drag(chosen).rows[0]
+        force = max(max(sim.torque_drag_profile(one, soft.STATIONS)["wall_force"]) for one in chosen)
+    thrust = max(-row.hook_load for row in rows)
+    return [max(-push.hook_load, -turn.hook_load), pull.hook_load, turn.torque, plan.weight_on_bit / thrust, max(row.helical_share for row in rows),
+            max(row.yield_share for row in rows), turn.torque, force / 0.02]
+
+
+class SoftTest(unittest.TestCase):
+    def check(self, text, why=""):
+        sample = SceneSample(text)
+        self.assertEqual(sample.soft.why, why)
+        for number in range(5):
+            z = drawn(3, number, sample.dimension)
+            for mine, known in zip(sample(number, z).demands, known_demands(sample, z)):
+                self.assertLess(abs(mine / known - 1.0), 1e-9, (number, mine, known))
+
+    def test_against_the_library(self):
+        self.check(LEVEL + ALL)
+        self.check(LEVEL + FIELD + ALL)
+
+    def test_scenes_that_are_read_anew(self):
+        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\nmean = 0\n' \
+               'deviation = "0.3 deg"\ncorrelation_length = "20 m"\n'
+        self.check(LEVEL + more + ALL, "survey is no factor of the numbers that it changes")
+        self.assertIn("reads the scene anew", SceneSample(LEVEL + more + ALL).soft.notes()[0])
+
+    def test_closed_form(self):
+        sample = SceneSample(LEVEL + FORCES)
+        for number in range(5):
+            z = drawn(3, number, 1)
+            mu = 0.3 + 0.03 * z[0]
+            push, pull, torque = sample(number, z).demands
+            self.assertAlmostEqual(push / (8000.0 + mu * WEIGHT), 1.0, 5)  # the bit's 1 g, and the helix-free contact
+            self.assertAlmostEqual(pull / (mu * WEIGHT), 1.0, 5)
+            around = 200.0 * math.pi / 60.0 * 0.0365
+            turned = around / math.hypot(around, 0.01)  # share of the friction that resists the rotation, beside the feed
+            self.assertAlmostEqual(torque / (turned * mu * WEIGHT * 0.0365 + 0.5 * 8000.0 * 0.094 / 3.0), 1.0, 5)
+
+    def test_linear_gaussian(self):
+        """P(load + mu w L > limit) = Phi(-beta), exact by FORM because the margin is linear."""
+        needs("openturns")
+        from drillmbd.probability.estimates import form
+        sample = SceneSample(LEVEL + failure("rig-push", limit="9.5 kN"))
+        found = form(Study(sample, engines.serial).evaluate(0), 1)
+        slope = (sample(0, np.ones(1)).demands[0] - sample(1, -np.ones(1)).demands[0]) / 2.0
+        beta = (9500.0 - 8000.0 - 0.3 * WEIGHT) / (0.03 * WEIGHT)
+        self.assertLess(abs(slope / (0.03 * WEIGHT) - 1.0), 1e-6)
+        self.assertLess(abs(found.probability - stats.norm.cdf(-beta)), 1e-6)
+
+    def test_lock_up(self):
+        """A string that no thrust moves fails by every kind that thrust decides, and has no finite demand."""
+        made = limits.Soft({"pulled out": _row(100.0), "pushed in": _row(math.nan, 1), "rotated": _row(-50.0)}, 10.0, 1e9)
+        failures = scene.loads(LEVEL + FORCES + failure("lock-up")).failures
+        found = {one.kind: limits.soft_margin(one, made) for one in failures}
+        self.assertEqual(found["rig-push"], (-math.inf, math.inf))
+        self.assertEqual(found["lock-up"], (-0.1, 0.0))
+        self.assertEqual(found["rig-pull"], (2900.0, 100.0))
+
+    def test_engines(self):
+        sample = SceneSample(LEVEL + FIELD + ALL)
+        points = Points("monte-carlo", 7, sample.dimension, 450)
+        known = [one.margins for one in Study(sample, engines.serial).run(range(450), points.z)]
+        self.assertEqual([sample(n, points.z(n)).margins for n in (0, 199, 200, 449)], [known[n] for n in (0, 199, 200, 449)])
+        for engine in (engines.threads(2), engines.processes(2)):
+            self.assertEqual([one.margins for one in Study(sample, engine).run(range(449, -1, -1), points.z)][::-1], known)
+
+    def test_registry(self):
+        for word, kind in KINDS.items():
+            if word != "own":
+                self.assertEqual("torque-drag" in kind.questions, limits.HOW[word].soft is not None, word)
+                self.assertIn("run", kind.questions)
+
+
+def _row(hook_load, locked=0):
+    made = soft.TorqueDragRow.blank()
+    made.locked = locked
+    soft.Structure.__setattr__(made, "hook_load", hook_load)
+    return made
+
+
+class StaticTest(unittest.TestCase):
+    def test_worst_of_three(self):
+        """Pushed in with the load of the bit, pulled out without, rotated with its torque; the bit load is 0 at time 0."""
+        sample = SceneSample(LEVEL + FORCES, asked="static")
+        inertia = math.pi / 64.0 * (0.073 ** 4 - 0.061 ** 4)
+        lifted = (72.0 * 2.1e11 * inertia * 0.0105 / (WEIGHT / 60.0)) ** 0.25  # [m] not on the floor behind the rig, which bears 2/3 of its weight
+        for z in (-1.0, 0.0, 1.0):
+            push, pull, torque = sample(0, np.array([z])).demands
+            friction = (0.3 + 0.03 * z) * WEIGHT * (1.0 - 2.0 / 3.0 * lifted / 60.0)
+            climbs = math.hypot(1.0, 0.3 + 0.03 * z)  # a string that turns lies beside the bottom, where its weight has a part along the wall
+            for found in (push - 8000.0, pull, (torque - 0.5 * 8000.0 * 0.094 / 3.0) / 0.0365 * climbs):
+                self.assertLess(abs(found / friction - 1.0), 0.03)  # contact is 1.5 m apart
+
+    def test_refused(self):
+        with self.assertRaisesRegex(CannotDraw, r"failure stick-slip \(stick-slip\): the question static says nothing about it; ask --question run"):
+            SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("stick-slip"), asked="static").names
+        with self.assertRaisesRegex(CannotDraw, "from = 1 s is for runs in time"):
+            SceneSample(LEVEL.replace('question = "torque-drag"', "") + failure("rig-push", limit="1 kN", **{"from": "1 s"}), asked="torque-drag").names
+        with self.assertRaisesRegex(scene.SceneError, "needs question = \"static\" or|needs a run in time"):
+            scene.loads(LEVEL + failure("stick-slip"))
+
+
+class DemandTest(unittest.TestCase):
+    def test_order_statistics(self):
+        """Ranks 40 and 61 bound the median of 100 values with 95 % (tables of Hahn and Meeker 1991)."""
+        self.assertEqual(demands.percentile(np.arange(1.0, 101.0), 50, 0.95), (50.0, 40.0, 61.0))
+        value, low, high = demands.percentile(np.arange(1.0, 21.0), 95, 0.95)
+        self.assertEqual((value, high), (19.0, math.inf))
+        self.assertGreater(low, 10.0)
+
+    def test_coverage(self):
+        rng, inside = np.random.default_rng(1), 0
+        for _ in range(400):
+            _, low, high = demands.percentile(np.sort(rng.standard_normal(200)), 95, 0.95)
+            inside += low <= stats.norm.ppf(0.95) <= high
+        self.assertGreaterEqual(inside, 372)
+
+    def test_matters(self):
+        rng = np.random.default_rng(2)
+        inputs = rng.standard_normal((500, 3))
+        found = demands.matters(3.0 * inputs[:, 1] - inputs[:, 0] + 0.1 * rng.standard_normal(500), inputs, ["a", "b", "c"])
+        self.assertEqual([one.name for one in found], ["b", "a", "c"])
+        known = stats.spearmanr(inputs[:, 1], 3.0 * inputs[:, 1] - inputs[:, 0])[0]
+        self.assertLess(abs(found[0].rank - known), 0.01)
+        self.assertLess(abs(found[2].rank), 2.0 * found[2].least)
+
+    def test_strings_that_lock_up(self):
+        one = scene.loads(LEVEL + failure("rig-push", limit="12 kN")).failures[0]
+        values = np.array([1.0, 2.0, math.nan] + [math.inf] * 10)
+        found = demands.demand_of(one, values, np.zeros((13, 1)), ["x"], 0.95)
+        self.assertEqual((found.infinite, found.percentiles[-1].value, sum(found.counts)), (10, math.inf, 2))
+        self.assertIn("P95 without bound", found.sentence(0.95))
+        self.assertIsNone(demands.demand_of(one, np.full(3, math.nan), np.zeros((3, 1)), ["x"], 0.95))
+
+
+class UntilTest(FolderTest):
+    SCENE = LEVEL + failure("rig-push", limit="9.9 kN")
+
+    def test_rules(self):
+        one = Estimate(0.1, 0.08, 0.13, 0.95, "", 1, 1, 0)
+        self.assertTrue(until.rule("30%").met(one))
+        self.assertFalse(until.rule("20 %").met(one))
+        self.assertTrue(until.rule("below 0.2").met(one))
+        self.assertTrue(until.rule("below 0.05").met(one))
+        self.assertIn("is above 0.05", until.rule("below 0.05").verdict(one))
+        self.assertFalse(until.rule("below 0.1").met(one))
+        self.assertFalse(until.rule("30%").met(Estimate(0.0, 0.0, 0.1, 0.95, "", 1, 0, 0)))
+        for text in ("", "many", "0 %", "200%", "below 2", "below", "1e-12"):
+            with self.assertRaisesRegex(Exception, "write a share of the probability"):
+                until.rule(text)
+
+    def test_command(self):
+        """Stops at the first look at which the rule is met, and at --samples where it never is."""
+        out = self.ask("probability", self.scene, "-o", self.folder / "out", "--until", "30%", "--engine", "serial")
+        estimate = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))["estimates"]["rig-push"]
+        self.assertLessEqual(0.5 * (estimate["high"] - estimate["low"]), 0.3 * estimate["probability"])
+        self.assertIn("half of the interval is", out)
+        margins = read_rows(self.folder / "out" / "study.h5")[0]["margin"][:, 0]
+        looks = [until.FIRST]
+        while looks[-1] < len(margins):
+            looks.append(until.following(looks[-1], until.MOST))
+        self.assertEqual((looks[-1], len(looks) > 1), (len(margins), True))
+        self.assertFalse(until.rule("30%").met(counted(margins[:looks[-2]])))
+        out = self.ask("probability", self.scene, "--until", "below 1e-6", "--samples", 300, "--engine", "serial")
+        self.assertIn("after", out)
+        self.assertIn("write a share", self.ask("probability", self.scene, "--until", "soon", status=2))
+        self.assertIn("--until adds samples", self.ask("probability", self.scene, "--until", "30%", "--method", "sobol", status=2))
+
+
+class MapTest(FolderTest):
+    SCENE = LEVEL + failure("rig-push", limit="9.5 kN")
+    WORDS = ("--vary", "hole.diameter=94 mm,98 mm", "--vary", "failure.limit=9.3 kN:9.7 kN:3", "--samples", 400, "--engine", "serial")
+
+    def test_map(self):
+        out = self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
+        summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
+        with open(self.folder / "out" / "map.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 6)
+        for row, cell in zip(rows, summary["cells"]):
+            limit = 1000.0 * float(row["failure.limit"].split()[0])
+            known = stats.norm.sf((limit - 8000.0 - 0.3 * WEIGHT) / (0.03 * WEIGHT))
+            low, high = float(row["low of rig-push"]), float(row["high of rig-push"])
+            self.assertTrue(low <= known <= high, (low, known, high))
+            known = 8000.0 + (0.3 + 0.03 * stats.norm.ppf(0.95)) * WEIGHT
+            ends = cell["demands"]["rig-push"]["percentiles"]["P95"]
+            self.assertTrue(ends["low"] <= known <= ends["high"])
+        shares = [float(row["probability of rig-push"]) for row in rows]
+        self.assertEqual(shares[:3], shares[3:])  # the same random numbers, and the diameter does not matter in a straight hole
+        self.assertTrue(shares[0] > shares[1] > shares[2])
+        self.assertEqual([row["fails only here"] for row in rows], ["0"] * 6)
+        self.assertEqual(int(rows[1]["fails only in the first cell"]), round(400 * (shares[0] - shares[1])))
+        self.assertIn("cell 6: hole.diameter = 98 mm, failure.limit = 9.7 kN: any failure", out)
+        self.assertGreater((self.folder / "out" / "map.png").stat().st_size, 5000)
+        before = read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist()
+        self.ask("probability", self.scene, "-o", self.folder / "out", *self.WORDS)
+        self.assertEqual(read_rows(self.folder / "out" / "00004" / "study.h5")[0]["seconds"].tolist(), before)  # nothing is computed again
+
+    def test_a_cell_that_cannot_be(self):
+        out = self.ask("probability", self.scene, "--vary", "hole.diameter=94 mm,60 mm,-1 mm", "--samples", 20, "--engine", "serial", status=1)
+        self.assertNotIn("Traceback", out)
+
+    def test_refused(self):
+        for words, told in ((("--vary", "x"), "write KEY=V1,V2"), (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
+                            (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "each key once"),
+                            (("--vary", "hole.diameter=94 mm", "--method", "subset"), "leave --indices and --method subset out")):
+            self.assertIn(told, self.ask("probability", self.scene, *words, status=2))
+        told = self.ask("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
+        self.assertIn("drillmbd probability", told)
+        self.assertIn("--vary 'hole.diameter=94 mm'", told)
+
+
+class AutoTest(FolderTest):
+    SCENE = SHORT.replace('limit = "111 N m"', 'limit = "1.5 N m"')
+
+    def test_unbiased(self):
+        """Torque and drag that are wrong for some of the samples: the estimate is right in the mean, its interval in 95 of 100."""
+        rng, truth, values, inside, repeats = np.random.default_rng(3), 0.0, [], 0, 300
+        a, b = 1.2, 0.8
+        truth = float(stats.norm.sf(a / math.hypot(1.0, b)))
+        for _ in range(repeats):
+            x, y = rng.standard_normal(1000), rng.standard_normal(1000)
+            cheap, run = a - x, a - x - b * y
+            near = abs(cheap) < auto.NEAR
+            ran = near | (rng.random(1000) < auto.FAR)
+            one = auto.Stage(cheap <= 0.0, near, ran, ran & (run <= 0.0), 0).estimate(0.95)
+            values.append(one.probability)
+            inside += one.low <= truth <= one.high
+        self.assertLess(abs(np.mean(values) - truth), 4.0 * np.std(values) / math.sqrt(repeats))
+        self.assertGreaterEqual(inside / repeats, 0.95)
+
+    def test_nothing_far_was_seen(self):
+        """No run among samples that are far: their share stays in the interval."""
+        safe = np.zeros(100, bool)
+        one = auto.Stage(safe, safe, safe, safe, 0).estimate(0.95)
+        self.assertEqual((one.probability, one.low, one.high), (0.0, 0.0, 1.0))
+
+    def test_against_plain_runs(self):
+        """The same decision for every sample that both computed."""
+        self.ask("probability", self.scene, "-o", self.folder / "plain", "--samples", 40, "--workers", 2)
+        out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
+        plain = {int(row["number"]): row["margin"].tolist() for row in read_rows(self.folder / "plain" / "study.h5")[0]}
+        rows = read_rows(self.folder / "auto" / "study.h5")[0]
+        self.assertTrue(0 < len(rows) < 40, len(rows))
+        self.assertEqual([row["margin"].tolist() for row in rows], [plain[int(row["number"])] for row in rows])
+        summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
+        self.assertEqual(summary["question"], "auto")
+        found = summary["estimates"]["any failure"]
+        known = sum(min(margins) <= 0.0 for margins in plain.values()) / 40
+        self.assertTrue(found["low"] <= known <= found["high"])
+        self.assertIn("others with the weight 10", out)
+        self.assertEqual(len(read_rows(self.folder / "auto" / "study_torque_drag.h5")[0]), 40)
+        again = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
+        self.assertIn("0 samples computed", again)
+        self.assertIn("Monte Carlo study", self.ask(
+            "probability", self.scene, "--question", "auto", "--until", "30%", status=2))
+
+
+if __name__ == "__main__":
+    unittest.main()
