@@ -113,10 +113,10 @@ static void open_shaft(scene *c, uint32_t elements, int jointed, int pinned, dou
 static void clamped_shaft_under_torque(void **state)
 {
     (void)state;
-    const uint32_t elements[4] = {16, 32, 64, 128};
+    const uint32_t elements[3] = {32, 64, 128};
     for (int jointed = 0; jointed < 2; jointed++) {
-        double error[4];
-        for (int i = 0; i < 4; i++) {
+        double error[3];
+        for (int i = 0; i < 3; i++) {
             scene c;
             dmb_buckling_info info;
             double factor[2];
@@ -135,12 +135,13 @@ static void clamped_shaft_under_torque(void **state)
             dmb_buckling_destroy(&found);
             rig_close(&c.s);
         }
-        check_order("8.987 EI/L, 32 and 64 elements", error[1], error[2], 2.0, 0.05);
-        check_below("  128 elements", error[3], 5e-5);
+        check_order("8.987 EI/L, 32 and 64 elements", error[0], error[1], 2.0, 0.05);
+        check_below("  128 elements", error[2], 5e-5);
     }
 }
 
-/* Moments with a fixed axis: det K = 0 at 2 pi EI/L, though the symmetric part says otherwise. */
+/* Moments with a fixed axis: det K = 0 at 2 pi EI/L, though the symmetric part says otherwise. The eigenvalues stay
+ * real before: no flutter. */
 static void pinned_shaft_under_torque(void **state)
 {
     (void)state;
@@ -153,8 +154,9 @@ static void pinned_shaft_under_torque(void **state)
         error[i] = fabs((1.0 + factor) / (2.0 * PI) - 1.0);
         print_message("    T L/EI %.7f, %u linearisations\n", 1.0 + factor, info.linearisations);
         assert_int_equal(info.stiffness, DMB_STIFFNESS_UNSYMMETRIC);
+        assert_int_equal(info.flutter, DMB_FLUTTER_NONE);
         assert_int_equal(info.confirmed, 1);
-        check_relative("    the path's bifurcation", factor, event_of_path(&c, DMB_SCALE_LOADS, 8.0), 1e-6);
+        if (i == 0) check_relative("    the path's bifurcation", factor, event_of_path(&c, DMB_SCALE_LOADS, 8.0), 1e-6);
         rig_close(&c.s);
     }
     check_below("Greenhill's 2 pi EI/L, 64 elements", error[1], 1e-4);

@@ -119,13 +119,26 @@ static double push_of_bit(const pushed *h)
     return -section.force[0] + last.friction[0];
 }
 
+/* [N] lock-up of a pipe of 73 mm by its first push. Friction acts at the surface of the pipe and so turns the helix
+ * back a little, which the closed form leaves out: beside a clearance of 63.5 mm the wall takes up less than of a thin
+ * one. */
+static double lock_of_thick_pipe(void)
+{
+    pushed h;
+    open_pushed(&h, 0.073, 1.0);
+    wind(&h);
+    const double lock = 1.0 / (1.0 / push_of_bit(&h) - 1.0 / push_of_rig(&h));
+    rig_close(&h.s);
+    return lock;
+}
+
 /* The rig pushes ten times as hard and half as much again arrives: what is left to gain falls as the law says. The law
- * is of slender helices; at 2.5 MN the string stands at 9 degrees to the hole. */
+ * is of slender helices; at 2.5 MN the string stands at 9 degrees to the hole. A thick pipe gets more through. */
 static void no_push_gets_through(void **state)
 {
     (void)state;
     pushed h;
-    double pushed_by = 0.0, bit = 0.0, first_push = 0.0, first_bit = 0.0;
+    double pushed_by = 0.0, bit = 0.0, first_push = 0.0, first_bit = 0.0, thin = 0.0;
     open_pushed(&h, 0.01, 1.5);
     wind(&h);
     print_message("lock-up at %.0f N\n    rig [N]     bit [N]   of lock-up   lock-up from the two [N]\n", LOCK);
@@ -134,8 +147,8 @@ static void no_push_gets_through(void **state)
         if (k > 0) settle(&h);
         pushed_by = push_of_rig(&h);
         bit = push_of_bit(&h);
-        if (k == 0) first_push = pushed_by, first_bit = bit;
         const double lock = 1.0 / (1.0 / bit - 1.0 / pushed_by);
+        if (k == 0) first_push = pushed_by, first_bit = bit, thin = lock;
         print_message("%11.0f %11.0f %12.4f %14.0f\n", pushed_by, bit, bit / LOCK, lock);
         check_relative("    what arrives of that push", bit, 1.0 / (1.0 / pushed_by + 1.0 / LOCK),
                        pushed_by < 1e6 ? 0.01 : 0.02);
@@ -147,31 +160,16 @@ static void no_push_gets_through(void **state)
     print_message("rig %.2f times, bit %.2f times the first\n", pushed_by / first_push, bit / first_bit);
     assert_true(pushed_by > 5.0 * first_push && bit < 1.6 * first_bit);
     rig_close(&h.s);
-}
-
-/* Friction acts at the surface of the pipe and so turns the helix back a little, which the closed form leaves out: of a
- * pipe of 73 mm beside a clearance of 63.5 mm the wall takes up less than of a thin one. */
-static void thick_pipe_gets_more_through(void **state)
-{
-    (void)state;
-    double lock[2];
-    for (int k = 0; k < 2; k++) {
-        pushed h;
-        open_pushed(&h, k == 0 ? 0.01 : 0.073, 1.0);
-        wind(&h);
-        lock[k] = 1.0 / (1.0 / push_of_bit(&h) - 1.0 / push_of_rig(&h));
-        print_message("diameter %g mm: lock-up at %.0f N\n", k == 0 ? 10.0 : 73.0, lock[k]);
-        rig_close(&h.s);
-    }
-    check_relative("thin pipe, closed form", lock[0], LOCK, 5e-3);
-    assert_true(lock[1] > 1.01 * lock[0] && lock[1] < 1.05 * lock[0]);
+    check_relative("thin pipe at its first push, closed form", thin, LOCK, 5e-3);
+    const double thick = lock_of_thick_pipe();
+    print_message("diameter %g mm: lock-up at %.0f N\n", 73.0, thick);
+    assert_true(thick > 1.01 * thin && thick < 1.05 * thin);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_push_gets_through),
-        cmocka_unit_test(thick_pipe_gets_more_through),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

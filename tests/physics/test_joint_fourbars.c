@@ -148,8 +148,8 @@ static void no_branch_is_changed(void **state)
 static void other_spectral_radii_do_it_too(void **state)
 {
     (void)state;
-    const double radius[3] = {0.5, 0.8, 0.9};
-    for (int k = 0; k < 3; k++) {
+    const double radius[2] = {0.5, 0.8};
+    for (int k = 0; k < 2; k++) {
         const outcome o = run(5e-4, radius[k], 4);
         check_outcome(&o);
         check_below("tip at all times, h 5e-4", largest(4, o.off), 1e-5);
