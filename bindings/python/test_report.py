@@ -170,7 +170,7 @@ class LanguageTest(unittest.TestCase):
 
     def test_units_are_converted_in_every_language(self):
         field = unit_systems.Units("field")
-        said = field.sentence(language.phrase("surveyed length {length:.4g} m", length=30.48))
+        said = field.sentence(language.phrase("surveyed length {length:.6g} m", length=30.48))
         self.assertEqual((said, language.Language("zh")(said)), ("surveyed length 100 ft", "测斜长度 100 ft"))
 
 
