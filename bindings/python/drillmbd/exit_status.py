@@ -1,7 +1,6 @@
 """Exit statuses of the command, the same for all of its commands, and the errors that lead to them."""
 from __future__ import annotations
 
-import re
 from typing import Any
 
 STATUSES = {
@@ -23,6 +22,7 @@ def status_and_message(error: BaseException) -> tuple[int, str] | None:
     """The exit status and the line for an error that a user can meet; None for a fault of the program."""
     from .errors import Error, Usage
     from .fmu import CannotExport
+    from .language import without_functions
     from .scene import CannotSave, SceneError
     if isinstance(error, SceneError):
         return WRONG, str(error)
@@ -40,11 +40,6 @@ def status_and_message(error: BaseException) -> tuple[int, str] | None:
     if isinstance(error, KeyboardInterrupt):
         return STOPPED, "drillmbd: stopped by Ctrl-C"
     return None
-
-
-def without_functions(message: str) -> str:
-    """A message of the library with the names of commands in place of those of C functions."""
-    return re.sub(r"\bdmb_(?:analysis_)?(\w+)", lambda found: found[1].replace("_", "-"), message)
 
 
 def line_of(error: Any) -> str:

@@ -36,13 +36,24 @@ class Listed(str):
         return self
 
 
+def without_functions(message: str) -> str:
+    """A message of the library with commands in place of functions of C, and values of scene files in place of its constants."""
+    text = re.sub(r"\bdmb_(?:analysis_)?(\w+)", lambda found: found[1].replace("_", "-"), message)
+    return re.sub(rf"\bDMB_(?:{CHOICES})_(\w+)", lambda found: '"' + found[1].lower().replace("_", "-") + '"', text)
+
+
+#: Enumerations of the library whose values scene files name by their last words.
+CHOICES = "STEADY|PIPE|ROCK|DRIVE|TARGET|HOLE|MODES|SCALE|CONTACT|INPUT|OUTPUT"
+
+
 class Foreign(str):
     """A message that the library or the reader of scene files wrote in English, with numbers in SI."""
     original: str
     units: Any  # into which numbers are converted, or None
 
     def __new__(cls, text: str, units: Any = None) -> Foreign:
-        self = super().__new__(cls, units.sentence(text) if units is not None else text)
+        shown = without_functions(text)
+        self = super().__new__(cls, units.sentence(shown) if units is not None else shown)
         self.original, self.units = text, units
         return self
 
@@ -130,7 +141,8 @@ def _catalogue(name: str) -> tuple[dict[str, str], list[tuple[re.Pattern[str], s
     import tomllib
     path = pathlib.Path(__file__).with_name(f"language_{name}.toml")
     content = tomllib.loads(path.read_text(encoding="utf-8"))
-    return content["phrases"], [(pattern_of(key), text) for key, text in content["messages"].items()]
+    exact_first = sorted(content["messages"].items(), key=lambda one: -len(FIELD.sub("", one[0])))  # "{a} elements" fits many
+    return content["phrases"], [(pattern_of(key), text) for key, text in exact_first]
 
 
 def pattern_of(template: str) -> re.Pattern[str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _structs, enums
 from .errors import Error
+from .language import Foreign, phrase
 from .operating import operating
 from .remade import number_of, programmes_of, with_programmes
 from .rig_torque import balanced
@@ -125,8 +126,9 @@ def linear(scene: Scene, analysis: str, settle: Callable[[Sim, Linear], Any], as
         try:
             return found, _ask(found, settle, ask)
         except Error as error:
-            note(f"{analysis}: the state of the string that slides at {found.rotation / RPM:.4g} rpm is refused ({error.message}); "
-                 "the state at rest without friction takes its place")
+            note(phrase("{analysis}: the state of the string that slides at {rpm:.4g} rpm is refused ({reason}); the state at rest without "
+                        "friction takes its place", analysis=phrase("speeds") if analysis == "speeds" else phrase("response"),
+                        rpm=found.rotation / RPM, reason=Foreign(error.message)))
     rest = at_rest(scene, analysis, found is not None)
     return rest, _ask(rest, settle, ask)
 
