@@ -1,5 +1,6 @@
 """Tests of what varies and what fails: distributions against their moments, ranks, covariances and Nataf's closed form; the
-margin of every limit state against what is known in closed form; the tables of scene files, good and bad."""
+margin of every limit state against what is known in closed form; the tables of scene files, good and bad.
+Equations: eq:probability.margin, eq:probability.translation, eq:probability.nataf, eq:probability.field, eq:probability.markov."""
 import math
 import pathlib
 import tempfile

@@ -32,7 +32,7 @@ class Estimate:
 
 # ---- Counting ----------------------------------------------------------------------------------------------------------
 def clopper_pearson(failures: int, samples: int, confidence: float) -> tuple[float, float]:
-    """The exact interval of a share (Clopper and Pearson 1934): never less than its confidence."""
+    """The exact interval of a share (eq:probability.clopper-pearson): never less than its confidence."""
     beta, rest = need("scipy.stats").beta, 0.5 * (1.0 - confidence)
     low = 0.0 if failures == 0 else float(beta.ppf(rest, failures, samples - failures + 1))
     high = 1.0 if failures == samples else float(beta.isf(rest, failures + 1, samples - failures))
@@ -66,7 +66,7 @@ def counted(margins: Any, method: str = "monte-carlo", replicates: int = 1, conf
             # Counts are whole: designs may agree and all miss a part f of a sample; each sees it with the probability f.
             whole = clopper_pearson(0, replicates, confidence)[1] / (samples // replicates)
             low, high = max(0.0, students(each, confidence)[1] - whole), min(1.0, students(most, confidence)[2] + whole)
-            about = f"Student's t of {replicates} independent designs, and a count's step"
+            about = f"Student's t of {replicates} independent designs, and a count's step"  # eq:probability.designs
     return Estimate(probability, low, high, confidence, method, samples, failures, lost, about)
 
 
@@ -80,7 +80,7 @@ def sampled(evaluate: Evaluate, points: Points, confidence: float = 0.95) -> Est
 
 # ---- Rare failures -----------------------------------------------------------------------------------------------------
 class Subset:
-    """Subset simulation (Au and Beck 2001) with conditional sampling of the normal numbers (Papaioannou et al. 2015): a new
+    """Subset simulation (eq:probability.subset) with conditional sampling of the normal numbers (eq:probability.conditional): a new
     state is sqrt(1 - s^2) z + s xi, taken where its margin is below the level; s follows the share taken from level to level.
     `replicates` independent ones, each of `each` samples a level; the interval is Student's t of their results, widened on both
     sides by the largest bias that a run with this scatter can have, half of its squared coefficient of variation (the sum over
@@ -121,7 +121,7 @@ class Subset:
             levels += 1
         probability, low, high = students(result, confidence)
         scatter = float(numpy.std(result, ddof=1)) if len(result) > 1 else math.nan
-        bias = 0.5 * scatter * scatter / probability if probability > 0.0 else 0.0
+        bias = 0.5 * scatter * scatter / probability if probability > 0.0 else 0.0  # eq:probability.subset-bias
         low, high = low - bias, high + bias
         if not (probability > 0.0 and math.isfinite(scatter)):
             low, high = 0.0, 1.0  # nothing seen in so many levels says nothing
@@ -197,7 +197,7 @@ class Form:
 
 
 def form(evaluate: Evaluate, dimension: int) -> Form:
-    """The first-order reliability method (Hasofer and Lind 1974, Rackwitz and Fiessler 1978), by OpenTURNS."""
+    """The first-order reliability method (eq:probability.form; solver of Rackwitz and Fiessler 1978), by OpenTURNS."""
     ot, numpy = need("openturns"), need("numpy")
     function, count = _function(evaluate, dimension)
     event = ot.ThresholdEvent(ot.CompositeRandomVector(function, ot.RandomVector(ot.Normal(dimension))), ot.LessOrEqual(), 0.0)
@@ -229,7 +229,7 @@ class Indices:
 
 
 def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: int = 1, confidence: float = 0.95) -> Indices:
-    """Sobol' indices of the margin by Jansen's estimators (Jansen 1999) on scrambled Sobol' points, intervals by bootstrap
+    """Sobol' indices of the margin by Jansen's estimators (eq:probability.sobol) on scrambled Sobol' points, intervals by bootstrap
     (OpenTURNS). groups: sizes of consecutive groups of the normal numbers by their names; a random field is one group. It takes
     count (2 + groups) samples; a row of which one has no margin is left out."""
     ot, numpy = need("openturns"), need("numpy")
@@ -270,7 +270,7 @@ LEAST_Q2 = 0.6  #: of a surrogate that an interval is told of
 
 class Surrogate:
     """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The rest tells
-    its error: q2 = 1 - mean square error/variance, the root mean square error, and how many margins have the wrong sign."""
+    its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many margins have the wrong sign."""
 
     def __init__(self, z: Any, margins: Any, degree: int = 4) -> None:
         ot, numpy = need("openturns"), need("numpy")

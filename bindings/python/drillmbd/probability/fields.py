@@ -1,5 +1,5 @@
 """Random fields and processes: standard normal numbers z, independent, to correlated ones at points (Karhunen and Loeve's
-expansion of the covariance matrix at these points, exact with all of its modes)."""
+expansion of the covariance matrix at these points, exact with all of its modes; eq:probability.field)."""
 from __future__ import annotations
 
 import functools
@@ -66,7 +66,7 @@ class Expansion:
 
 class Markov:
     """The exponential kernel on an even grid without a matrix: x_0 = z_0, x_k = a x_(k-1) + sqrt(1 - a^2) z_k with
-    a = e^(-h/L), exact (Ornstein and Uhlenbeck)."""
+    a = e^(-h/L), exact (Ornstein and Uhlenbeck; eq:probability.markov)."""
 
     def __init__(self, length: float, spacing: float, count: int) -> None:
         self.a, self.modes = math.exp(-spacing / length), count

@@ -1,6 +1,6 @@
 """Limit states: what a run shows of each failure, and its margin. A limit state asks for signals (series in time, looked at
 in regular intervals) and makes one number of them, the demand; the margin is limit - demand (demand - limit where
-little is bad), below 0 in a failure."""
+little is bad; eq:probability.margin), below 0 in a failure."""
 from __future__ import annotations
 
 import math

@@ -1,4 +1,4 @@
-"""Distributions by name and parameters, by SciPy: x = F^-1(Phi(z)) of a standard normal z (translation, Nataf)."""
+"""Distributions by name and parameters, by SciPy: x = F^-1(Phi(z)) of a standard normal z (eq:probability.translation)."""
 from __future__ import annotations
 
 import math
@@ -70,7 +70,7 @@ class Translation:
 
 def value_correlation(a: Marginal, b: Marginal, rho: float, points: int = 64) -> float:
     """Correlation of the values where that of the normal numbers is rho (Nataf): the integral of
-    (x_a - m_a)(x_b - m_b)/(s_a s_b) over the bivariate normal density, by Gauss and Hermite."""
+    (x_a - m_a)(x_b - m_b)/(s_a s_b) over the bivariate normal density, by Gauss and Hermite (eq:probability.nataf)."""
     numpy = need("numpy")
     nodes, weights = numpy.polynomial.hermite_e.hermegauss(points)
     weights = weights / weights.sum()
