@@ -478,6 +478,12 @@ static void pipe_outside_the_hole(void **state)
     open_in_hole(&s, &wall, 0.0105 - 1e-9, 0.0);
     assert_int_equal(check_of(&s).warnings, 0);
     rig_close(&s);
+    open_in_hole(&s, &wall, 0.0105 + 6e-7, 0.0); /* 0.0006 mm: the rounding of diameters */
+    assert_int_equal(check_of(&s).warnings, 0);
+    rig_close(&s);
+    open_in_hole(&s, &wall, 0.0105 + 1e-5, 0.0);
+    assert_int_equal(check_of(&s).warnings, 1);
+    rig_close(&s);
     open_in_hole(&s, &wall, 0.0125, 0.0);
     assert_int_equal(check_of(&s).warnings, 1);
     expect_line(text_of(&s), "string 0, pipe ");

@@ -13,9 +13,10 @@
 #define DMB_SMALL_MASS 1e-9      /* of the largest one */
 #define DMB_NEARLY_SQUARE 0.05   /* [rad] this near to where coordinates or equations lose their meaning */
 #define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part that lies on the wall */
-#define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
-#define DMB_WIDE_PIPE 10.0       /* [m] no pipe or hole is this wide, but some are in millimetres */
-#define DMB_WIDE_HOLE 20.0       /* [m] */
+#define DMB_TOUCHES 1e-4        /* of the hole's radius: the rounding of described diameters, 5 um in a hole of 94 mm */
+#define DMB_DEPTH_ROUNDING 1e-6 /* [m] */
+#define DMB_WIDE_PIPE 10.0      /* [m] no pipe or hole is this wide, but some are in millimetres */
+#define DMB_WIDE_HOLE 20.0      /* [m] */
 
 /* The buffer that lines are written to. */
 typedef struct sink {
@@ -264,12 +265,14 @@ static void odd_hole(const sink *to)
 
 /* ---- Hole -------------------------------------------------------------------------------------------------------- */
 
-/* Where parts still stand as described, any overlap is one; later the wall gives way under what lies on it. */
+/* Where parts still stand as described, an overlap is one if it is more than the figures of a description are exact to,
+ * and than the chord of an element departs from the arc of the hole; later the wall gives way under what lies on it. */
 static double allowed_penetration(const dmb_sim *sim, uint32_t node)
 {
     const double *u = sim->now.displacement + 3 * (size_t)node;
-    if (dmb_vec3_norm(u) > 0.0) return DMB_SUNK * dmb_hole_radius(&sim->scene->hole, sim->scene->reference_depth[node]);
-    return 1e-12 * (1.0 + dmb_vec3_norm(sim->scene->reference_position + 3 * (size_t)node));
+    const double radius = dmb_hole_radius(&sim->scene->hole, sim->scene->reference_depth[node]);
+    if (dmb_vec3_norm(u) > 0.0) return DMB_SUNK * radius;
+    return DMB_TOUCHES * radius + 1e-12 * (1.0 + dmb_vec3_norm(sim->scene->reference_position + 3 * (size_t)node));
 }
 
 static void outside_sideways(const sink *to)
