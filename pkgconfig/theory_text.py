@@ -19,6 +19,7 @@ FIGURE_CITED = re.compile(r"(?<![\w#:.])fig:[a-z0-9-]*[a-z0-9]")
 WORK_CITED = re.compile(r"(?<![\w`\\])@([A-Za-z][\w:-]*\w)")
 LINK = re.compile(r"(?<!!)\[[^\]\n]*(?:\n[^\]\n]+)*\]\((?P<target>[^)\s]+)\)")
 PLACE = re.compile(r"`(?P<path>[\w./-]+)`\s*(?:\((?P<names>[^)]*)\))?")
+SOURCE = re.compile(r"`((?:lib|include|bindings|tests|examples|pkgconfig)/[\w./-]*\w)`")
 TEST = re.compile(r"`((?:unit|physics|contract|relations|python|example|fuzz|golden|abi|fmi)_\w+)`")
 SOURCES = (("lib", ("c", "h")), ("include", ("h",)), ("tests", ("c", "h", "py", "md")), ("bindings", ("c", "h", "hpp", "py")),
            ("examples", ("c", "py", "md")))
@@ -146,6 +147,13 @@ def place_faults(manual):
                 yield from place_fault(manual, chapter, match.group("path"), match.group("names"))
 
 
+def path_faults(manual):
+    for chapter in [manual.index, *manual.chapters]:
+        for match in SOURCE.finditer(chapter.text):
+            if not (manual.root / match.group(1)).exists():
+                yield f"{chapter.line(match.start())}: there is no {match.group(1)}"
+
+
 def place_fault(manual, chapter, path, names):
     file = manual.root / path
     if "/" not in path or not file.is_file():
@@ -227,6 +235,7 @@ CHECKS = (("the index lists every chapter", chapter_faults),
           ("names of equations are unique", equation_faults),
           ("every equation cited by a chapter, a source or a test exists", citation_faults),
           ("every chapter names files and functions that exist", place_faults),
+          ("files that the text names exist", path_faults),
           ("every chapter names tests that exist", test_faults),
           ("every figure has a script and a citation", figure_faults),
           ("every work cited is listed, every one listed is cited", work_faults),

@@ -270,7 +270,8 @@ LEAST_Q2 = 0.6  #: of a surrogate that an interval is told of
 
 class Surrogate:
     """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The rest tells
-    its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many margins have the wrong sign."""
+    its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many
+    margins have the wrong sign."""
 
     def __init__(self, z: Any, margins: Any, degree: int = 4) -> None:
         ot, numpy = need("openturns"), need("numpy")
