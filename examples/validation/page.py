@@ -170,7 +170,8 @@ def study_section(program: pathlib.Path, folder: pathlib.Path) -> tuple[str, str
     part = ('<h2 id="study">The reference study, sentence by sentence</h2><p>A numerical study of a gas-drainage rig, J. '
             'Computational Methods in Sciences and Engineering, <a href="https://doi.org/10.3233/JCM-194119">doi:10.3233/'
             "JCM-194119</a>; its equations and the means of two figures were lost in the text at hand. One row for each sentence "
-            f"that can be tested, in its own quantity and axis. <b>{html.escape(counts)}.</b></p>{study.table_html(table)}"
+            f"that can be tested, in its own quantity and axis. <b>{html.escape(counts)}.</b></p>"
+            f"{study.response_picture(folder)}{study.table_html(table)}"
             f"<h3>Assumptions of this project, which the study does not give</h3><ul>{listed}</ul>")
     return part, printed[printed.index("The study, one row"):]
 

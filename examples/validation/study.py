@@ -1,11 +1,14 @@
 """The reference study: the rows that examples/reference_study prints, as data."""
 from __future__ import annotations
 
+import csv
 import dataclasses
 import html
 import pathlib
 import re
 import subprocess
+
+from case import picture
 
 VERDICTS = ("CONFIRMED IF", "NOT CONFIRMED", "CANNOT BE DECIDED", "NOT COMPUTED", "CONFIRMED")  # the longest first
 
@@ -67,3 +70,23 @@ def table_html(table: list[Sentence]) -> str:
                    f'<td><span class="verdict">{row.verdict}</span> {html.escape(row.reason)}</td></tr>' for row in table)
     return ('<div class="scroll"><table><tr><th>no.</th><th>where</th><th>the study says</th><th>here</th>'
             f"<th>verdict</th></tr>{rows}</table></div>")
+
+
+def response_picture(folder: pathlib.Path) -> str:
+    """Amplitudes of pipe 100 by cause in X, the axis of the study's figure 11, and in Y and Z."""
+    with open(folder / "response.csv", encoding="utf-8", newline="") as text:
+        rows = list(csv.reader(text))
+    columns = {name: [float(row[k]) for row in rows[1:]] for k, name in enumerate(rows[0])}
+
+    def draw(axes):
+        for panel, axis in zip(axes, "XYZ"):
+            for cause, color, style in (("drives", "C2", "-"), ("friction", "C0", "-"), ("friction along", "C0", ":"),
+                                        ("eccentricity", "C1", "-")):
+                values = columns[f"{cause} {axis} [m]"]
+                panel.loglog(columns["frequency [Hz]"], [1e3 * value for value in values], style, color=color,
+                             linewidth=0.8, label=cause.replace("friction along", "friction, whole coefficient along"))
+            panel.axvline(1.58, color="C3", linestyle="--", linewidth=0.8, label="1.58 Hz of the study")
+            panel.set(xlabel="frequency [Hz]", title=f"pipe 100, {axis}")
+        axes[0].set_ylabel("amplitude [mm]")
+        axes[1].legend(fontsize=7, loc="lower left")
+    return picture(draw, 3, 9.5, 3.2)

@@ -162,12 +162,13 @@ def soft_string(axial, turning, points=4001):
 
 @case("suite")
 def suite(pictures):
-    sim, rows = suite_sim(), []
+    sim, rows, ends = suite_sim(), [], {}
     table = (("pick-up", mbd.OPERATION_PICK_UP, 1, 0), ("slack-off", mbd.OPERATION_SLACK_OFF, -1, 0),
              ("rotating", mbd.OPERATION_ROTATE, 0, 1))
     for name, operation, axial, turning in table:
         got = sim.torque_drag([mbd.usual_operation(operation)]).rows[0][0]
         force, torque = soft_string(axial, turning)
+        ends[name] = force
         rows.append(Row(f"hook load, {name}, against the equations", "kN", force / 1e3, got.hook_load / 1e3, "", 1e-3))
         if turning:
             rows.append(Row("torque, rotating, against the equations", "kN m", torque / 1e3, got.torque / 1e3, "", 1e-3))
@@ -175,10 +176,20 @@ def suite(pictures):
             printed = {"pick-up": 164.0, "slack-off": 129.0}[name]
             rows.append(Row(f"hook load, {name}, as the suites print it", "klbf", printed, got.hook_load / KIP, "another "
                             "program's output"))
+    def draw(axes):
+        for color, (name, operation, _, _) in zip(("C0", "C1", "C2"), table):
+            profile = sim.torque_drag_profile(mbd.usual_operation(operation))
+            axes.plot([force / 1e3 for force in profile["axial_force"]], profile["depth"], color=color,
+                      label=f"{name}, computed")
+            axes.plot([1e-3 * ends[name]], [0.0], "o", color=color, clip_on=False)
+        axes.set(xlabel="axial force [kN]", ylabel="depth [m]", title="lines: computed; points: hook load by the equations")
+        axes.invert_yaxis()
+        axes.legend()
     return Case("suite", 'Torque and drag of the well that validation suites call "SPE 11380 table 2"', "published",
                 "soft string of Johancsik, Friesen, Dawson 1984, J. Petroleum Technology 36, 987; the suites' printed figures "
                 "are those of another program", "10.2118/11380-PA",
                 "10 000 ft, 5 in drill pipe, 10 lb/gal, friction 0.3, survey of six stations; weight in mud by the buoyancy factor "
                 "of steel of 7850 kg/m³", "nothing", rows,
                 "The printed 164 and 129 klbf do not follow from the soft string and are only shown: its equations, integrated "
-                "on this page by the midpoint rule at 4001 points along arcs of minimum curvature, give the figures above.")
+                "on this page by the midpoint rule at 4001 points along arcs of minimum curvature, give the figures above.",
+                pictures=[picture(draw)] if pictures else [])
