@@ -209,3 +209,84 @@ def andrews(pictures):
                 f"10.1007/978-3-642-05221-7, {BENCHMARKS_DOI}",
                 "seven bodies, ten hinges, a spring of 4530 N/m, 0.033 N m at the crank, which turns 2.5 times in 0.03 s",
                 "nothing", rows, pictures=[picture(draw)] if pictures else [])
+
+
+# ---- Flyball governor ------------------------------------------------------------------------------------------------
+ROD, BALL, SLIDER = 0.3, 5.0, 3.0  # [kg] 1 x 0.01 x 0.01 m and 0.1 m cubed at 3000 kg/m3
+SPRING, DAMPER, REST, RATE, START = 8e5, 4e4, 0.5, 2.0 * math.pi, math.pi / 3.0
+ACROSS, ALONG, CUBE = ROD * (1.0 + 1e-4) / 12.0, ROD * 2e-4 / 12.0, SLIDER * 0.02 / 12.0  # [kg m2]
+
+
+def governor_reduced(times):
+    """Distance s [m] of the slider below the top by three equations: L = J(a) w constant, B a'' = J'(a) w^2/2 - V'(a) -
+    2 F dl/da, m s'' = m g - 2 F dl/ds, with F = K (l - l0) + C l' and l^2 = (sin(a)/2)^2 + (s - cos(a)/2)^2."""
+    from scipy.integrate import solve_ivp
+    arms = 2.0 * (0.25 * ROD + ACROSS + BALL)
+
+    def inertia(a):
+        return ALONG + CUBE + arms * math.sin(a) ** 2 + 2.0 * ALONG * math.cos(a) ** 2
+    momentum = inertia(START) * RATE
+
+    def slope(_t, state):
+        a, s, da, ds = state
+        x, y = 0.5 * math.sin(a), s - 0.5 * math.cos(a)
+        length = math.hypot(x, y)
+        by_a, by_s = (x * 0.5 * math.cos(a) + y * 0.5 * math.sin(a)) / length, y / length
+        force = SPRING * (length - REST) + DAMPER * (by_a * da + by_s * ds)
+        turn = momentum / inertia(a)
+        rise = (arms - 2.0 * ALONG) * math.sin(a) * math.cos(a) * turn ** 2
+        weight = -2.0 * GRAVITY * (0.5 * ROD + BALL) * math.sin(a)
+        return da, ds, (rise + weight - 2.0 * force * by_a) / arms, GRAVITY - 2.0 * force * by_s / SLIDER
+    return solve_ivp(slope, (0.0, times[-1]), (START, REST, 0.0, 0.0), method="Radau", t_eval=times, rtol=1e-10,
+                     atol=1e-12).y[1]
+
+
+def governor_run(step, times):
+    """The same by bodies: shaft, two rods with their balls, slider, two springs with dampers."""
+    mass, centre = ROD + BALL, (0.5 * ROD + BALL) / (ROD + BALL)
+    across = ACROSS + ROD * (centre - 0.5) ** 2 + BALL * (1.0 - centre) ** 2
+    with mbd.Model() as model:
+        model.set_environment(gravity=(0.0, 0.0, -GRAVITY))
+        spinning = (0.0, 0.0, 0.0, 0.0, 0.0, RATE)
+        shaft = model.add_body(mass=ROD, centre=(0.0, 0.0, -0.5), inertia=(ACROSS, ACROSS, ALONG, 0.0, 0.0, 0.0),
+                               velocity=spinning)
+        slider = model.add_body(mass=SLIDER, position=(0.0, 0.0, -REST), inertia=(CUBE, CUBE, CUBE, 0.0, 0.0, 0.0),
+                                velocity=spinning)
+        top, hung = mbd.station(shaft), mbd.station(slider)
+        model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=GROUND, place_b=top, match=1, axis_a=(0.0, 0.0, 1.0))
+        model.add_joint(kind=mbd.JOINT_PRISMATIC, place_a=top, place_b=hung, match=1, axis_a=(0.0, 0.0, 1.0))
+        for turned in (0.5 * math.pi - START, 0.5 * math.pi + START):
+            rod = model.add_body(mass=mass, centre=(centre, 0.0, 0.0), rotation=(0.0, turned, 0.0),
+                                 inertia=(ALONG, across, across, 0.0, 0.0, 0.0),
+                                 velocity=(0.0, 0.0, 0.0, -RATE * math.sin(turned), 0.0, RATE * math.cos(turned)))
+            model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=top, place_b=mbd.station(rod), match=1, axis_a=(0.0, 1.0, 0.0))
+            model.add_spring(place_a=hung, place_b=mbd.station(rod), offset_b=(0.5, 0.0, 0.0), free_length=REST,
+                             stiffness=SPRING, damping=DAMPER)
+        model.compile()
+        found = []
+        with model.sim() as sim:
+            for time in times:
+                sim.run(time, step)
+                found.append(-sim.pose(hung).position[2])
+    return found
+
+
+@case("governor")
+def governor(pictures):
+    times = [1.0, 2.0, 5.0, 10.0]
+    want, rows = governor_reduced(times), []
+    for step in (4e-3, 2e-3, 1e-3):
+        for time, reference, computed in zip(times, want, governor_run(step, times)):
+            rows.append(Row(f"distance of the slider at {time:g} s", "m", reference, computed, f"step {1e3 * step:g} ms",
+                            4e-4 * (step / 4e-3) ** 2, 1.0))
+    fine = np.linspace(0.02, 10.0, 500)
+    def draw(axes):
+        axes.plot(fine, governor_reduced(fine), label="equations of motion")
+        coarse = np.linspace(0.25, 10.0, 40)
+        axes.plot(coarse, governor_run(2e-3, coarse), "o", markersize=3, label="computed, 2 ms")
+        axes.set(xlabel="time [s]", ylabel="distance of the slider [m]")
+        axes.legend()
+    return Case("governor", "Stiff flyball governor", "published", BENCHMARKS.format("A05"), BENCHMARKS_DOI,
+                "shaft, two rods of 1 m with balls of 5 kg, slider of 3 kg, springs of 8e5 N/m with dampers of 4e4 N s/m, "
+                "2π rad/s, 10 s; reference: the three equations of motion, by Radau at 1e-10", "nothing", rows,
+                pictures=[picture(draw)] if pictures else [])
