@@ -247,6 +247,15 @@ class EndTest(FolderTest):
             self.assertIn("stopped by Ctrl-C", process.stdout)
             self.assertEqual(self.summary()["status"], 130)
 
+    def test_nobody_reads_on(self):
+        """Behind "| head" the command ends with its status and without a word."""
+        for words in (("keys", "string.pipes"), ("schema",), ("check", self.scene)):
+            process = subprocess.Popen([*COMMAND, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
+            process.stdout.close()
+            error = process.stderr.read()
+            process.stderr.close()
+            self.assertEqual((process.wait(timeout=120), error), (3, b""), words)
+
     def test_elapsed(self):
         """The time of the whole command, by the clock."""
         begun = time.perf_counter()

@@ -267,9 +267,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         from ._progress import INTERRUPTS
         INTERRUPTS.install()
-        return _guarded(lambda: _ask(options))
-    except BrokenPipeError:
-        sys.stderr.close()
+        status = _guarded(lambda: _ask(options))
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:  # nobody reads on, as behind "| head"; what is left goes nowhere, at the end of Python too
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 3
 
 
