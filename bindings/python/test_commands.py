@@ -95,6 +95,8 @@ class ShippedTest(FolderTest):
             changed = text.replace(old, new).replace(old.replace('"', '"-', 1), new)
             found = warnings_of(scene.loads(changed))
             self.assertTrue(any(told in one for one in found), (old, found))
+        inline = '[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n[[bit]]\nload = "300 kg"\n'
+        self.assertTrue(any('load = "300 kg": has \'kg\', a unit of mass: its weight is taken' in one for one in warnings_of(scene.loads(inline))))
         rock = text.replace('h1 = "2960 N"', "h1 = 0").replace('h1 = "-2960 N"', "h1 = 0").replace('mass = "5 kg"\n', 'mass = "5 kg"\nrock_law = "regenerative"\n')
         self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
 

@@ -138,7 +138,8 @@ class SystemTest(unittest.TestCase):
         field = Units("field")
         for text, wanted in (("the string begins at 30.48 m.", "the string begins at 100 ft."), ("3.048 .. 6.096 m", "10 .. 20 ft"),
                              ("-4448.22 N, 1.5 N m/rad", "-1000 lbf, 1.5 N m/rad"), ("largest dogleg 3 deg/30 m", "largest dogleg 3.048 deg/100 ft"),
-                             ("pipe 3 of main, 100 rpm, 8 elements", "pipe 3 of main, 100 rpm, 8 elements"), ("73 x 6.35 mm", "2.874 x 0.25 in")):
+                             ("pipe 3 of main, 100 rpm, 8 elements", "pipe 3 of main, 100 rpm, 8 elements"), ("73 x 6.35 mm", "2.874 x 0.25 in"),
+                             ('load = "9 t": of 3.048 m', 'load = "9 t": of 10 ft')):  # as it is written
             self.assertEqual(field.sentence(text), wanted)
 
     def test_unknown_unit_is_refused(self):

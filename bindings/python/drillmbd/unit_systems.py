@@ -104,7 +104,7 @@ class Units:
         return factors[large], units[large]
 
     def sentence(self, text: str) -> str:
-        """A sentence of the library, in which numbers are followed by their SI units."""
+        """A sentence of the library, in which numbers are followed by their SI units. What stands in quotes is as somebody wrote it."""
         def converted(found: re.Match[str]) -> str:
             unit = found[3]
             if self.unit(unit) == unit:
@@ -117,7 +117,9 @@ class Units:
             return Phrase(text.template, text.values, self)
         if isinstance(text, Listed):
             return Listed(text.separator, [self.sentence(part) for part in text.parts])
-        return Foreign(text.original, self) if isinstance(text, Foreign) else _IN_TEXT.sub(converted, text)
+        if isinstance(text, Foreign):
+            return Foreign(text.original, self)
+        return "".join(part if i % 2 else _IN_TEXT.sub(converted, part) for i, part in enumerate(re.split(r'("[^"]*")', text)))
 
 
 SI = Units()

@@ -597,6 +597,7 @@ class Loader:
             if key in table and (not isinstance(value, str) or (value not in self.kinds and re.match(r"\s*[-+.\d]", value))):
                 try:
                     constant = units.parse(value, unit)
+                    self.problems.remark(path + (key,), value, units.remark(value, unit))
                 except units.UnitError as error:
                     self.problems.add(path + (key,), value, f"{error}; or the name of a programme")
                     del table[key]
