@@ -104,7 +104,7 @@ class Units:
         return factors[large], units[large]
 
     def sentence(self, text: str) -> str:
-        """A sentence of the library, in which numbers are followed by their SI units. What stands in quotes is as somebody wrote it."""
+        """A sentence of the library, in which numbers are followed by their SI units. Text in quotes stays as it was written."""
         def converted(found: re.Match[str]) -> str:
             unit = found[3]
             if self.unit(unit) == unit:
