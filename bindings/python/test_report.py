@@ -156,6 +156,14 @@ class CatalogueTest(unittest.TestCase):
             self.assertEqual(language.Language("zh")(message), other.format(**values), english)
             self.assertNotRegex(str(message), r"dmb_|DMB_")
 
+    def test_parts_of_a_message(self):
+        """Parts with semicolons between are translated if all are known; else the whole stays English and is said to be so."""
+        chinese = language.Language("zh")
+        known = language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); no grade is named: the yield strength is not known; without tool joints")
+        self.assertNotRegex(chinese(known), r"taken|grade|原文")
+        self.assertIn("来源：A; B", chinese(language.Foreign("is taken as 73 x 6.5 mm (outer diameter x wall); source: A; B")))
+        self.assertIn("英文原文", chinese(language.Foreign("without tool joints; something new")))
+
     def test_every_status_is_there(self):
         for status in enums.Status:
             self.assertIn(status_text(status), CATALOGUE["messages"])

@@ -104,7 +104,8 @@ class Language:
             match = pattern.fullmatch(text)
             if match:
                 return template.format(**{key: self._fitting(value) or value for key, value in match.groupdict().items()})
-        return None
+        parts = [self._fitting(part) for part in text.split("; ")] if "; " in text else [None]
+        return self.phrases["; "].join(part for part in parts if part) if all(parts) else None
 
     def lines(self, text: str) -> str:
         """A message of several lines, line by line."""

@@ -263,10 +263,11 @@ def _described(values: dict[str, Any]) -> str:
     if not {"outer_diameter", "inner_diameter"} <= set(values):
         return "is taken as " + ", ".join(f"{key} {value}" for key, value in values.items())
     outer, inner = (1e3 * units.parse(values[key], "m") for key in ("outer_diameter", "inner_diameter"))
-    parts = [f"is taken as {outer:.5g} x {(outer - inner) / 2.0:.4g} mm (outer diameter x wall)"]
-    if "yield_strength" in values:
-        parts.append(f"yield strength {1e-6 * units.parse(values['yield_strength'], 'Pa'):.4g} MPa")
-    return ", ".join(parts)
+    wall = (outer - inner) / 2.0
+    if "yield_strength" not in values:
+        return f"is taken as {outer:.5g} x {wall:.4g} mm (outer diameter x wall)"
+    strength = 1e-6 * units.parse(values["yield_strength"], "Pa")
+    return f"is taken as {outer:.5g} x {wall:.4g} mm (outer diameter x wall), yield strength {strength:.4g} MPa"
 
 
 def _lacks(values: dict[str, Any], unknown: str) -> dict[str, str]:
