@@ -2,6 +2,7 @@
 the friction table of the wall.
 Equations: eq:sliding.state."""
 import csv
+import dataclasses
 import math
 import unittest
 import unittest.mock
@@ -266,6 +267,21 @@ class NoResponseTest(FolderTest):
         from drillmbd.report_linear import speeds, speeds_tile
         scene = scenes.load(self.scene)
         self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+
+    def test_a_silent_order_is_no_all_clear(self):
+        """One order that moves no output beside one that does: no speed is called free of critical ones, by the command and its check."""
+        self.scene = self.write("two.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + '[[speeds.order]]\norder = 2\nkind = "drive"\n'
+                                'place = "feed"\namplitude = "0 mm/s"\n')
+        out, summary = self.answer("speeds")
+        self.assertIn("speeds: not assessed, because 1 of the 2 orders move no output", out)
+        self.assertNotIn("no critical speed", out)
+        self.assertFalse(summary["speeds_assessed"])
+        scene = scenes.load(self.scene)
+        found = critical_speeds.analyse(scene, lambda sim, state: sim.static(**state.static), print)
+        for change, told in (({}, "free"), ({"silent": no_response.NOTHING_EXCITES}, "not assessed")):
+            self.assertEqual(speed_check._linear(dataclasses.replace(found, **change), 10.0), told)
+        refused = dataclasses.replace(found, state=dataclasses.replace(found.state, refused=True))
+        self.assertEqual(speed_check._linear(refused, 10.0), "not assessed")
 
     def test_bounds(self):
         """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if it is 0."""

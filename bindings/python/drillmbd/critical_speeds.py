@@ -62,10 +62,15 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     elif found.state.refused:
         output.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
                    f"Of the string at rest the severity is at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
+    elif not found.bands and found.bands.report.silent_orders:
+        output.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
+                   f"others have a severity of at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
     elif not found.bands:
         output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
     output.say(LINEAR)
-    output.summary["speeds_assessed"] = excited and not found.state.refused
+    for note in left_out(found.bands.report) if excited else []:
+        output.note_text(note)
+    output.summary["speeds_assessed"] = excited and not found.state.refused and not found.bands.report.silent_orders
     output.summary["linear_state"] = found.state.numbers()
     output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]
@@ -75,6 +80,18 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     if options.check:
         speed_check.check(scene, output, found, options.check)
     return output.finish()
+
+
+def left_out(report: Any) -> list[str]:
+    """Parts that the analysis leaves out, by its report."""
+    remarks: list[str] = []
+    if report.silent_orders:
+        remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
+    if report.undamped:
+        remarks.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
+    if report.truncated:
+        remarks.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
+    return remarks
 
 
 # ---- Beyond the linear range -----------------------------------------------------------------------------------------

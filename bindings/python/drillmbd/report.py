@@ -311,7 +311,7 @@ class Study:
                 self.demands["push"].add(-load[0], source)
                 self.demands["pull"].add(load[1], source)
                 self.demands["yield_stress"].found += [(stress, phrase("run, at {time:.3g} s (largest of {moments} moments)", time=time, moments=FRAMES))
-                                                       for stress, time in [max(course.stresses)] if course.stresses]
+                                                       for stress, time in sorted(course.stresses)[-1:]]
                 self.demands["torque"].add(max(abs(torque[0]), abs(torque[1])), source)
         if self.scene.sim.get("energy_ledger", 1):
             self.output.summary["energy_error"] = sim.energy().error

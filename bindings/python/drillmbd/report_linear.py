@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .answers import RPM, Output
-from .critical_speeds import LINEAR, analyse
+from .critical_speeds import LINEAR, analyse, left_out
 from .language import Phrase, joined, phrase
 from .no_response import NOTHING_EXCITES
 from .operating import Operating
@@ -44,15 +44,7 @@ class Speeds:
 
     def notes(self) -> list[str]:
         """Parts that the analysis leaves out."""
-        report = self.bands.report
-        remarks: list[str] = []
-        if report.silent_orders:
-            remarks.append(phrase("Critical speeds: {silent} of the orders move no output at any speed", silent=int(report.silent_orders)))
-        if report.undamped:
-            remarks.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
-        if report.truncated:
-            remarks.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
-        return remarks
+        return left_out(self.bands.report)
 
     def _band(self, band: Any) -> str:
         """A band that reaches an end of the range may go on beyond it."""
