@@ -257,8 +257,9 @@ static void smoothed_peak(void **state)
     }
 }
 
-/* Hard case 2: v_s 1e-3, v_eps 1e-4, period within 2 % when v_eps halves. With the coefficients of THEORY 7, mu_s .35
- * and mu_d .30, it changes by 1.6 %. With 300 and 200 N m it changes by 9.4 %, for the reason told above. */
+/* Hard case 2: v_s 1e-3, v_eps 1e-4, period within 2 % when v_eps halves. With the coefficients of
+ * lib/theory/limits.md, mu_s .35 and mu_d .30, it changes by 1.6 %. With 300 and 200 N m it changes by 9.4 %, for the
+ * reason told above. */
 static void halved_smoothing(void **state)
 {
     const dmb_wall_def coarse = friction_of(DMB_FRICTION_STRIBECK, 0.35, 0.30, 1e-3, 1e-4);

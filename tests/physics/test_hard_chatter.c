@@ -1,5 +1,5 @@
-/* Hard case 1: a string of 100 nodes (S1 of THEORY 7) above a wall of 1e9 N/m per metre, dropped 1 um. It settles at
- * w/K; under 20 rejected steps, at most 8 iterations, energy not growing.
+/* Hard case 1: a string of 100 nodes (S1 of lib/theory/limits.md) above a wall of 1e9 N/m per metre, dropped 1 um. It
+ * settles at w/K; under 20 rejected steps, at most 8 iterations, energy not growing.
  *
  * The free bending of 1.5 m between two nodes (82 Hz) does not feel the wall, so the pipe's own damping lets that die
  * out. Weight acts along the pipe and the wall at the nodes: at the two ends the moment w l^2/12 of the weight tilts

@@ -1,8 +1,8 @@
 /* Hard case 13: where withdrawal starts (20 to 22 s of the rig's cycle) the slip velocity of every node goes through
  * zero at once; at most 10 iterations. The stop before it (19 to 20 s), where sticking and slipping waves run down with
  * the rotation, is watched too: 11 iterations at worst and 17 halved steps in 1000 are measured there. A string of 40
- * pipes of 1 m (THEORY 7) on the floor of its hole, fed with 10 mm/s and turned with 200 rpm; time is counted from 18.5
- * s on. */
+ * pipes of 1 m (lib/theory/limits.md) on the floor of its hole, fed with 10 mm/s and turned with 200 rpm; time is
+ * counted from 18.5 s on. */
 #include "contact_scene.h"
 
 static const double feed = 0.01, turning = 200.0 * 2.0 * PI / 60.0, load = 2960.0;

@@ -575,7 +575,7 @@ static void peaks_and_sums(void **state)
 /* ---- The scene's own excitations --------------------------------------------------------------------------------- */
 
 /* S1 at rest in its hole, eccentric pipes: rubbing is as strong at any frequency, eccentric forces grow with its
- * square, so that below all resonances one leads and the other above a crossover (THEORY 7). */
+ * square, so that below all resonances one leads and the other above a crossover (lib/theory/reference-study.md). */
 static void eccentricity_grows_friction_does_not(void **state)
 {
     (void)state;

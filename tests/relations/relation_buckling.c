@@ -296,7 +296,8 @@ static void push_in_hole(scene *s, double part)
     l->place.fraction = 1.0;
 }
 
-/* The path passes unstable stretches of a twentieth of the factor by where single contacts open and close (THEORY 12).
+/* The path passes unstable stretches of a twentieth of the factor by where single contacts open and close
+ * (lib/theory/limits.md).
  */
 #define PASSED_BY 0.05
 

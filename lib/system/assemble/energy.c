@@ -274,7 +274,7 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum + bent_energy(scene, configuration);
 }
 
-/* Sum over the rings of length times the integral of K d^n (THEORY 5); damping stores nothing. */
+/* Sum over the rings of length times the integral of K d^n (eq:contact.normal); damping stores nothing. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     const int by_depth = scene->hole.pieces > 0;

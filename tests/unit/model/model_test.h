@@ -35,7 +35,7 @@
         }                                                                                       \
     } while (0)
 
-/* Reference string S1 of THEORY section 7. */
+/* Reference string S1 of lib/theory/limits.md. */
 static inline dmb_pipe_def s1_pipe(void)
 {
     dmb_pipe_def pipe = dmb_pipe_def_default();

@@ -1,9 +1,9 @@
-/* Constants of pipes, joints and bits against closed forms and sums over thin discs (THEORY 7). */
+/* Constants of pipes, joints and bits against closed forms and sums over thin discs. */
 #include "model_test.h"
 
 #include "model/section.h"
 
-/* THEORY 7, reference string S1 */
+/* Reference string S1 of lib/theory/limits.md */
 static void reference_string(void **state)
 {
     const dmb_pipe_def pipe = s1_pipe();
