@@ -95,7 +95,7 @@ def finest(case: Case) -> Row:
 def overview(cases: list[Case]) -> str:
     """One line a case."""
     lines = ""
-    for case in cases:
+    for case in sorted(cases, key=lambda one: one.kind):
         row, count = finest(case), sum(row.verdict == MISSED for row in case.rows)
         checked = sum(row.bound is not None for row in case.rows)
         lines += (f'<tr class="{CLASSES[case.verdict]}"><td><a href="#{case.name}">{html.escape(case.title)}</a></td>'

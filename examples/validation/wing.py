@@ -60,6 +60,37 @@ def hanging(wing, mass, behind):
             return heights[0], math.asin((heights[1] - heights[2]) / CHORD)
 
 
+#: Inertia [kg m2] of the last node about the span and about both axes across it, and its centre of mass behind the axis [m];
+#: of the others about the span, per node.
+TIP = {"without skin": (1.222e-4, 1.226e-4, 0.004876), "with skin": (1.222e-4, 1.2261e-4, 0.0050927)}
+ABOUT_SPAN = 1.0979e-5
+
+
+def frequencies(wing, count=5):
+    """[Hz] of the bare wing, and for each mode the kind of motion: bending, edgewise or torsion."""
+    torsion, bending, edgewise, nodes = SECTIONS[wing]
+    with mbd.Model() as model:
+        model.set_environment(gravity=(0.0, 0.0, 0.0))
+        string = model.add_string(follows_hole=0, start_free=0)
+        shares = masses_of((*nodes[:-1], 0.0))
+        for k, own in enumerate(shares):
+            length = NODES[k + 1] - NODES[k]
+            model.add_pipes(1, string=string, length=length, elements=2, outer_diameter=0.02, inner_diameter=0.0,
+                            section_stiffness=(STRETCH, SHEAR, SHEAR, torsion[k], bending[k], edgewise[k]),
+                            section_mass=own / length, section_inertia=(ABOUT_SPAN / 0.03825, 0.5 * ABOUT_SPAN / 0.03825))
+        span, across, behind = TIP[wing]
+        model.add_body(attach=mbd.ATTACH_END, string=string, mass=nodes[-1], centre=(0.0, -behind, 0.0),
+                       inertia=(span, 1e-6, across, 0.0, 0.0, 0.0))
+        model.compile()
+        with model.sim() as sim:
+            found, modes = [], sim.modes(count=count)
+            for k in range(count):
+                shape = modes.shape(k, mbd.station(string, len(NODES) - 2, 1.0)).re
+                size = {"bending": abs(shape[2]), "edgewise": abs(shape[1]), "torsion": CHORD * abs(shape[3])}
+                found.append((modes[k].frequency, max(size, key=size.get)))
+            return found
+
+
 def change(wing, mass, behind):
     """Vertical displacement [% of the semispan] and twist [degrees] that the mass adds to those under the own weight."""
     empty, loaded = hanging(wing, 0.0, 0.0), hanging(wing, mass, behind)
@@ -68,6 +99,7 @@ def change(wing, mass, behind):
 
 #: Errors that are accepted: of the vertical displacement, of the twist.
 DISPLACEMENT_BOUND, TWIST_BOUND = 0.05, 0.10
+FREQUENCY_BOUND = 0.05  #: of natural frequencies of the bare wing with skin: two bendings and the first torsion
 COMMIT = "343a141e"
 #: Mass [kg]: measured vertical displacement [% of the semispan]; of torsion also the twist [degrees], nose up.
 BENDING = {"without skin": {0.6: -13.549304, 1.0: -22.097188, 1.4: -29.553852, 2.0: -38.829214},
