@@ -793,6 +793,20 @@ class BadFilesTest(unittest.TestCase):
         self.one('step = "1 ms"', 'step = "1 ms"\n[[channel]]\nquantity = "spin"\nplace = {part = "main", pipe = 3}', 19,
                  "channel[0].place.pipe", "0 .. 2")
 
+    def test_no_second_fault(self):
+        """A misspelt table or name is one fault; the programme that is not used because of it is none. Alone it is one."""
+        text = ('[[programme]]\nname = "load"\nterm = {h0 = "2 kN"}\n[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
+                '[[bit]]\nload = "load"\n')
+        mbd.scene.loads(text)
+        for old, new, told in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]), ('load = "load"', 'load = "lead"', ["bit[0].load"]),
+                               ('[[bit]]\nload = "load"\n', "", ["is used by no drive, load or bit"]),
+                               ('diameter = "94 mm"', 'diameter = "20 mm"', ["string[0]: pipes of string 0: outer_diameter"])):
+            with self.assertRaises(mbd.scene.SceneError) as caught:
+                mbd.scene.loads(text.replace(old, new))
+            self.assertEqual(len(caught.exception.problems), len(told), str(caught.exception))
+            for part in told:
+                self.assertIn(part, str(caught.exception))
+
     def test_name_that_is_none(self):
         found = problems(SMALL.replace('programme = "feed"', 'programme = "fed"'))
         self.assertIn("drive[0].programme", [one.key for one in found])

@@ -22,6 +22,7 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m", "structural_damping": "-", "equilibrium_tolerance": "-"}  # where one comment stands for several fields
+MOST_WORDS = 10  #: that are listed where another one is written
 LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_table_speed", "friction_table_mu", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
             "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
@@ -160,7 +161,9 @@ def _single(field: Field, value: Any, unit: str) -> Any:
     words = words_of(field.enum)
     if field.kind == "enum":
         if not isinstance(value, str) or value not in words:
-            raise ValueProblem("must be one of the words" + (" " + ", ".join(words) if len(words) <= 3 else meant(str(value), words)))
+            near = meant(str(value), words)
+            listed = len(words) <= MOST_WORDS and not near.startswith("; possible")
+            raise ValueProblem("must be one of the words" + (f" {', '.join(words)}" if listed else " of this key") + near)
         return words[value]
     return _flags(value, words)
 

@@ -107,6 +107,7 @@ class Loader:
         self.units: dict[str, str] = {}                     # programme -> unit
         self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
         self.paths: dict[tuple[str, str], Path] = {}        # (kind, name) -> its table
+        self.unused: list[tuple[Path, str]] = []            # programmes, and the fault if no other one is the cause
         self.inline: set[str] = set()                       # programmes that are values in the place of names
         self.undivided: list[Divided] = []                  # pipes whose number of elements is not given
         self.subs = Subs(self)
@@ -131,6 +132,8 @@ class Loader:
         scene.variability = variability.Reader(self).variability()
         scene.failures = failure.Reader(self, scene.limits).failures()
         compiled = self.read(("compile",), self.table(("compile",)), fields_of(DEFINITIONS["compile"]))
+        for path, text in self.unused if not self.problems.found else []:
+            self.problems.add(path, None, text)
         if not self.problems.found:
             self._compile(compiled)
         return None if self.problems.found else scene
@@ -367,8 +370,7 @@ class Loader:
                 self.problems.unknown(path + (key,), ("name", "unit", "term"))
         unit = self.units.get(name) or table.get("unit")
         if not isinstance(unit, str):
-            self.problems.add(path, None, f"programme {name} is used by no drive, load or bit: take it out, or "
-                                          "give its unit")
+            self.unused.append((path, f"programme {name} is used by no drive, load or bit: take it out, or give its unit"))
             return
         self.units[name] = unit
         terms = self.tables(table, path, "term")
@@ -617,7 +619,8 @@ class Loader:
 
     def _path_of(self, part: str) -> Path:
         """The table of a part that the library calls "joint 1 (crank)"; the whole file else."""
-        match = re.match(r"(\w+) (\d+)", part)
+        pipes = re.match(r"pipes of (string \d+)", part)
+        match = re.match(r"(\w+) (\d+)", pipes[1] if pipes else part)
         number = int(match.group(2)) - self.subs.offset(match.group(1)) if match else -1
         if match and match.group(1) in self.content and number >= 0:
             return (match.group(1), number)
