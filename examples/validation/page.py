@@ -156,8 +156,8 @@ def page(cases: list[Case], study_part: str) -> str:
             f"<p>Measured and published figures beside computed ones. The error is computed over reference less one, or the "
             f"difference where it has no percent sign. <b>{len(cases) - missed} of {len(cases)} cases are within what is "
             f"accepted in all rows</b>; a case that misses is shown with what was looked at. What was fitted to the reference "
-            f"is named in the row; nothing else was. The wing is a blind prediction: its scene and rule were committed (343a141e) "
-            f"before the measured figures were read. Of the Volve well the scene and the rule of fitting were committed (2bb9b25d) "
+            f"is named in the row; nothing else was. The two cases of the wing are blind predictions: scenes and rules were committed (343a141e, "
+            f"d64773ae) before the measured figures were read. Of the Volve well the scene and the rule of fitting were committed (2bb9b25d) "
             f"before the figures below 2200 m were read, but that its friction factor falls from 0.257 to 0.220 with depth was "
             f"known.</p>{overview(cases)}{''.join(parts)}{study_part}</html>")
 

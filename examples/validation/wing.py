@@ -166,3 +166,35 @@ def tip_mass(pictures):
                 "within 3 %, as couplings are left out), so that it is the stiffness of that model that differs from the wing.",
                 "figures as published; the repository states no licence, so that only the points used stand in wing.py",
                 [picture(draw, 2, 8.5, 3.4)] if pictures else [])
+#: Measured natural frequencies [Hz] of the bare wing with skin, and those of the published beam model by its own program.
+GROUND_TEST = (("first bending", 4.26), ("second bending", 28.5), ("first torsion", 42.0), ("third bending", 81.5),
+               ("first edgewise bending", 60.7))
+PROGRAM_MODES = (4.1906, 28.493, 41.879, 83.065, 105.89)
+MODES_COMMIT, ASKED = "d64773ae", 3
+
+
+@case("wing_modes")
+def natural_frequencies(pictures):
+    """The case."""
+    found, rows = frequencies("with skin"), []
+    for k, ((name, measured), published) in enumerate(zip(GROUND_TEST, PROGRAM_MODES)):
+        computed = found[k][0]
+        rows += [Row(f"{name}, measured", "Hz", measured, computed, "30 elements, blind" if k < ASKED else "30 elements",
+                     FREQUENCY_BOUND),
+                 Row(f"{name}, published beam model", "Hz", published, computed, "30 elements", 0.05)]
+    def draw(axes):
+        places = np.arange(len(GROUND_TEST))
+        axes.bar(places - 0.2, [one for _, one in GROUND_TEST], 0.4, color="C3", label="measured")
+        axes.bar(places + 0.2, [one for one, _ in found], 0.4, color="C0", label="computed")
+        axes.set_xticks(places, [name.replace(" bending", "\nbending") for name, _ in GROUND_TEST])
+        axes.set(ylabel="natural frequency [Hz]", yscale="log")
+        axes.legend()
+    return Case("wing_modes", "The same wing: natural frequencies", "measured",
+                "ground vibration test of Avin, Raveh, Drachinsky, Ben-Shmuel, Tur 2022, AIAA Journal 60; digits and the beam "
+                "model by way of the public repository UM-A2SRL/AePW3-LDWG", "10.2514/1.J060621",
+                "stiffness, mass and rotary inertia of the published beam model; couplings and offsets of the mass left out but "
+                "at the tip", "nothing", rows,
+                f"Blind: scene and rule (two bendings and the first torsion within 5 %) were committed as {MODES_COMMIT} before "
+                "the measured figures were read, and are met. The other two modes were not in the rule. Edgewise misses: it is measured at 60.7 Hz, where the "
+                "published model gives 106 Hz and this one 111 Hz; the reason is not known here.",
+                "figures as published", [picture(draw)] if pictures else [])
