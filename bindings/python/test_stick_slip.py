@@ -155,7 +155,7 @@ class StickSlipTest(unittest.TestCase):
     def test_bit_stuck(self):
         """The longest stick of the library against that of the exact slip: friction that falls off fast and rises faster from rest."""
         known = stick(1.0 / ((0.36 - 0.30) * 500.0 * ROUND))
-        for stribeck, smoothing, step in ((4.0, 0.005, 2.0), (1.0, 0.001, 0.5)):
+        for stribeck, smoothing, step in ((2.0, 0.002, 1.0), (1.0, 0.001, 0.5)):
             text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
             sample = SceneSample(text, changes={
                 "programme[0].term.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "output.interval": "10 ms",

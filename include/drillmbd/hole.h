@@ -25,7 +25,7 @@ typedef struct dmb_hole_section {
                            default 0.1 */
     double diameter;    /* [m] > 0; default -1 */
     double stiffness;   /* [N/m^(n+1)] K per metre of pipe, > 0; default -1 */
-    double restitution; /* [-] 0 .. 1 (> 0 for FLORES and EXACT); default -1 */
+    double restitution; /* [-] 0 .. 1 (> 0 for FLORES); default -1 */
     double damping;     /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1 */
     double mu_static;   /* [-] >= mu_dynamic for STRIBECK and BRISTLE; default -1 */
     double mu_dynamic;  /* [-] >= 0; default -1 */

@@ -134,7 +134,8 @@ enum {
     DMB_FRICTION_NONE = -1,
     DMB_FRICTION_COULOMB = 0,  /* mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2) */
     DMB_FRICTION_AMBROSIO = 1, /* 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond */
-    DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB */
+    DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB and raised there to
+                                  the maximum mu_static */
     DMB_FRICTION_BRISTLE = 3   /* elastic bristle that sticks; breaks away at mu_static, one step late (order 1) */
 };
 
@@ -147,20 +148,21 @@ typedef struct dmb_wall_def {
     double origin[3];         /* [m] start of the axis, world frame; default 0, shape (3) */
     double direction[3];      /* [-] of a straight hole, any length, world frame; default (1, 0, 0), shape (3) */
     double diameter;          /* [m] of the hole, > 0; default 0.094 */
-    int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_HUNT_CROSSLEY */
+    int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_EXACT */
     int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
     double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not
-                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (1.9 times that
-                                 of a ball at h w = 10 and HUNT_CROSSLEY 0.4); dmb_statistics.bounces counts them */
+                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (that of a ball
+                                 at h w = 10 and e = 0.4: 8.3 times with EXACT); dmb_statistics.bounces counts them */
     double exponent;          /* [-] n, 1 .. 3; default 1 */
-    double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4. EXACT returns this speed ratio,
-                                 HUNT_CROSSLEY 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
+    double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for
+                                 less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
     double damping;           /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0 */
     double impact_depth;      /* [m] full damping from here on, of IMPACT; default 1e-4 */
     double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01. Slower impacts return more than e: EXACT with
-                                 e = 0.4 returns 0.878 at 1 mm/s */
-    double mu_static;         /* [-] >= mu_dynamic; default 0.35. STRIBECK with the other defaults reaches 0.3237:
-                                 smoothing and decay overlap */
+                                 e = 0.4 returns 0.878 at 1 mm/s. With less, contacts that last, which keep the v0 of
+                                 their touch and are damped by K d mu/v0, take more iterations */
+    double mu_static;         /* [-] largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK
+                                 creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks */
     double mu_dynamic;        /* [-] >= 0; default 0.30 */
     double stribeck_speed;    /* [m/s] > 0; default 1e-2 */
     double smoothing_speed;   /* [m/s] > 0; default 1e-3 */

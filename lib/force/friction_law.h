@@ -26,13 +26,19 @@ typedef struct dmb_friction_law {
     const double *table_speed; /* [m/s] 0 and then strictly increasing, shape (points) */
     const double
         *table_mu; /* [-] coefficients there, shape (points); times mu_dynamic over the last one, which is > 0 */
+    double peak_bump, peak_level; /* [-] A and B of eq:friction.peak, of dmb_friction_law_of; 0: as they are smoothed */
 } dmb_friction_law;
+
+/* The law with the constants by which STRIBECK has the maximum mu_static N (eq:friction.peak). Its decay is no steeper
+ * than smoothing resolves: stribeck_speed is at least 0.3 smoothing_speed. Of a table, whose maximum is its first
+ * coefficient, the static part must reach beyond smoothing_speed. Other laws are taken as they are. */
+dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
 
 /* Friction as a function of velocity alone. F [as N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
  * dF_dN its derivative with respect to N (2).
  *   COULOMB, STRIBECK: F = -mu(s) N v/s, s = sqrt(|v|^2 + v_eps^2), mu constant (mu_dynamic) or the Stribeck curve
- *   mu_d + (mu_s - mu_d) exp(-s/v_s) (eq:friction.smooth, eq:friction.stribeck). BRISTLE gives the STRIBECK result, to
- *   which the law comes once it slides.
+ *   mu_d + (mu_s - mu_d) exp(-s/v_s) (eq:friction.smooth, eq:friction.stribeck), raised to the maximum mu_s
+ *   (eq:friction.peak). BRISTLE gives the STRIBECK result without that, to which the law comes once it slides.
  *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond (eq:friction.ambrosio).
  * Zero where v = 0; a law smoothed like this creeps under load, BRISTLE does not. */
 static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
@@ -66,34 +72,52 @@ static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
 /* ---- Smooth laws ---------------------------------------------------------------------------------------------------
  */
 
-/* mu(s) and mu'(s) of the table (eq:friction.table): straight between its points, constant beyond the last one, where
- * it is mu_d. So factors and sections of the hole, which set mu_d, change all of it in proportion. */
+/* y(s) and y'(s) of the table as given (eq:friction.table): straight between its points, constant beyond the last one.
+ */
 static inline dmb_real dmb_friction_table(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
-    const double *x = law->table_speed, *y = law->table_mu, scale = law->mu_dynamic / y[law->points - 1];
-    dmb_real mu = dmb_real_of(scale * y[0]);
+    const double *x = law->table_speed, *y = law->table_mu;
+    dmb_real mu = dmb_real_of(y[0]);
     *slope = dmb_real_of(0.0);
     for (int k = 0; k + 1 < law->points; ++k) {
         const dmb_mask beyond = dmb_mask_less(dmb_real_of(x[k]), s);
-        const double rise = scale * (y[k + 1] - y[k]) / (x[k + 1] - x[k]);
-        mu = dmb_real_select(beyond, scale * y[k] + rise * (s - x[k]), mu);
+        const double rise = (y[k + 1] - y[k]) / (x[k + 1] - x[k]);
+        mu = dmb_real_select(beyond, y[k] + rise * (s - x[k]), mu);
         *slope = dmb_real_select(beyond, dmb_real_of(rise), *slope);
     }
     const dmb_mask end = dmb_mask_at_most(dmb_real_of(x[law->points - 1]), s);
     *slope = dmb_real_select(end, dmb_real_of(0.0), *slope);
-    return dmb_real_select(end, dmb_real_of(law->mu_dynamic), mu);
+    return dmb_real_select(end, dmb_real_of(y[law->points - 1]), mu);
 }
 
-/* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s) */
+/* Remaining share of static friction at s: E = exp(-s/v_s) and E'(s). */
+static inline dmb_real dmb_stribeck_decay(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
+{
+    const dmb_mask end = dmb_mask_at_most(dmb_real_of(DMB_STRIBECK_END * law->stribeck_speed), s);
+    const dmb_real zero = dmb_real_of(0.0);
+    *slope = zero;
+    if (!dmb_mask_any(dmb_mask_not(end))) return zero;
+    const dmb_real left = dmb_real_select(end, zero, dmb_real_exp(-s / law->stribeck_speed));
+    *slope = -left / law->stribeck_speed;
+    return left;
+}
+
+/* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s). A table is in proportion
+ * to mu_d, so factors and sections of the hole, which set mu_d, change all of it. */
 static inline dmb_real dmb_stribeck(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
-    if (law->points > 0) return dmb_friction_table(law, s, slope);
-    const dmb_mask end = dmb_mask_at_most(dmb_real_of(DMB_STRIBECK_END * law->stribeck_speed), s);
+    if (law->points > 0) {
+        const double scale = law->mu_dynamic / law->table_mu[law->points - 1];
+        const dmb_real mu = dmb_friction_table(law, s, slope);
+        *slope = scale * *slope;
+        return scale * mu;
+    }
     *slope = dmb_real_of(0.0);
-    if (law->mu_static == law->mu_dynamic || !dmb_mask_any(dmb_mask_not(end))) return dmb_real_of(law->mu_dynamic);
-    const dmb_real bump = (law->mu_static - law->mu_dynamic) * dmb_real_exp(-s / law->stribeck_speed);
-    *slope = dmb_real_select(end, *slope, -bump / law->stribeck_speed);
-    return dmb_real_select(end, dmb_real_of(law->mu_dynamic), law->mu_dynamic + bump);
+    if (law->mu_static == law->mu_dynamic) return dmb_real_of(law->mu_dynamic);
+    const double bump = law->mu_static - law->mu_dynamic;
+    const dmb_real left = dmb_stribeck_decay(law, s, slope);
+    *slope = bump * *slope;
+    return law->mu_dynamic + bump * left;
 }
 
 /* F = -N f v, dF/dv = -N [f I + g v v^T] with g = (df/d|v|)/|v|, dF/dN = -f v */
@@ -124,6 +148,39 @@ static inline void dmb_friction_ambrosio(const dmb_friction_law *law, dmb_real s
     *g = dmb_real_select(slow, zero, *g);
 }
 
+/* E(s) in 0 .. 1 and E'(s) of the table: (y - y_n)/(y_0 - y_n), with y_0 > y_n. */
+static inline dmb_real dmb_friction_table_decay(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
+{
+    const double last = law->table_mu[law->points - 1], height = law->table_mu[0] - last;
+    const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0);
+    const dmb_real left = (dmb_friction_table(law, s, slope) - last) / height;
+    const dmb_mask under = dmb_mask_at_most(left, zero), over = dmb_mask_at_most(one, left);
+    *slope = dmb_real_select(under | over, zero, *slope / height);
+    return dmb_real_select(under, zero, dmb_real_select(over, one, left));
+}
+
+/* Static friction (eq:friction.peak). The smoothed curve f0 = mu(s) r, r = |v|/s, stays below mu_s everywhere, because
+ * it falls before smoothing ends. With y = r E, the largest value of which is 1/kappa,
+ *     |v| f = f0 + y^4 [A (mu_s - mu_d) + B mu_d (1 - r)],   A = (kappa - 1) kappa^3,   B = kappa^4
+ * has its maximum mu_s where y has its own: both parts, r + B y^4 (1 - r) of mu_d and y + A y^4 of mu_s - mu_d, are 1
+ * there and less elsewhere. It is linear in both coefficients, and f0 in the limit v_eps = 0. f and g gain
+ *     w c,   w = r^3 E^4/s,   c = [...],   and (w c)'/|v| = r E^3/s^3 [3 E + 4 r^2 (s E' - E)] c - r^2 E^4 B mu_d
+ * v_eps^2/s^5
+ */
+static inline void dmb_friction_reach_static(const dmb_friction_law *law, dmb_real speed, dmb_real s, dmb_real *f,
+                                             dmb_real *g)
+{
+    dmb_real slope;
+    const double mu_d = law->mu_dynamic, eps2 = law->smoothing_speed * law->smoothing_speed;
+    const double mu_s = law->points > 0 ? mu_d * (law->table_mu[0] / law->table_mu[law->points - 1]) : law->mu_static;
+    const dmb_real E = law->points > 0 ? dmb_friction_table_decay(law, s, &slope) : dmb_stribeck_decay(law, s, &slope);
+    const dmb_real i = 1.0 / s, r = speed * i, cube = E * E * E, i3 = i * i * i;
+    const dmb_real c = law->peak_bump * (mu_s - mu_d) + law->peak_level * mu_d * (1.0 - r);
+    *f = *f + r * r * r * cube * E * i * c;
+    *g = *g + r * cube * i3 *
+                  ((3.0 * E + 4.0 * r * r * (s * slope - E)) * c - r * E * i * i * (law->peak_level * mu_d * eps2));
+}
+
 /* f = mu(s)/s, g = (mu'/s - mu/s^2)/s with ds/d|v| = |v|/s */
 static inline void dmb_friction_smoothed(const dmb_friction_law *law, dmb_real speed, dmb_real *f, dmb_real *g)
 {
@@ -134,6 +191,7 @@ static inline void dmb_friction_smoothed(const dmb_friction_law *law, dmb_real s
     const dmb_real divisor = dmb_real_select(rests, dmb_real_of(1.0), s);
     *f = dmb_real_select(rests, zero, mu / divisor);
     *g = dmb_real_select(rests, zero, (slope - *f) / (divisor * divisor));
+    if (law->kind != DMB_FRICTION_COULOMB && law->peak_level > 0.0) dmb_friction_reach_static(law, speed, s, f, g);
 }
 
 static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],

@@ -5,6 +5,7 @@
 #include "math/real.h"
 
 #define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
+#define DMB_RESTITUTION_LEAST 1e-3 /* [-] and of a wall by EXACT, whose mu is 1000 there */
 #define DMB_SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
 #define DMB_NORMAL_LAW_ITERATIONS 60
 
@@ -89,7 +90,7 @@ static double restitution_factor(int32_t kind, double e)
     case DMB_NORMAL_LANKARANI_NIKRAVESH: /* Lankarani, Nikravesh 1990 */ return 0.75 * (1.0 - e) * (1.0 + e);
     case DMB_NORMAL_FLORES: /* Flores, Machado, Silva, Martins 2011 */
         return 1.6 * (1.0 - e) / fmax(e, DMB_RESTITUTION_FLOOR);
-    case DMB_NORMAL_EXACT: return dmb_exact_restitution_factor(e);
+    case DMB_NORMAL_EXACT: return dmb_exact_restitution_factor(fmax(e, DMB_RESTITUTION_LEAST));
     default: return 0.0;
     }
 }
@@ -113,7 +114,7 @@ double dmb_normal_factor_slope(const dmb_normal_law *law, double e)
     case DMB_NORMAL_FLORES: return e > DMB_RESTITUTION_FLOOR ? -1.6 / (e * e) : -1.6 / DMB_RESTITUTION_FLOOR;
     case DMB_NORMAL_EXACT: {
         const double by_e = mu * mu * e / (1.0 - mu * e), by_mu = e * e * mu / (1.0 - mu * e) - mu / (1.0 + mu);
-        return e > DMB_RESTITUTION_FLOOR && e < 1.0 && by_mu != 0.0 ? -by_e / by_mu : 0.0;
+        return e > DMB_RESTITUTION_LEAST && e < 1.0 && by_mu != 0.0 ? -by_e / by_mu : 0.0;
     }
     default: return 0.0;
     }

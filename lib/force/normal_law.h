@@ -20,8 +20,9 @@ typedef struct dmb_normal_law {
     double impact_floor; /* [m/s] smallest v0 */
 } dmb_normal_law;
 
-/* The law with mu from the restitution e in 0 .. 1; for FLORES and EXACT, whose mu grows like 1/e, e below 1e-6 counts
- * as 1e-6. An unknown kind becomes DMB_NORMAL_NONE. Other values are taken as they are (the model has checked them). */
+/* The law with mu from the restitution e in 0 .. 1; of FLORES and EXACT, whose mu grows like 1/e, e is at least 1e-6
+ * and 1e-3. An unknown kind becomes DMB_NORMAL_NONE. Other values are taken as they are (the model has checked them).
+ */
 dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution);
 
 /* [-] Damping factor mu that makes K d^n (1 + mu d'/v0) give back the restitution e, for any n and v0:

@@ -12,7 +12,7 @@ DMB_DEFINE_INIT(dmb_term, 96, {.kind = DMB_TERM_CONSTANT, .x1 = 1.0})
 DMB_DEFINE_INIT(dmb_wall_def, 184, {
     .direction = {1.0, 0.0, 0.0},
     .diameter = 0.094,
-    .normal_law = DMB_NORMAL_HUNT_CROSSLEY,
+    .normal_law = DMB_NORMAL_EXACT,
     .friction_law = DMB_FRICTION_STRIBECK,
     .stiffness = 1e7,
     .exponent = 1.0,

@@ -55,9 +55,7 @@ static void check_normal_law(dmb_check *check, const dmb_wall_def *def)
     dmb_check_within(check, "stiffness", def->stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
     dmb_check_within(check, "exponent", def->exponent, 1.0, 3.0);
     dmb_check_within(check, "restitution", def->restitution, 0.0, 1.0);
-    if (law == DMB_NORMAL_FLORES || law == DMB_NORMAL_EXACT) {
-        dmb_check_above(check, "restitution", def->restitution, 0.0); /* their damping factor grows like 1/e */
-    }
+    if (law == DMB_NORMAL_FLORES) dmb_check_above(check, "restitution", def->restitution, 0.0); /* its mu is like 1/e */
     dmb_check_within(check, "damping", def->damping, 0.0, DMB_DAMPING_MAX);
     dmb_check_within(check, "impact_depth", def->impact_depth, DMB_DEPTH_MIN, DMB_LENGTH_MAX);
     dmb_check_within(check, "approach_speed", def->approach_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);

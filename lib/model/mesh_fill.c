@@ -315,7 +315,7 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                                            .impact_depth = w->impact_depth,
                                                            .impact_floor = w->approach_speed},
                                           w->restitution);
-    scene->friction_law = law;
+    scene->friction_law = dmb_friction_law_of(law);
 }
 
 /* The hole keeps pointers to its stations and pieces: from now on to the scene's own. */

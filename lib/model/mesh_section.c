@@ -51,8 +51,7 @@ static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const dmb_hole_
 {
     const dmb_wall_def *wall = &mesh->model->wall;
     dmb_check check = dmb_check_of(&mesh->model->message, "hole section", i);
-    if (wall->normal_law == DMB_NORMAL_FLORES || wall->normal_law == DMB_NORMAL_EXACT)
-        dmb_check_above(&check, "restitution", s->v[DMB_WALL_RESTITUTION], 0.0);
+    if (wall->normal_law == DMB_NORMAL_FLORES) dmb_check_above(&check, "restitution", s->v[DMB_WALL_RESTITUTION], 0.0);
     if (wall->friction_table_count > 0 && given->mu_static >= 0.0)
         dmb_check_fail(&check, DMB_ERR_VALUE, "mu_static", given->mu_static,
                        "left out (-1): friction_table_speed and friction_table_mu of the wall say it, in proportion to "

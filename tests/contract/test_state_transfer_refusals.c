@@ -85,7 +85,7 @@ static void add_hole(scene *s, difference d)
     wall.survey = d == WALL_DIRECTIONS ? more : d == WALL_DEPTHS ? later : bent;
     wall.survey_count = d == WALL_STATIONS ? 2 : 3;
     if (d == WALL_ORIGIN) wall.origin[2] = 1.0;
-    if (d == NORMAL_LAW) wall.normal_law = DMB_NORMAL_EXACT;
+    if (d == NORMAL_LAW) wall.normal_law = DMB_NORMAL_HUNT_CROSSLEY;
     if (d == FRICTION_LAW) wall.friction_law = DMB_FRICTION_BRISTLE;
     if (d != NO_WALL) (void)add_wall(&s->r, &wall);
 }

@@ -1,8 +1,9 @@
 /* Hard case 13: where withdrawal starts (20 to 22 s of the rig's cycle) the slip velocity of every node goes through
  * zero at once; at most 10 iterations. The stop before it (19 to 20 s), where sticking and slipping waves run down with
- * the rotation, is watched too: 11 iterations at worst and 17 halved steps in 1000 are measured there. A string of 40
- * pipes of 1 m (lib/theory/limits.md) on the floor of its hole, fed with 10 mm/s and turned with 200 rpm; time is
- * counted from 18.5 s on. */
+ * the rotation, is watched too: 11 iterations at worst and, with the Stribeck law, 53 halved steps in 1500 are measured
+ * there, and one afterwards; 17 and none where smoothing kept that law below 0.3237, with less to break away from. A
+ * string of 40 pipes of 1 m (lib/theory/limits.md) on the floor of its hole, fed with 10 mm/s and turned with 200 rpm;
+ * time is counted from 18.5 s on. */
 #include "contact_scene.h"
 
 static const double feed = 0.01, turning = 200.0 * 2.0 * PI / 60.0, load = 2960.0;
@@ -80,9 +81,9 @@ static void cycle(int32_t pipe_kind, int32_t law, double speed, double spin, dou
         energy.error);
     assert_true(slips_backwards(&r, sites) >= sites - 2);
     CHECK_BELOW(worst[1], most);
-    CHECK_BELOW(rejected[1], 0);
+    CHECK_BELOW(rejected[1], law == DMB_FRICTION_STRIBECK ? 2 : 0);
     CHECK_BELOW(worst[0], 12);
-    CHECK_BELOW(rejected[0], 20);
+    CHECK_BELOW(rejected[0], law == DMB_FRICTION_STRIBECK ? 70 : 20);
     rig_close(&r.scene);
 }
 

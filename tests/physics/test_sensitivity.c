@@ -121,6 +121,7 @@ static void check_case(const scene_case *c)
                channels[k].quantity, derivatives[k], reference[k], error, (unsigned long long)kinks);
         worst = fmax(worst, error);
     }
+    if (worst > c->bound) print_message("%s: worst error %.2e, bound %.1e\n", c->name, worst, c->bound);
     assert_true(worst <= c->bound);
     dmb_sensitivity_destroy(&sensitivity);
     rig_close(&s);
@@ -173,6 +174,7 @@ static void describe_string(rig *s)
     environment.lateral_damping = damping;
     must_model(s, dmb_model_set_environment(s->model, &environment));
     wall.stiffness = stiffness;
+    wall.normal_law = DMB_NORMAL_HUNT_CROSSLEY; /* EXACT lets go within the differences of whole runs */
     wall.mu_dynamic = mu;
     wall.mu_static = 1.2 * mu;
     wall.friction_law = friction_law;
@@ -416,9 +418,9 @@ static void test_strings(void **state)
 {
     const scene_case cases[] = {
         {"friction", describe_string, &mu, bending_channels, 1e-4, 1e-4, 1e-3, 1e-6, 80, 0},
-        {"stiffness of the wall", describe_string, &stiffness, bending_channels, 150.0, 3000.0, 1e-3, 1e-6, 80, 0},
+        {"stiffness of the wall", describe_string, &stiffness, bending_channels, 300.0, 3000.0, 1e-3, 1e-6, 80, 0},
         {"outer diameter", describe_string, &diameter, bending_channels, 1e-6, 1e-5, 1e-3, 1e-6, 80, 0},
-        {"damping by mud", describe_string, &damping, bending_channels, 0.1, 0.3, 1e-3, 1e-6, 80, 0},
+        {"damping by mud", describe_string, &damping, bending_channels, 0.07, 0.3, 1e-3, 1e-6, 80, 0},
         {"modulus", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
         {"modulus of a beam held at both ends", describe_held, &young, held_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
         {"friction of bars", describe_bars, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 80, 0},
@@ -430,13 +432,21 @@ static void test_strings(void **state)
 /* Inputs of control.h are parameters like others. */
 static void test_settings(void **state)
 {
-    static const double size[SETTINGS] = {1.0, 1.0, 300.0, 400.0, 2e4, 0.0, 0.0, 1.0, 1000.0, 6.0};
+    static const double size[SETTINGS] = {1.0, 0.3, 300.0, 400.0, 2e4, 0.0, 0.0, 1.0, 1000.0, 6.0};
+    static const double largest[SETTINGS] = {1.0, 1.0, 300.0, 400.0, 2e4, 0.0, 0.0, 1.0, 1000.0, 6.0};
     (void)state;
     for (int i = 0; i < SETTINGS; i++) {
         if (size[i] == 0.0) continue; /* limits that are not reached */
-        const scene_case c = {
-            "setting", describe_settable, &set_to[i], drilling_channels, 1e-3 * size[i], 3e-3 * size[i], 1e-3, 1e-5, 60,
-            0};
+        const scene_case c = {"setting",
+                              describe_settable,
+                              &set_to[i],
+                              drilling_channels,
+                              1e-3 * size[i],
+                              3e-3 * largest[i],
+                              1e-3,
+                              1e-5,
+                              60,
+                              0};
         printf("input %d: ", i);
         check_case(&c);
     }
@@ -535,7 +545,7 @@ static void test_actuators(void **state)
 {
     const scene_case cases[2] = {
         {"lag of an actuator", describe_bars, &lag, string_channels, 2e-5, 2e-4, 1e-3, 1e-5, 80, 0},
-        {"drag of an actuator, backwards", describe_bars, &back_drag, string_channels, 1e-4, 1e-3, 1e-3, 1e-5, 80, 0},
+        {"drag of an actuator, backwards", describe_bars, &back_drag, string_channels, 1e-3, 3e-3, 1e-3, 1e-5, 80, 0},
     };
     (void)state;
     lag = 0.02;

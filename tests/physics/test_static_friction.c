@@ -124,7 +124,17 @@ static totals sum_of_contacts(const scene *s)
     return sum;
 }
 
-/* Friction by the law at that slip over the normal force: mu(s) v/sqrt(v^2 + v_eps^2); Ambrosio in full. */
+/* [-] What the Stribeck law has beyond mu(s) r at speed v, r = v/s (eq:friction.peak), y = r exp(-s/v_s). */
+static double raise_of(double v)
+{
+    const double eps = 1e-3, v_s = 2e-2, y = v / hypot(v, eps) * exp(-hypot(v, eps) / v_s);
+    double most = 0.0;
+    for (double x = eps; x < 10.0 * eps; x *= 1.00001) most = fmax(most, x / hypot(x, eps) * exp(-hypot(x, eps) / v_s));
+    return pow(y / most, 4) * (0.05 * (1.0 - most) + MU * (1.0 - v / hypot(v, eps)));
+}
+
+/* Friction by the law at that slip over the normal force: mu(s) v/sqrt(v^2 + v_eps^2), in the Stribeck law raised to
+ * the maximum mu_static; Ambrosio in full. */
 static void check_law(const scene *s, const totals *sum)
 {
     const double *slip = s->choice->slip, v[2] = {slip[0], 0.0365 * slip[1]};
@@ -132,7 +142,8 @@ static void check_law(const scene *s, const totals *sum)
     const int full = s->choice->law == DMB_FRICTION_AMBROSIO;
     const double smoothed = full ? speed : hypot(speed, 1e-3);
     const int falls = s->choice->law == DMB_FRICTION_STRIBECK || s->choice->law == DMB_FRICTION_BRISTLE;
-    const double mu = MU + (falls ? 0.05 * exp(-smoothed / 2e-2) : 0.0);
+    const double raised = s->choice->law == DMB_FRICTION_STRIBECK ? raise_of(speed) * smoothed / speed : 0.0;
+    const double mu = MU + (falls ? 0.05 * exp(-smoothed / 2e-2) : 0.0) + raised;
     for (int k = 0; k < 2; k++)
         check_close("friction by its law", sum->friction[k], -mu * sum->normal * v[k] / smoothed, 1e-9 * sum->normal);
 }

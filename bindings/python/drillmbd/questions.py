@@ -15,7 +15,7 @@ from .language import Phrase
 from .no_response import NOTHING_EXCITES, of_response
 from .scene import Scene, words
 from .scene.units import UnitError, parse
-from .run_quality import FirstTenth, LastPart, TurnAStep, energy_error
+from .run_quality import FirstTenth, LastPart, TurnAStep, bent_elements, energy_error
 from .run_state import Kept, KeptFatigue, KeptRecorder, RunState, stop_asked
 from .running import Bar
 from .sim import Sim
@@ -103,6 +103,7 @@ def static(scene: Scene, output: Output, options: Any) -> int:
         output.note(sim.status, "start")
         to_rest(scene, sim, output)
         profiles(scene, sim, output, "static")
+        bent_elements(sim, output, "static state")
         if output.folder is not None:
             sim.write_vtk(output.path("static.vtp"))
         holes(scene, sim, output)
@@ -152,6 +153,7 @@ def run(scene: Scene, output: Output, options: Any) -> int:
             energy_error(sim, output, first, not stopped)
         if turning is not None:
             turning.report(output)
+        bent_elements(sim, output, "end of the run")
         _run_answers(scene, sim, output, recorder)
         if last is not None and not stopped:
             last.verify(output)

@@ -8,7 +8,9 @@ from ._optional import need
 from .answers import Output
 from .enums import Status
 from .errors import Usage
+from .language import Foreign
 from .scene import Scene
+from .scene.warned import of_model
 from .sim import Sim
 
 PART, LEAST_STEPS = 0.1, 20   #: of the run that is verified; it has as many steps at least
@@ -150,6 +152,14 @@ class LastPart:
         if changed:
             output.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more than {100.0 * NOTABLE:g} %; run "
                              "with a shorter step and compare again")
+
+
+def bent_elements(sim: Sim, output: Output, state: str) -> None:
+    """A note if elements that were described straight are bent by more than 0.01 rad in this state, which the mass of a straight element
+    does not follow: the warning of the model check, for the state that was reached instead of the first one."""
+    for text in of_model(sim):
+        if "with the mass of a straight one" in text:
+            output.note_text(Foreign(f"{state}: {text}"))
 
 
 def energy_error(sim: Sim, output: Output, first: FirstTenth, complete: bool) -> None:

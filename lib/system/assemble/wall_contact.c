@@ -156,7 +156,7 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
 {
     dmb_friction_law sliding = *law;
     sliding.kind = DMB_FRICTION_STRIBECK;
-    sliding.smoothing_speed = 0.0;
+    sliding.smoothing_speed = sliding.peak_bump = sliding.peak_level = 0.0;
     return sliding;
 }
 

@@ -16,7 +16,7 @@ static dmb_friction_law law_of(int32_t kind, double mu_static, double mu_dynamic
     law.smoothing_speed = 1e-3;
     law.full_speed = 1e-2;
     law.bristle_stiffness = 1e4;
-    return law;
+    return dmb_friction_law_of(law);
 }
 
 static void smooth_force(const dmb_friction_law *law, double N, const double v[2], double F[2])
@@ -27,6 +27,18 @@ static void smooth_force(const dmb_friction_law *law, double N, const double v[2
 }
 
 /* ---- smooth laws ---- */
+
+/* Friction over normal force at speed v > 0 by eq:friction.peak, in two parts that are 1 at the peak, whose kappa is
+ * found by trying all speeds. */
+static double peaked(const dmb_friction_law *law, double v)
+{
+    const double eps = law->smoothing_speed, r = v / hypot(v, eps), y = r * exp(-hypot(v, eps) / law->stribeck_speed);
+    double most = 0.0;
+    for (double x = 1e-3 * eps; x < 1e3 * eps; x *= 1.0001)
+        most = fmax(most, x / hypot(x, eps) * exp(-hypot(x, eps) / law->stribeck_speed));
+    const double level = 1.0 - (1.0 - r) * (1.0 - pow(y / most, 4)), bump = y + (1.0 - most) * pow(y / most, 4);
+    return law->mu_dynamic * level + (law->mu_static - law->mu_dynamic) * bump;
+}
 
 static void smooth_formulas(void **state)
 {
@@ -41,9 +53,14 @@ static void smooth_formulas(void **state)
     CHECK_RELATIVE(F[1], 0.3 * 100 * 4e-3 / s, 1e-15);
     const dmb_friction_law stribeck = law_of(DMB_FRICTION_STRIBECK, 0.35, 0.3);
     smooth_force(&stribeck, 100, v, F);
+    CHECK_RELATIVE(F[0], -peaked(&stribeck, 5e-3) * 100 * 0.6, 1e-7);
+    CHECK_RELATIVE(F[1], peaked(&stribeck, 5e-3) * 100 * 0.8, 1e-7);
+    dmb_friction_law as_smoothed = stribeck;
+    as_smoothed.peak_bump = as_smoothed.peak_level = 0.0;
+    smooth_force(&as_smoothed, 100, v, F);
     CHECK_RELATIVE(F[0], -(0.3 + 0.05 * exp(-s / 1e-2)) * 100 * 3e-3 / s, 1e-15);
     const dmb_friction_law bristle = law_of(DMB_FRICTION_BRISTLE, 0.35, 0.3);
-    double G[2];
+    double G[2]; /* slides on the curve itself */
     smooth_force(&bristle, 100, v, G);
     assert_true(G[0] == F[0] && G[1] == F[1]);
     const dmb_friction_law ambrosio = law_of(DMB_FRICTION_AMBROSIO, 0.35, 0.3);
@@ -118,7 +135,7 @@ static dmb_friction_law table_law(int32_t kind, double mu_dynamic)
     law.points = 4;
     law.table_speed = table_speed;
     law.table_mu = table_mu;
-    return law;
+    return dmb_friction_law_of(law);
 }
 
 /* Static until 0.07 m/s; halves of all coefficients where mu_dynamic is half the last one; the bristle law slides on
@@ -133,11 +150,13 @@ static void table_values(void **state)
         dmb_friction_law law = table_law(DMB_FRICTION_STRIBECK, 0.3);
         double F[2], dF_dv[4], dF_dN[2], z[2];
         law.smoothing_speed = 0.0;
+        law = dmb_friction_law_of(law);
         smooth_force(&law, 100, v, F);
         CHECK_RELATIVE(hypot(F[0], F[1]), 100 * at[i][1], 1e-14);
         assert_true(F[0] * v[0] + F[1] * v[1] < 0.0);
         law = table_law(DMB_FRICTION_STRIBECK, 0.15);
         law.smoothing_speed = 0.0;
+        law = dmb_friction_law_of(law);
         smooth_force(&law, 100, v, F);
         CHECK_RELATIVE(hypot(F[0], F[1]), 50 * at[i][1], 1e-14);
         law = table_law(DMB_FRICTION_BRISTLE, 0.3);
@@ -186,7 +205,9 @@ static void falling_branch(void **state)
     (void)state;
 
     dmb_friction_smooth(&smooth, 100, v, F, dF_dv, dF_dN);
-    assert_true(dF_dv[0] > 0.8 * expected && dF_dv[0] < expected);
+    const double curve = 0.3 + 0.05 * exp(-hypot(1e-2, 1e-3) / 1e-2), f0 = curve / hypot(1.0, 0.1);
+    CHECK_CLOSE(F[0], -100.0 * (f0 + 0.00115), 100.0 * 2e-4);
+    assert_true(dF_dv[0] > 0.8 * expected && dF_dv[0] < 1.15 * expected);
     (void)dmb_friction_bristle(&bristle, 100, v, z_old, v, 0, 1e-3, z, F, dF_dv, dF_dN);
     CHECK_RELATIVE(dF_dv[0], expected, 1e-14);
     CHECK_RELATIVE(F[0], -100 * (0.3 + 0.05 * exp(-1.0)), 1e-14);
@@ -204,6 +225,7 @@ static void rest_and_nonsense(void **state)
             int32_t sticks;
             if (i == 1) law.smoothing_speed = 0.0;
             if (i == 2) law.mu_static = law.mu_dynamic = 0.0;
+            law = dmb_friction_law_of(law);
             dmb_friction_smooth(&law, i == 3 ? 0.0 : 50.0, zero, F, dF_dv, dF_dN);
             assert_true(F[0] == 0.0 && F[1] == 0.0 && dF_dN[0] == 0.0 && dF_dN[1] == 0.0);
             assert_true(isfinite(dF_dv[0]) && isfinite(dF_dv[1]) && isfinite(dF_dv[2]) && isfinite(dF_dv[3]));
@@ -531,45 +553,136 @@ static void stick_slip_cycle(void **state)
     dmb_friction_law smooth = law_of(DMB_FRICTION_STRIBECK, 300, 200);
     smooth.stribeck_speed = 3e-2;
     smooth.smoothing_speed = 2e-5;
+    smooth = dmb_friction_law_of(smooth);
     const struct cycle once = stick_slip(&smooth, 3e-6, 0.1);
     smooth.smoothing_speed = 1e-5;
+    smooth = dmb_friction_law_of(smooth);
     const struct cycle twice = stick_slip(&smooth, 3e-6, 0.1);
     CHECK_RELATIVE(twice.period, 0.8565026271, 1e-2);
     CHECK_RELATIVE(twice.peak, 22.2908242354, 1e-2);
     CHECK_RELATIVE(twice.period, once.period, 1e-2);
 }
 
-/* The figure at `mu_static` of dmb_wall_def: smoothing takes the top off the Stribeck curve. */
-static void smoothed_curve_reaches_what_is_stated(void **state)
+/* The largest force of a smoothed law over N = 1, at speeds up to 10 v_eps and from 0.001 to 1000 v_eps, and its
+ * speed. */
+static double largest_friction(const dmb_friction_law *law, double *speed)
 {
-    const dmb_wall_def wall = dmb_wall_def_default();
-    const dmb_friction_law law = {.kind = DMB_FRICTION_STRIBECK,
-                                  .mu_static = wall.mu_static,
-                                  .mu_dynamic = wall.mu_dynamic,
-                                  .stribeck_speed = wall.stribeck_speed,
-                                  .smoothing_speed = wall.smoothing_speed};
     double most = 0.0;
-    (void)state;
-    for (int i = 1; i < 100000; i++) {
-        const double v[2] = {1e-6 * i, 0.0};
-        double F[2];
-        smooth_force(&law, 1.0, v, F);
-        most = fmax(most, -F[0]);
+    *speed = 0.0;
+    for (int i = 1; i <= 20000; i++) {
+        const double near = law->smoothing_speed * 5e-4 * i, far = law->smoothing_speed * pow(10, 3e-4 * (i - 10000));
+        for (int j = 0; j < 2; j++) {
+            const double v[2] = {0.6 * (j == 0 ? near : far), -0.8 * (j == 0 ? near : far)};
+            double F[2];
+            smooth_force(law, 1.0, v, F);
+            if (hypot(F[0], F[1]) <= most) continue;
+            most = hypot(F[0], F[1]);
+            *speed = hypot(v[0], v[1]);
+        }
     }
-    assert_true(fabs(most - 0.3237) < 1e-4);
+    return most;
+}
+
+/* Something that pulls with up to mu_static N is held: the maximum of the smoothed law is mu_static, at any ratio of
+ * its speeds and of its coefficients; of a table its first coefficient, or what the table itself rises to. */
+static void smoothed_law_reaches_static(void **state)
+{
+    static const double smoothing[] = {1e-7, 1e-4, 1e-3, 5e-3, 1e-2, 0.03, 0.3}, dynamic[] = {0.0, 0.1, 0.3, 0.349};
+    const dmb_wall_def wall = dmb_wall_def_default();
+    double speed;
+    (void)state;
+    for (int i = 0; i < 7; i++)
+        for (int k = 0; k < 4; k++) {
+            dmb_friction_law law = law_of(DMB_FRICTION_STRIBECK, wall.mu_static, dynamic[k]);
+            law.smoothing_speed = smoothing[i];
+            law.stribeck_speed = wall.stribeck_speed;
+            law = dmb_friction_law_of(law);
+            CHECK_RELATIVE(largest_friction(&law, &speed), 0.35, 1e-6); /* as near as the speeds that are tried */
+            assert_true(largest_friction(&law, &speed) <= 0.35 * (1.0 + 1e-13));
+        }
+    dmb_friction_law law = table_law(DMB_FRICTION_STRIBECK, 0.3);
+    CHECK_RELATIVE(largest_friction(&law, &speed), 0.5, 3e-4);
+    law.smoothing_speed = 0.04;
+    law = dmb_friction_law_of(law);
+    CHECK_RELATIVE(largest_friction(&law, &speed), 0.5, 3e-4);
+    static const double rises[] = {0.1, 0.1, 0.4, 0.4}, hump[] = {0.4, 0.45, 0.35, 0.3};
+    law.table_mu = rises;
+    law.mu_dynamic = 0.4;
+    law.smoothing_speed = 1e-3;
+    law = dmb_friction_law_of(law);
+    CHECK_RELATIVE(largest_friction(&law, &speed), 0.4, 1e-6);
+    law.table_mu = hump;
+    law.mu_dynamic = 0.3;
+    law = dmb_friction_law_of(law);
+    CHECK_RELATIVE(largest_friction(&law, &speed), 0.45, 1e-3); /* smoothed at 0.07 m/s */
+}
+
+/* Without smoothing the curve is as it is given, and the raised one tends to it. */
+static void raised_law_tends_to_the_curve(void **state)
+{
+    double before = 1.0;
+    (void)state;
+    for (double smoothing = 1e-3; smoothing > 1e-8; smoothing *= 0.1) {
+        dmb_friction_law law = law_of(DMB_FRICTION_STRIBECK, 0.35, 0.3);
+        double most = 0.0;
+        law.smoothing_speed = smoothing;
+        law = dmb_friction_law_of(law);
+        for (double v = 3e-3; v < 1.0; v *= 1.1) {
+            const double at[2] = {v, 0.0};
+            double F[2];
+            smooth_force(&law, 1.0, at, F);
+            most = fmax(most, fabs(-F[0] - (0.3 + 0.05 * exp(-v / 1e-2))));
+        }
+        assert_true(most < 0.4 * before);
+        before = most;
+    }
+    assert_true(before < 1e-5);
+}
+
+/* Change of the coefficients along the hole: the force is linear in them, also of tables and where they fall. */
+static void smooth_laws_are_linear_in_the_coefficients(void **state)
+{
+    uint64_t seed = 91;
+    (void)state;
+    for (int i = 0; i < 400; i++) {
+        const double a = draw(&seed, 0.1, 0.5), b = draw(&seed, -0.5, 0.5), c = draw(&seed, -0.2, 0.2);
+        const double v[2] = {draw(&seed, -1e-2, 1e-2), draw(&seed, -1e-2, 1e-2)};
+        dmb_friction_law law =
+            i % 2 == 0 ? law_of(DMB_FRICTION_STRIBECK, a + 0.3, a) : table_law(DMB_FRICTION_STRIBECK, a);
+        dmb_friction_law change = law, sum = law;
+        double F[2], dF[2], G[2];
+        change.mu_dynamic = b;
+        change.mu_static = i % 2 == 0 ? c : b * 0.5 / 0.3;
+        sum.mu_dynamic += 0.1 * b;
+        sum.mu_static += 0.1 * change.mu_static;
+        smooth_force(&law, 10, v, F);
+        smooth_force(&change, 10, v, dF);
+        smooth_force(&sum, 10, v, G);
+        for (int k = 0; k < 2; k++) CHECK_CLOSE(G[k], F[k] + 0.1 * dF[k], 1e-12);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smooth_formulas),       cmocka_unit_test(direction),
-        cmocka_unit_test(smooth_tangents),       cmocka_unit_test(table_values),
-        cmocka_unit_test(table_tangents),        cmocka_unit_test(falling_branch),
-        cmocka_unit_test(rest_and_nonsense),     cmocka_unit_test(bristle_tangents),
-        cmocka_unit_test(bristle_is_continuous), cmocka_unit_test(breaks_away_at_static),
-        cmocka_unit_test(bristle_dissipates),    cmocka_unit_test(slider_stops),
-        cmocka_unit_test(incline_sticks),        cmocka_unit_test(no_ratchet),
-        cmocka_unit_test(stick_slip_cycle),      cmocka_unit_test(smoothed_curve_reaches_what_is_stated),
+        cmocka_unit_test(smooth_formulas),
+        cmocka_unit_test(direction),
+        cmocka_unit_test(smooth_tangents),
+        cmocka_unit_test(table_values),
+        cmocka_unit_test(table_tangents),
+        cmocka_unit_test(falling_branch),
+        cmocka_unit_test(rest_and_nonsense),
+        cmocka_unit_test(bristle_tangents),
+        cmocka_unit_test(bristle_is_continuous),
+        cmocka_unit_test(breaks_away_at_static),
+        cmocka_unit_test(bristle_dissipates),
+        cmocka_unit_test(slider_stops),
+        cmocka_unit_test(incline_sticks),
+        cmocka_unit_test(no_ratchet),
+        cmocka_unit_test(stick_slip_cycle),
+        cmocka_unit_test(smoothed_law_reaches_static),
+        cmocka_unit_test(raised_law_tends_to_the_curve),
+        cmocka_unit_test(smooth_laws_are_linear_in_the_coefficients),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static void wall(void **state)
     assert_null(w.survey);
     assert_near(w.direction[0], 1.0, 0.0);
     assert_near(w.diameter, 0.094, 0.0);
-    assert_int_equal(w.normal_law, DMB_NORMAL_HUNT_CROSSLEY);
+    assert_int_equal(w.normal_law, DMB_NORMAL_EXACT);
     assert_int_equal(w.friction_law, DMB_FRICTION_STRIBECK);
     assert_near(w.stiffness, 1e7, 0.0);
     assert_near(w.exponent, 1.0, 0.0);

@@ -225,9 +225,9 @@ static void laws_are_taken_over(void **state)
     add_wall(model);
     add_pipes(model, &pipe, 1);
     scene = compiled(model);
-    assert_int_equal(scene->normal_law.kind, DMB_NORMAL_HUNT_CROSSLEY);
+    assert_int_equal(scene->normal_law.kind, DMB_NORMAL_EXACT);
     assert_near(scene->normal_law.stiffness, 1e7, 0.0);
-    assert_near(scene->normal_law.mu, 0.9, 1e-15);
+    assert_near(scene->normal_law.mu, 2.08249816, 1e-8); /* root of eq:contact.exact at 0.4 */
     assert_int_equal(scene->friction_law.kind, DMB_FRICTION_STRIBECK);
     assert_near(scene->friction_law.mu_static, 0.35, 0.0);
     assert_near(scene->hole.radius, 0.047, 0.0);

@@ -1,0 +1,75 @@
+#include "force/friction_law.h"
+
+#include <math.h>
+
+/* ---- Maximum of the smoothed law (eq:friction.peak) --------------------------------------------------------------
+ * 1/kappa = max over s of r E, r = sqrt(1 - v_eps^2/s^2). E = exp(-s/v_s) has it where s^3 - v_eps^2 s = v_eps^2 v_s; a
+ * straight piece E = a + b s of a table, falling, where v_eps^2 (a + b s) + b s (s^2 - v_eps^2) = 0. Both sides change
+ * sign once. */
+
+#define DECAY_LEAST 0.3  /* [-] of v_eps: a faster decay is not resolved */
+#define KAPPA_MOST 100.0 /* [-] tables whose static part ends below v_eps are not raised further */
+#define HALVINGS 100
+
+static double smoothed_decay(const dmb_friction_law *law, double s)
+{
+    const double ratio = law->smoothing_speed / s;
+    double slope;
+    if (!(ratio < 1.0)) return 0.0;
+    return sqrt((1.0 - ratio) * (1.0 + ratio)) *
+           (law->points > 0 ? dmb_friction_table_decay(law, s, &slope) : dmb_stribeck_decay(law, s, &slope));
+}
+
+static double peak_of_curve(const dmb_friction_law *law)
+{
+    const double eps = law->smoothing_speed, right = eps * eps * law->stribeck_speed;
+    double low = eps, high = eps + law->stribeck_speed;
+    for (int i = 0; i < HALVINGS; i++) {
+        const double s = 0.5 * (low + high);
+        if (s * (s - eps) * (s + eps) < right)
+            low = s;
+        else
+            high = s;
+    }
+    return smoothed_decay(law, low);
+}
+
+/* Largest value on the falling piece from x to x1: at its ends, where E comes down to 1, or between. */
+static double peak_of_piece(const dmb_friction_law *law, int k)
+{
+    const double *x = law->table_speed, *y = law->table_mu, last = y[law->points - 1], height = y[0] - last;
+    const double b = (y[k + 1] - y[k]) / (x[k + 1] - x[k]) / height, a = (y[k] - last) / height - b * x[k];
+    const double eps = law->smoothing_speed;
+    double low = fmax(x[k], eps), high = fmax(x[k + 1], eps), most = fmax(smoothed_decay(law, low), 0.0);
+    most = fmax(most, smoothed_decay(law, high));
+    if (b >= 0.0) return most;
+    const double one = (1.0 - a) / b;
+    if (one > low && one < high) most = fmax(most, smoothed_decay(law, one));
+    for (int i = 0; i < HALVINGS; i++) {
+        const double s = 0.5 * (low + high);
+        if (eps * eps * (a + b * s) + b * s * (s - eps) * (s + eps) > 0.0)
+            low = s;
+        else
+            high = s;
+    }
+    return fmax(most, smoothed_decay(law, low));
+}
+
+static double peak_of_table(const dmb_friction_law *law)
+{
+    double most = 1.0 / KAPPA_MOST;
+    for (int k = 0; k + 1 < law->points; k++) most = fmax(most, peak_of_piece(law, k));
+    return most;
+}
+
+dmb_friction_law dmb_friction_law_of(dmb_friction_law law)
+{
+    law.peak_bump = law.peak_level = 0.0;
+    if (law.kind != DMB_FRICTION_STRIBECK || !(law.smoothing_speed > 0.0)) return law;
+    if (law.points > 0 && !(law.table_mu[0] > law.table_mu[law.points - 1])) return law;
+    law.stribeck_speed = fmax(law.stribeck_speed, DECAY_LEAST * law.smoothing_speed);
+    const double kappa = 1.0 / (law.points > 0 ? peak_of_table(&law) : peak_of_curve(&law));
+    law.peak_bump = (kappa - 1.0) * kappa * kappa * kappa;
+    law.peak_level = kappa * kappa * kappa * kappa;
+    return law;
+}
