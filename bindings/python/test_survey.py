@@ -69,6 +69,7 @@ SAME = {
     "feet.las": LAS.replace("DEPT.M", "DEPT.F").replace("100 75", f"{100 / 0.3048!r} 75").replace("200 70", f"{200 / 0.3048!r} 70").replace(
         "300 71", f"{300 / 0.3048!r} 71"),
     "devi.las": LAS.replace("INCL.DEG", "DEVI.DEG").replace("AZIM.DEG", "HAZI.DEG"),
+    "remark.csv": "MD (m),Inc (deg),Azi (deg)\n0,0,0,tie-in\n100,0,0\n200,10,45,good,\n300,20,45\n",
     "well.csv": "well,depth [m],inclination [deg],azimuth [deg]\nA,0,0,0\nA,100,0,0\nA,200,10,45\nA,300,20,45\n",
     "twice.csv": CSV.replace("200,10,45\n", "200,10,45\n200,10,45\n"),
     "log.las": LAS, "log.csv": LAS, "wrapped.las": LAS.replace("NO  :", "YES :").replace("200 70 10 45", "200\n70 10\n45"),
@@ -96,6 +97,7 @@ REFUSED = (("depth [m],inclination [deg],azimuth [deg]\n0,0,0\n100,,\n200,10,45\
            ("MD [m],Inc [deg],Azi [deg]\n0,0,0\n10,90,0\n20,90,180\n", ("line 4: the hole turns by 180 deg from line 3", "at most 143 deg")),
            (LAS.replace("-999.25 :", "-1 :").replace("200 70 10 45", "200 70 -1.000 45"), ("\"-1.000\"", "missing value")),
            (CSV.replace("200,10,45", "200," + "1" * 400 + "z,45"), ("111...\"",)),
+           (CSV.replace("200,10,45", "1,200,10,45").replace("300,20,45", "1300,20,45"), ("line 4 has 4 cells below 3 heads", "as 1,000?")),
            (LAS.replace("200 70 10 45", "200 70 -999.25 45"), ("-999.25", "missing value")))
 
 # north, east, down [m] at measured depth, inclination, azimuth: minimum curvature, published by well-path software.
@@ -183,6 +185,10 @@ class SurveyTest(unittest.TestCase):
         openworks = "Well          MD      Inclination     Azimuth   TVD\nW1   0.00   0.00   0.00   0.0\nW1   100.00   0.00   0.00   100.0\n" \
                     "W1   200.00   10.00   45.00   199.0\nW1   300.00   20.00   45.00   295.0\n"
         self.same(load("open.csv", openworks, 'survey_columns = ["well", "MD [m]", "Inclination", "Azimuth"]'), "OpenWorks")
+        with self.assertRaisesRegex(scene.SceneError, "line 3 has 4 cells below 3 heads"):
+            load("bare.csv", "0,0,0\n100,0,0\n1,200,10,45\n", 'survey_columns = ["depth [m]", "inclination [deg]", "azimuth [deg]"]')
+        more = "".join(line.replace(" x", "").replace(" y", "").replace(" z", "").replace(" u", "").replace(" ", ",") + ",7\n" for line in rows.splitlines())
+        self.same(load("bare.csv", more, 'survey_columns = ["depth [m]", "inclination [deg]", "azimuth [deg]"]'), "more columns")
         for wrong, part in (("3", "array of heads"), ('["depth [m]"]', "must name depth"), ('["a", "b", "c"]', "must name depth")):
             with self.assertRaisesRegex(scene.SceneError, part):
                 load("bare.txt", rows, "survey_columns = " + wrong)

@@ -174,7 +174,7 @@ def read(table: Table, columns: tuple[Column, ...], given: list[str] | None = No
         if any(any(row.cells[one.index:one.index + 1]) for one in places if one.column.unit):
             _read_row(row, places, table, comma, found)
     if table.separator == "," and not found.faults:
-        _check_widths(width, rows, found)
+        _check_widths(width, rows, found, given is not None)
     if len(found.faults) > MOST_FAULTS:
         found.faults[MOST_FAULTS:] = [f"and {len(found.faults) - MOST_FAULTS} more lines are wrong"]
     return found
@@ -286,9 +286,16 @@ def _cell_of(number: Decimal, one: _Place, rest: str) -> Cell:
     return Cell(value, f"{number} {unit}", float(number))
 
 
-def _check_widths(width: int, rows: list[Row], found: Found) -> None:
-    """Twice as many cells as heads, separated by commas: their commas are decimal."""
+def _check_widths(width: int, rows: list[Row], found: Found, bare: bool) -> None:
+    """Cells that are separated by commas, of which one may be within a number: twice as many cells as heads in all rows are decimal commas;
+    more numbers than heads in some row may be 1,000. bare: a file without heads, which may have more columns, the same in all rows."""
     bad = [row for row in rows if len(row.cells) >= 2 * width]
     if bad and len(bad) == len(rows):
         found.faults.append(f"line {bad[0].line} has {len(bad[0].cells)} cells below {width} heads: with decimal commas the cells must "
                             "be separated by semicolons, tabs or blanks")
+        return
+    usual = max(width, min((len(row.cells) for row in rows), default=0)) if bare else width
+    for row in rows:
+        if any(_is_number(cell) for cell in row.cells[usual:] if cell):
+            found.faults.append(f"line {row.line} has {len(row.cells)} cells below {usual} heads: is a comma within a number, as 1,000? Take it out, put the "
+                                "number in quotes, or separate the cells by semicolons")
