@@ -1,6 +1,6 @@
 /* Critical factors followed along the equilibria, against closed forms, the path's own events, the sign of the
  * stiffness just below and above, and runs in time: where sections turn on the way (torque), in holes that bend, and
- * where moments have a fixed axis. Equations: eq:buckling.arc. */
+ * where moments have a fixed axis. Equations: eq:buckling.arc. Equations: eq:buckling.frames. */
 #include <stdio.h>
 
 #include "mechanism.h"

@@ -1,6 +1,7 @@
 /* Profiles over a string's length against closed forms: a string that hangs in mud, one that is pushed along the low
  * side of its hole, one that lies in a hole that builds; and against the queries of single places. Equations:
- * eq:drilling.wall-force, eq:drilling.sinusoidal, eq:drilling.helical, eq:drilling.von-mises. */
+ * eq:drilling.wall-force, eq:drilling.sinusoidal, eq:drilling.helical, eq:drilling.von-mises. Equations:
+ * eq:drilling.vertical. */
 #include "drill_string.h"
 
 static scene describe(uint32_t pipes)

@@ -1,6 +1,7 @@
 /* Torque and drag of the soft string against closed forms (inclined, building, capstan, torque, lock-up), against the
  * axial-torsional statics of the library in a hole that turns in three dimensions, and against the stiff string.
- * Equations: eq:drilling.soft-string, eq:drilling.wall-force, eq:drilling.lock-up, eq:drilling.transmission. */
+ * Equations: eq:drilling.soft-string, eq:drilling.wall-force, eq:drilling.lock-up, eq:drilling.transmission. Equations:
+ * eq:drilling.helix-force. */
 #include <string.h>
 
 #include "drill_string.h"

@@ -1,7 +1,7 @@
 /* Energy of stops and one-sided springs over bounces that steps resolve or not: never above 1.01 of the initial energy,
  * for steps of h w from 0.01 to 100, every spectral radius, with and without dampers, in fixed and in controlled steps.
  * DMB_BOUNCE_SEEDS: number of random scenes of balls between springs (default 20). Equations: eq:unilateral.energy,
- * eq:unilateral.mean. */
+ * eq:unilateral.mean. Equations: eq:unilateral.resolved. */
 #include <stdlib.h>
 
 #include "drillmbd/forces.h"

@@ -223,7 +223,8 @@ void dmb_static_move_back(dmb_static_search *search, const double *correction, d
 double dmb_static_work(const dmb_static_search *search, const double *direction, double part);
 /* The tangent of the residual in axes of the nodes becomes that in axes which do not spin with them. */
 void dmb_static_fix_axes(dmb_sim *sim);
-/* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */
+/* Newton with the extrapolated element stress (eq:static.extrapolated) at the search's load factor. DMB_OK, or why it
+ * failed. */
 int32_t dmb_static_newton(dmb_static_search *search);
 /* One such correction. */
 int32_t dmb_static_correct(dmb_static_search *search);

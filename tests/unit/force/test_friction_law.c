@@ -125,7 +125,7 @@ static void smooth_tangents(void **state)
     }
 }
 
-/* ---- table ---- */
+/* ---- table (eq:friction.table) ---- */
 
 static const double table_speed[] = {0.0, 0.07, 0.08, 0.5}, table_mu[] = {0.5, 0.5, 0.24, 0.3};
 

@@ -1,7 +1,8 @@
 /* The whole residual of strings with everything on: its tangent by pose, velocity and acceleration against six-point
  * central differences of the residual itself, and its conservative part against the energies. Equations:
  * eq:contact.pendulum, eq:contact.wrench, eq:contact.inside, eq:hole.advance, eq:hole.section-force. Checks
- * eq:motion.euler-poincare, eq:motion.gyroscopic, eq:motion.weight and eq:integration.iteration-matrix. */
+ * eq:motion.euler-poincare, eq:motion.gyroscopic, eq:motion.weight and eq:integration.iteration-matrix. Equations:
+ * eq:contact.directions. */
 #include <stdio.h>
 #include <string.h>
 
