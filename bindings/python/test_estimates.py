@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.stats import norm
 
-from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, form, sampled, sobol_indices
+from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, effective, form, sampled, sobol_indices
 from drillmbd.probability.fields import Markov
 from drillmbd.probability.points import Points, drawn
 
@@ -146,6 +146,24 @@ class IntervalTest(unittest.TestCase):
     def test_subset_that_never_fails(self):
         found = Subset(1, 2, 50, replicates=3, levels=3).run(lambda numbers, z: np.full(len(z), 1.0))
         self.assertEqual((found.low, found.high, found.failures), (0.0, 1.0, 0))
+
+    def test_subset_that_cannot_reach_a_failure(self):
+        """It says so after a few levels; where failures are near it goes on to the end."""
+        count = []
+        def far(numbers, z):
+            count.append(len(z))
+            return 1.0 + np.exp(-z[:, 0])
+        found = Subset(1, 2, 50, replicates=3).run(far)
+        self.assertEqual((found.low, found.high), (0.0, 1.0))
+        self.assertRegex(found.about, "ended after [3-6] levels, because it cannot reach a failure")
+        self.assertLessEqual(sum(count), 3 * 50 * 7)
+        self.assertNotIn("ended", Subset(1, 2, 200, replicates=5).run(linear(4.0)).about)
+
+    def test_effective_samples(self):
+        """Of plain Monte Carlo it is their number, as far as Clopper and Pearson are the normal law."""
+        found = counted(np.repeat([-1.0, 1.0], [200, 800]))
+        self.assertLess(abs(effective(found.probability, found.low, found.high, 0.95) / 1000.0 - 1.0), 0.05)
+        self.assertIsNone(effective(0.0, 0.0, 0.1, 0.95))
 
     def test_latin_and_sobol_are_narrower(self):
         """The linear case, by 2 numbers: equal work, narrower intervals."""

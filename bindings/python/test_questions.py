@@ -179,6 +179,32 @@ class SoftTest(unittest.TestCase):
         self.assertEqual(found["lock-up"], (-0.1, 0.0))
         self.assertEqual(found["rig-pull"], (2900.0, 100.0))
 
+    def test_jamming(self):
+        """The rig overcomes what its pull leaves beyond the friction, or its torque at the radius of the rods."""
+        mu, radius = 0.3, 0.0365
+        for pull, torque in ((20e3, 400.0), (20e3, 2000.0)):
+            sample = SceneSample(LEVEL + failure("jamming", limit="10 kN", pull=f"{pull} N", torque=f"{torque} N m", diameter="73 mm"))
+            around = 200.0 * math.pi / 60.0 * radius
+            turned = mu * WEIGHT * radius * around / math.hypot(around, 0.01) + 0.5 * 8000.0 * 0.094 / 3.0
+            known = max(pull - mu * WEIGHT, (torque - turned) / radius)
+            found = sample(0, np.zeros(1))
+            self.assertAlmostEqual(found.demands[0] / known, 1.0, 5)
+            self.assertAlmostEqual(found.margins[0], found.demands[0] - 10e3, 9)
+        with self.assertRaisesRegex(scene.SceneError, 'jamming: needs question = "torque-drag"|needs question = "torque-drag"'):
+            scene.loads(LEVEL.replace('"torque-drag"', '"static"') + failure("jamming", limit="1 kN", pull="1 N", torque="1 N m", diameter="73 mm"))
+
+    def test_leaves_seam(self):
+        """An error of the dip that is the same along the hole: sin of it times the length."""
+        more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\nmean = 0\n' \
+               'deviation = "0.5 deg"\ncorrelation_length = "1000 km"\nkernel = "gaussian"\n'
+        for question in ("torque-drag", "static"):
+            sample = SceneSample(LEVEL + more + failure("leaves-seam", limit="0.4 m") + failure("rig-pull", limit="3 kN"), asked=question)
+            z = np.zeros(sample.dimension)
+            z[1] = 1.3
+            known = 60.0 * math.sin(math.radians(0.5 * 1.3 * sample.draw.fields[0][1].matrix[0, 0]))
+            self.assertLess(abs(sample(0, z).demands[0] / abs(known) - 1.0), 1e-3)
+        self.assertEqual(SceneSample(LEVEL + failure("leaves-seam", limit="0.4 m"))(0, np.zeros(1)).demands, [0.0])
+
     def test_engines(self):
         sample = SceneSample(LEVEL + FIELD + ALL)
         points = Points("monte-carlo", 7, sample.dimension, 450)
@@ -189,9 +215,9 @@ class SoftTest(unittest.TestCase):
 
     def test_registry(self):
         for word, kind in KINDS.items():
-            if word != "own":
+            if word not in limits.BESIDE:
                 self.assertEqual("torque-drag" in kind.questions, limits.HOW[word].soft is not None, word)
-                self.assertIn("run", kind.questions)
+            self.assertTrue(kind.questions)
 
 
 def _row(hook_load, locked=0):

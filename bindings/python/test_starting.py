@@ -6,6 +6,8 @@ import pathlib
 import tempfile
 import unittest
 
+from shared_tests import needs
+
 from drillmbd import scene
 from drillmbd.command import main
 from drillmbd.scene import keys, new
@@ -26,6 +28,19 @@ class StartingTest(unittest.TestCase):
             self.assertEqual(status, 0)
             self.assertEqual(scene.loads(text).remarks, [])
         self.assertIn('diameter = "8 1/2 in"', said("new", "well", "--hole", '8 1/2"')[1])
+
+    def test_variability_of_new_scenes(self):
+        """The lines about scatter load where their # are taken away, and a study answers."""
+        needs("numpy", "scipy")
+        from drillmbd.probability.sample import DONE, SceneSample
+        for kind in new.OPTIONS:
+            text = said("new", kind)[1]
+            before, after = text.split("drillmbd probability FILE\n")
+            self.assertNotIn("\n[variability]", text)
+            sample = SceneSample(before + "\n" + "".join(line.removeprefix("#").removeprefix(" ") + "\n" for line in after.splitlines()))
+            self.assertEqual(sample.soft.why, "")
+            found = sample(0, [0.0] * sample.dimension)
+            self.assertEqual((found.status, len(found.margins)), (DONE, 5), found.message)
 
     def test_new_refuses(self):
         with tempfile.TemporaryDirectory() as folder:

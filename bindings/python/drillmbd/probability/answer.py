@@ -13,7 +13,7 @@ from ..answers import Output
 from ..errors import Usage
 from . import engines
 from .demands import Demand, demand_of
-from .estimates import Estimate, Indices, Subset, Surrogate, counted, sobol_indices
+from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, sobol_indices
 from .points import Points
 from .sample import FAILED, Result, SceneSample
 from .study import Progress, Study, StudyFile, usable
@@ -131,6 +131,10 @@ class Answer:
         lost = f", {one.lost} samples without a margin" if one.lost else ""
         self.output.say(f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
                         f"({one.failures} of {one.samples}{lost}; {one.about})")
+        one.more.setdefault("effective_samples", float(one.samples - one.lost) if one.method == "monte-carlo" else
+                            effective(one.probability, one.low, one.high, one.confidence))
+        if one.method != "monte-carlo" and one.more["effective_samples"] is not None:
+            self.output.say(f"{name}: as narrow as of {one.more['effective_samples']:.3g} samples of plain Monte Carlo")
         self.estimates[name] = one
         self.output.summary.setdefault("estimates", {})[name] = {**vars(one)}
 

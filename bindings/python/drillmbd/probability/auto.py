@@ -63,20 +63,12 @@ class Stage:
         return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples, int((self.ran & self.failed).sum()), self.lost,
                         f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} of them near a limit with the "
                         f"weight 1 and {int(far.sum())} others with the weight {1.0 / FAR:g}",
-                        {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / FAR, "effective_samples": effective(value, low, high, confidence)})
+                        {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / FAR})
 
 
 def _upper_share(count: int, samples: int, parts: float) -> float:
     """Upper end of the share of a group."""
     return clopper_pearson(count, samples, parts)[1] if count else 0.0
-
-
-def effective(probability: float, low: float, high: float, confidence: float) -> float | None:
-    """Samples of plain Monte Carlo whose interval would be as wide; None where that is not defined."""
-    width, quantile = high - low, float(need("scipy.stats").norm.isf(0.5 * (1.0 - confidence)))
-    if not 0.0 < probability < 1.0 or not width > 0.0:
-        return None
-    return 4.0 * quantile * quantile * probability * (1.0 - probability) / (width * width)
 
 
 class Auto(Answer):

@@ -49,6 +49,14 @@ def students(values: Any, confidence: float) -> tuple[float, float, float]:
     return mean, mean - half, mean + half
 
 
+def effective(probability: float, low: float, high: float, confidence: float) -> float | None:
+    """Samples of plain Monte Carlo whose interval would be as wide; None where that is not defined."""
+    width, quantile = high - low, float(need("scipy.stats").norm.isf(0.5 * (1.0 - confidence)))
+    if not 0.0 < probability < 1.0 or not width > 0.0:
+        return None
+    return 4.0 * quantile * quantile * probability * (1.0 - probability) / (width * width)
+
+
 def counted(margins: Any, method: str = "monte-carlo", replicates: int = 1, confidence: float = 0.95) -> Estimate:
     """From the margins of all samples in order. Samples without a margin count as safe for the lower end and as failures for
     the upper one, and are left out of the probability."""
@@ -78,6 +86,9 @@ def sampled(evaluate: Evaluate, points: Points, confidence: float = 0.95) -> Est
     return counted(margins, points.method, points.replicates, confidence)
 
 
+HOPE = 3.0  #: a subset simulation goes on where failures are within so many times the levels that it has left
+
+
 # ---- Rare failures -----------------------------------------------------------------------------------------------------
 class Subset:
     """Subset simulation (eq:probability.subset) with conditional sampling of the normal numbers (eq:probability.conditional): a new
@@ -92,6 +103,7 @@ class Subset:
         self.length = max(2, round(1.0 / share))
         self.each = self.chains * self.length
         self.evaluated = self.lost = 0
+        self.thresholds: list[list[float]] = []  # margins that end the levels so far, of each replicate
 
     def _xi(self, first: int, count: int) -> Any:
         """Of `count` samples of a replicate, by the number of the first: the study draws them, not its workers."""
@@ -113,9 +125,13 @@ class Subset:
         margins = self._margins(evaluate, numbers, z.reshape(-1, self.dimension)).reshape(self.replicates, self.each)
         result, steps = numpy.ones(self.replicates), numpy.full(self.replicates, 0.6)
         going, used = list(range(self.replicates)), [self.each] * self.replicates
-        levels = 0
+        levels, self.thresholds, early = 0, [[] for _ in going], ""
         while going and levels <= self.levels:
             going = [r for r in going if not self._ends(r, margins[r], result, last=levels == self.levels)]
+            early = self._hopeless(going, self.levels - levels)
+            if early:
+                result[going] = 0.0
+                break
             if going:
                 self._level(evaluate, going, z, margins, steps, used)
             levels += 1
@@ -126,7 +142,7 @@ class Subset:
         if not (probability > 0.0 and math.isfinite(scatter)):
             low, high = 0.0, 1.0  # nothing seen in so many levels says nothing
         return Estimate(probability, max(0.0, low), min(1.0, high), confidence, "subset", self.evaluated,
-                        int((margins <= 0.0).sum()), self.lost, f"Student's t of {self.replicates} independent runs, and the bias",
+                        int((margins <= 0.0).sum()), self.lost, early or f"Student's t of {self.replicates} independent runs, and the bias",
                         {"levels": levels, "deviation of one run": scatter})
 
     def _ends(self, r: int, margins: Any, result: Any, last: bool) -> bool:
@@ -138,11 +154,26 @@ class Subset:
         result[r] *= self.share
         return False
 
+    def _hopeless(self, going: list[int], left: int) -> str:
+        """Why the replicates that go on will not see a failure: their thresholds fall so slowly that HOPE times the levels that are left would
+        not do. "" where they may."""
+        if not going or any(len(self.thresholds[r]) < 3 for r in going):
+            return ""
+        last = [self.thresholds[r][-1] for r in going]
+        falls = [(self.thresholds[r][-3] - self.thresholds[r][-1]) / 2.0 for r in going]
+        if any(fall > 0.0 and value <= HOPE * left * fall for value, fall in zip(last, falls)):
+            return ""
+        return (f"ended after {len(self.thresholds[going[0]])} levels, because it cannot reach a failure: the smallest margins fall by "
+                f"{sum(falls) / len(falls):.3g} a level and {min(last):.3g} are left, for {left} more levels; nothing is known of the probability: ask for more samples a level, or "
+                "for plain samples and their percentiles")
+
     def _level(self, evaluate: Evaluate, going: list[int], z: Any, margins: Any, steps: Any, used: list[int]) -> None:
         """One more level of the replicates that go on, all chains side by side."""
         numpy = need("numpy")
         order = {r: numpy.argsort(margins[r], kind="stable")[:self.chains] for r in going}
         level = {r: 0.5 * (margins[r][order[r][-1]] + numpy.sort(margins[r])[self.chains]) for r in going}
+        for r in going:
+            self.thresholds[r].append(float(level[r]))
         states = numpy.array([z[r][order[r]] for r in going])
         values = numpy.array([margins[r][order[r]] for r in going])
         taken = numpy.zeros(len(going))

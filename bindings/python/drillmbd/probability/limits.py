@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 #: Signals are named (part, quantity, what of it): of a part by CHANNEL_... "", of a string by PROFILE_... "max" or "min" over it.
+COURSE = 100  #: stretches between the depths at which courses are compared
 STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
 
 
@@ -107,6 +108,34 @@ def _soft_lock_up(soft: Soft, values: dict[str, float]) -> float:
     return soft.weight_on_bit / push if push > 0.0 else math.inf
 
 
+def _jamming(soft: Soft, values: dict[str, float]) -> float:
+    """[N] Reserve of pull, or of torque over the radius; without bound below where the string locks up."""
+    pulled, turned = soft.rows["pulled out"], soft.rows["rotated"]
+    pull = -math.inf if pulled.locked else values["pull"] - pulled.hook_load
+    torque = -math.inf if turned.locked else 2.0 * (values["torque"] - turned.torque) / values["diameter"]
+    return float(max(pull, torque))
+
+
+def _never(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return math.nan
+
+
+class Course:
+    """The course of the hole that a scene gives, as far as its strings reach."""
+
+    def __init__(self, scene: Scene) -> None:
+        lengths = [arguments[0] * arguments[1].get("length", 1.0) for name, arguments in scene.model.calls if name == "add_pipes"]
+        self.depths = [math.fsum(lengths) * i / COURSE for i in range(COURSE + 1)]
+        self.heights = self._heights(scene)
+
+    def _heights(self, scene: Scene) -> list[float]:
+        return [float(scene.model.hole(depth).position[2]) for depth in self.depths]
+
+    def off(self, scene: Scene) -> float:
+        """[m] Largest vertical distance of another scene's hole from it."""
+        return max(abs(a - b) for a, b in zip(self.heights, self._heights(scene)))
+
+
 @dataclass(frozen=True)
 class How:
     """The functions that find the demand of a kind from series in time or from torque and drag, and the channels that the series are of."""
@@ -133,7 +162,9 @@ HOW: dict[str, How] = {
     "lateral-acceleration": How(_largest, _profile(P.ACCELERATION_LATERAL)),
     "bit-off-bottom": How(lambda t, s, v: longest(t, s["weight"] <= v["load"]), {"weight": ("bit", C.BIT_WEIGHT, "")}),
     "wall-pressure": How(_over("width"), _profile(P.NORMAL_FORCE), lambda soft, v: soft.wall_force / v["width"]),
-    "stick-slip": How(_stick_slip, {"spin": ("bit", C.SPIN, "")})}
+    "stick-slip": How(_stick_slip, {"spin": ("bit", C.SPIN, "")}),
+    "jamming": How(_never, {}, _jamming)}
+BESIDE = ("own", "leaves-seam")  #: kinds that a sample finds from its scene, not from signals
 
 
 def margin_of(failure: Failure, demand: float) -> float:
@@ -172,7 +203,7 @@ class Watch:
     """Takes the signals that some failures need, at each look."""
 
     def __init__(self, scene: Scene, sim: Sim, failures: list[Failure], looks: int) -> None:
-        self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind != "own"]
+        self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind not in BESIDE]
         asked = {(one.names[part], quantity, what) for one in self.failures for part, quantity, what in HOW[one.kind].signals.values()}
         self.channels = sorted(one for one in asked if one[2] == "")
         self.profiles = sorted(one for one in asked if one[2] in ("max", "min"))

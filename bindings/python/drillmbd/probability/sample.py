@@ -18,7 +18,7 @@ from ..scene import CannotSave, Scene, SceneError, loads
 from ..scene.failure import KINDS, Failure
 from . import statics
 from .draw import CannotDraw, Draw
-from .limits import Watch
+from .limits import BESIDE, Course, Watch, margin_of
 from .soft import SoftString
 
 DONE, FAILED = 1, 2  #: of a sample: it has margins; it has a message instead
@@ -90,9 +90,10 @@ class SceneSample:
     def __post_init__(self) -> None:
         self._draw: Draw | None = None
         self._soft = dict[int, SoftString]()
+        self._course: Course | None = None
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_draw": None, "_soft": {}}
+        return {**self.__dict__, "_draw": None, "_soft": {}, "_course": None}
 
     @property
     def question(self) -> str:
@@ -115,7 +116,7 @@ class SceneSample:
         """Made once in each thread, whose samples change it; forked processes have that of their parent."""
         thread = threading.get_ident()
         if thread not in self._soft:
-            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw, self.failures)
+            self._soft[thread] = SoftString(self.text, self.name, self.folder, self.changes, self.draw, [one for one in self.failures if one.kind not in BESIDE])
         return self._soft[thread]
 
     @property
@@ -188,9 +189,13 @@ class SceneSample:
         return Result(number, status, margins, demands, inputs, clock.thread_time() - started, message)
 
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
-        if self.question == "torque-drag":
-            return self.soft.margins(values)
+        if self.question == "torque-drag" and not any(one.kind in BESIDE for one in self.failures):
+            return self.soft.margins(values, self.failures)
         scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
+        if self.question == "torque-drag":
+            quick = [one for one in self.failures if one.kind not in BESIDE]
+            known = dict(zip((one.name for one in quick), self.soft.margins(values, quick)))
+            return [known[one.name] if one.name in known else self._beside(one, scene, None, values, None, None) for one in self.failures]
         if self.question == "static":
             return self._static(scene, values)
         end = scene.run.get("end", 0.0)
@@ -217,8 +222,8 @@ class SceneSample:
         self._run(scene, sim, end, look, watch, recorder)
         found = watch.margins(more)
         for one in scene.failures:
-            if one.kind == "own":
-                found[one.name] = self._own(one.name, one.limit, scene, sim, values, watch, recorder)
+            if one.kind in BESIDE:
+                found[one.name] = self._beside(one, scene, sim, values, watch, recorder)
         return [found[one.name] for one in self.failures]
 
     @staticmethod
@@ -241,6 +246,15 @@ class SceneSample:
         for number in range(1, count + 1):
             sim.run(min(number * look, end))
             take()
+
+    def _beside(self, one: Failure, scene: Scene, sim: Any, values: dict[str, Any], watch: Any, recorder: Any) -> tuple[float, float]:
+        """Margin and demand of a kind that needs more than signals."""
+        if one.kind == "own":
+            return self._own(one.name, one.limit, scene, sim, values, watch, recorder)
+        if self._course is None:
+            self._course = Course(self.draw.scene)
+        demand = self._course.off(scene)
+        return margin_of(one, demand), demand
 
     def _own(self, name: str, limit: float, scene: Scene, sim: Any, values: dict[str, Any], watch: Watch,
              recorder: Any) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from ..enums import Status
 from ..errors import Error
 from ..model import _DEFINITIONS
 from ..operating import Operating, has_rock_law, operating, operations_of
-from ..scene import Scene, loads
+from ..scene import Scene, SceneError, loads
 from ..scene.failure import Failure
 from .draw import Draw
 from .limits import Soft, soft_margin
@@ -29,6 +29,7 @@ STATIONS = 401  #: of a profile of the wall force
 STATES = {"pulled out": enums.OPERATION_PICK_UP, "pushed in": enums.OPERATION_SLIDE, "rotated": enums.OPERATION_DRILL}
 _KEPT = ("set_environment", "add_wall", "add_hole_sections", "add_string", "add_pipes", "add_bit", "compile")
 _LEFT_OUT = ("add_programme", "add_drive", "add_input", "add_event")  #: nothing of them acts on a soft string
+TRIES = 20  #: samples drawn at random
 _SAME = 1e-11  #: relative, between numbers that went through the text of a scene and those that did not
 
 Path = tuple[Any, ...]  #: of a number in a description: call, argument, key, ...
@@ -66,8 +67,7 @@ class Places:
 
     def __init__(self, draw: Draw, read: Any) -> None:
         numpy = need("numpy")
-        drawn = [draw.values(stream(20, i).standard_normal(draw.dimension)) for i in range(3)]
-        first = read(drawn[0])
+        drawn, first = self._drawn(draw, read)
         known = _leaves(first)
         self.calls, self.found = first, list[tuple[Path, str, int, float]]()
         for name in draw.varies.names:
@@ -80,6 +80,23 @@ class Places:
                     self.found.append((path, name, *self._factor(name, a, b, known[path], changed[path])))
         self.last = drawn[2]  #: values of the third
         self._verify(drawn[2], _leaves(read(drawn[2])))
+
+    @staticmethod
+    def _drawn(draw: Draw, read: Any) -> tuple[list[dict[str, Any]], Any]:
+        """The values of three samples of which the scene can be read, and the description of the first."""
+        found, first, message = list[dict[str, Any]](), None, ""
+        for number in range(TRIES):
+            values = draw.values(stream(20, number).standard_normal(draw.dimension))
+            try:
+                calls = read(values)
+            except (Error, SceneError, ValueError) as error:
+                message = str(error)
+                continue
+            first = calls if first is None else first
+            found.append(values)
+            if len(found) == 3:
+                return found, first
+        raise NotFast(f"of {TRIES} samples drawn at random only {len(found)} can be read; the last: {message}")
 
     @staticmethod
     def _factor(name: str, a: Any, b: Any, first: float, second: float) -> tuple[int, float]:
@@ -243,7 +260,7 @@ class SoftString:
             self.plan = self._plan(self.places.calls)
             self._refuse_lost()
             self._compare(self.places.last)
-        except NotFast as error:
+        except (NotFast, Error, SceneError) as error:
             self.places, self.why = None, str(error)
 
     def _scene(self, values: dict[str, Any]) -> Scene:
@@ -274,10 +291,10 @@ class SoftString:
         if any(a != b and not abs(a - b) <= 1e-9 * max(abs(a), abs(b)) for a, b in zip(mine, wanted)):
             raise NotFast("longer pieces of pipe give other results")
 
-    def margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
+    def margins(self, values: dict[str, Any], failures: list[Failure]) -> list[tuple[float, float]]:
         """Of one sample. Raises Error and what reading the scene raises."""
         soft = self._slow(values) if self.places is None else self._fast(values)
-        return [soft_margin(one, soft) for one in self.failures]
+        return [soft_margin(one, soft) for one in failures]
 
     def _fast(self, values: dict[str, Any]) -> Soft:
         assert self.places is not None

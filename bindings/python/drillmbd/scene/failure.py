@@ -61,6 +61,11 @@ KINDS: dict[str, Kind] = {
     "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, ("bit",), {"load": Key("N", 0.0)}, IN_TIME),
     "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", None, ("string",), {"width": Key("m", None, True)}),
     "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, ("bit",), {}, IN_TIME),
+    "jamming": Kind("N", "largest force on rods held by collapsed coal or cuttings that the rig overcomes, by pull or by torque at the `diameter` "
+                    "that is held, beside the friction of the hole; fails below the holding force, which is the limit", None, ("string",),
+                    {"pull": Key("N", "pull", True), "torque": Key("N m", "torque", True), "diameter": Key("m", None, True)}, ("torque-drag",), low=True),
+    "leaves-seam": Kind("m", "largest vertical distance of the hole, as far as the string reaches, from the course that the scene gives, where the "
+                        "survey varies; the limit is the coal above or below that course"),
     "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0, (), {}, ("static", "run"), free=True)}
 
 
@@ -113,6 +118,8 @@ class Reader:
 
     def _answers(self, path: Path, word: str, kind: Kind) -> None:
         """The question of [variability] must find the demand."""
+        if not self.loader.content.get("variability"):
+            return  # as in a sample, in which nothing varies any more
         question = self.loader.table(("variability",)).get("question", "run")
         if question in QUESTIONS and question != "auto" and question not in kind.questions:
             self.problems.add(path + ("kind",), word, f"needs {_asked(kind.questions)}; the question is {question}")

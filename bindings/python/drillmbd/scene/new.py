@@ -83,6 +83,59 @@ place = {{part = "rods", pipe = {middle}, fraction = 0.5}}
 limit = "{clearance}"
 """
 
+#: Scatter and limits to begin with. Friction in water-based mud is 0.25 .. 0.40 (Johancsik, Friesen and Dawson 1984, doi:10.2118/11380-PA).
+_VARIABILITY = """[variability]
+question = "torque-drag"       # or "static", "run", "auto": see drillmbd probability --help
+samples = 10000
+seed = 1
+
+[[variability.scatter]]
+name = "friction of the wall"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+relative = true                # factors of the values above
+distribution = "lognormal"
+mean = 1
+deviation = "12 %"             # 0.25 to 0.40 about 0.33 are two deviations to either side: typical of water-based mud (Johancsik et al. 1984)
+
+[[variability.scatter]]
+name = "diameter of the hole"
+key = "hole.diameter"
+relative = true
+distribution = "triangular"    # an assumption: coal breaks out; a calliper log knows better
+low = 1
+mode = 1.02
+high = 1.15
+
+[[variability.process]]
+name = "load of the rock"
+programme = "bit load"
+distribution = "gamma"
+mean = 1
+deviation = "20 %"             # an assumption: records of the feed pressure know better
+correlation_time = "0.5 s"
+
+[[failure]]
+kind = "rig-torque"
+limit = "4 kN m"               # of your rig; left out: [limits] torque
+
+[[failure]]
+kind = "rig-push"
+limit = "100 kN"               # of your rig; left out: [limits] push
+
+[[failure]]
+kind = "rig-pull"
+limit = "100 kN"               # of your rig; left out: [limits] pull
+
+[[failure]]
+kind = "stress"
+strength = "550 MPa"           # of your pipes; left out: [limits] yield_stress
+
+[[failure]]
+kind = "helical-buckling"      # limit 1: the load at which the string becomes a helix
+"""
+_COMMENTED = "\n# How often does it fail? Take the # before the lines below away, put in your own values, and ask: drillmbd probability FILE\n" + "".join(
+    f"# {line}".rstrip() + "\n" for line in _VARIABILITY.splitlines())
+
 _STRAIGHT = """# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"
 # (dip from the horizontal, up positive; or inclination from the downward vertical; azimuth clockwise from north).
 dip = "{dip}"
@@ -122,7 +175,7 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
     values["middle"] = count // 2
     values["clearance"] = f"{0.5e3 * (numbers['hole'] - numbers['rod']):.3g} mm"
     title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
-    return _SCENE.format(title=title, kind=kind, count=count, **values)
+    return _SCENE.format(title=title, kind=kind, count=count, **values) + _COMMENTED
 
 
 def _with_rods(kind: str, given: dict[str, str]) -> dict[str, str]:
