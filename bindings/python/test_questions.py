@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import unittest
+import unittest.mock
 
 from shared_tests import FolderTest, needs
 
@@ -372,7 +373,7 @@ class AutoTest(FolderTest):
             cheap, run = a - x, a - x - b * y
             near = abs(cheap) < auto.NEAR
             ran = near | (rng.random(1000) < auto.FAR)
-            one = auto.Stage(cheap <= 0.0, near, ran, ran & (run <= 0.0), 0).estimate(0.95)
+            one = auto.Stage(cheap <= 0.0, near, ran, ran & (run <= 0.0), 0, auto.FAR).estimate(0.95)
             values.append(one.probability)
             inside += one.low <= truth <= one.high
         self.assertLess(abs(np.mean(values) - truth), 4.0 * np.std(values) / math.sqrt(repeats))
@@ -381,13 +382,14 @@ class AutoTest(FolderTest):
     def test_nothing_far_was_seen(self):
         """No run among samples that are far: their share stays in the interval."""
         safe = np.zeros(100, bool)
-        one = auto.Stage(safe, safe, safe, safe, 0).estimate(0.95)
+        one = auto.Stage(safe, safe, safe, safe, 0, auto.FAR).estimate(0.95)
         self.assertEqual((one.probability, one.low, one.high), (0.0, 0.0, 1.0))
 
     def test_against_plain_runs(self):
         """The same decision for every sample that both computed."""
         self.ask("probability", self.scene, "-o", self.folder / "plain", "--samples", 40, "--workers", 2)
-        out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
+        with unittest.mock.patch.object(auto, "LEAST", 4):
+            out = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
         plain = {int(row["number"]): row["margin"].tolist() for row in read_rows(self.folder / "plain" / "study.h5")[0]}
         rows = read_rows(self.folder / "auto" / "study.h5")[0]
         self.assertTrue(0 < len(rows) < 40, len(rows))
@@ -400,7 +402,9 @@ class AutoTest(FolderTest):
         self.assertIn("others with the weight 10", out)
         self.assertEqual(len(read_rows(self.folder / "auto" / "study_torque_drag.h5")[0]), 40)
         again = self.ask("probability", self.scene, "-o", self.folder / "auto", "--samples", 40, "--workers", 2, "--question", "auto")
-        self.assertIn("0 samples computed", again)
+        self.assertIn(f"{40 - len(rows)} samples computed", again)  # so few are all run
+        summary = json.loads((self.folder / "auto" / "summary.json").read_text(encoding="utf-8"))
+        self.assertAlmostEqual(summary["estimates"]["any failure"]["probability"], known, 12)
         self.assertIn("Monte Carlo study", self.ask(
             "probability", self.scene, "--question", "auto", "--until", "30%", status=2))
 

@@ -579,6 +579,8 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.assertIn(f"smallest {verdict.shown(margins[0], 'N')}", tile["text"])
         self.assertIn(f"median {verdict.shown(margins[6], 'N')}", tile["text"])
         self.assertIn("by the static state of each sample", tile["text"])
+        studied = json.loads((self.folder / "study" / "summary.json").read_text(encoding="utf-8"))["demands"]["pull"]["percentiles"]["P95"]
+        self.assertIn(f"the demand is {verdict.shown(studied['value'], 'N')} or less severe, {100 * studied['share']:.3g} % of the limit", tile["text"])
         self.assertIn("Margins of the study", page)
         self.assertIn("Probability: any failure", out)
         self.assertChinese(self.words(self.page("--probability", self.folder / "study", "--language", "zh")[1]).replace("pull", "").replace("study", ""))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .errors import Usage
-from .language import Phrase, phrase
+from .language import Phrase, joined, phrase
 from .report_figures import Figure, line
 from .scene import Scene, saves
 from .scene.failure import KINDS
@@ -28,7 +28,8 @@ class Outcome:
     unit: str = ""                 #: of limit and margins
     limit: float = math.nan
     margins: list[float] = field(default_factory=list)  #: of all samples that have one, rising
-    static: bool = False           #: margins are those of the static state, not of a run
+    question: str = "run"          #: that each sample answers
+    demand: dict[str, Any] = field(default_factory=dict)  #: percentiles, as summary.json has them
 
     @property
     def title(self) -> Phrase:
@@ -48,9 +49,19 @@ class Outcome:
     def interval(self) -> Phrase:
         """With its confidence and the counts behind it."""
         one = self.estimate
-        by = phrase("by the static state of each sample") if self.static else phrase("by a run of each sample")
+        by = {"static": phrase("by the static state of each sample"), "torque-drag": phrase("by torque and drag of each sample, without dynamics"),
+              "auto": phrase("by torque and drag of each sample, and runs of those near a limit and of a part of the others")}.get(
+                  self.question, phrase("by a run of each sample"))
         return phrase("{confidence:g} % interval {low} to {high}; {failures} of {samples} samples fail, {lost} have no result; {by}", by=by,
                       low=percent(one["low"]), high=percent(one["high"]), confidence=100.0 * one["confidence"], failures=one["failures"], samples=one["samples"], lost=one["lost"])
+
+    def percentile_text(self, units: Units) -> str:
+        """The demand that 95 of 100 samples do not pass, and its share of the limit; "" without one."""
+        one = self.demand.get("percentiles", {}).get("P5" if self.demand.get("fails_below") else "P95")
+        if not one or one.get("value") is None or one.get("share") is None:
+            return ""
+        return phrase("in 95 of 100 samples the demand is {value} or less severe, {share:.3g} % of the limit", value=amount(one["value"], self.unit, units),
+                      share=100.0 * one["share"])
 
     def margin_text(self, units: Units) -> str:
         """The median and the smallest margin, and the limit they are counted from; a negative margin is a failure."""
@@ -71,7 +82,7 @@ class Probability:
 
     def tiles(self, units: Units) -> list[Tile]:
         """One for each failure. A scene gives no probability that may be, so that none is OK."""
-        return [Tile(one.title, one.value, phrase("{interval}; {margin}", interval=one.interval, margin=one.margin_text(units)),
+        return [Tile(one.title, one.value, joined("; ", [text for text in (one.interval, one.margin_text(units), one.percentile_text(units)) if text]),
                      NOT_COMPUTED if one.estimate["probability"] is None else NO_LIMIT) for one in self.outcomes]
 
     def figures(self) -> list[Figure]:
@@ -118,17 +129,18 @@ def read_probability(folder: str, scene: Scene) -> Probability:
         first = next(((a, b) for a, b in zip([*studied.splitlines(), ""], [*now.splitlines(), ""]) if a != b), ("", ""))
         raise Usage(f"--probability {folder}: is a study of another scene; it has {first[0]!r} where this scene has {first[1]!r}; run drillmbd "
                     "probability again with this scene")
-    margins = _margins(place / "samples.csv")
+    question = summary.get("question", "run")
+    margins = {} if question == "auto" else _margins(place / "samples.csv")  # auto runs more of the samples near a limit
     limits = {one.name: (KINDS[one.kind].unit, one.limit) for one in scene.failures}
     scales = {name: abs(limit) or 1.0 for name, (_, limit) in limits.items()}
-    outcomes, static = [], summary.get("question") == "static"
+    outcomes, demands = [], summary.get("demands", {})
     for name, estimate in summary["estimates"].items():
         if name in limits:
-            outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, []))), static))
+            outcomes.append(Outcome(name, estimate, *limits[name], sorted(_known(margins.get(name, []))), question, demands.get(name, {})))
         else:
             each = [[margin / scales[one] for margin in margins[one]] for one in limits if one in margins]
             whole = sorted(_known(map(min, zip(*each)))) if name == ANY and len(each) == len(limits) else []
-            outcomes.append(Outcome(name, estimate, margins=whole, static=static))
+            outcomes.append(Outcome(name, estimate, margins=whole, question=question))
     return Probability(os.path.basename(os.path.normpath(folder)), outcomes)
 
 

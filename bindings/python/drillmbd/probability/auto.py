@@ -1,7 +1,7 @@
 """The question auto: torque and drag of all samples, and runs in time only of those near a limit and of a random part of the others.
 
-A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the probability FAR, by a random
-number of its own, so that they stand for 1/FAR samples each. With A the failures among the samples near a limit and, among the others, those that
+A sample whose torque and drag leave less than NEAR of a limit, on either side, is run; of the others each with the probability part_of, by a
+random number of its own, so that they stand for 1/part_of samples each. With A the failures among the samples near a limit and, among the others, those that
 torque and drag predict, and with B+ and B- the shares of the others that fail in time against the prediction and that do not fail against it,
 
     P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)
@@ -24,12 +24,18 @@ from .points import Points, stream
 from .sample import SceneSample
 
 NEAR = 0.5  #: of a limit: a margin of torque and drag below it is not trusted
-FAR = 0.1   #: of the samples that are not near a limit are run
+FAR = 0.1   #: of the samples that are not near a limit are run,
+LEAST = 100  #: or as many as make so many of all samples: fewer would say little about the others
 
 
-def chosen(seed: int, number: int) -> bool:
-    """Whether a sample that is not near a limit is run."""
-    return bool(stream(seed, (1 << 61) + (1 << 60) + number).random() < FAR)
+def part_of(samples: int) -> float:
+    """The probability with which a sample that is not near a limit is run."""
+    return min(1.0, max(FAR, LEAST / samples))
+
+
+def chosen(seed: int, number: int, part: float) -> bool:
+    """Whether a sample that is not near a limit is run; one that is chosen for a small part is chosen for a larger one too."""
+    return bool(stream(seed, (1 << 61) + (1 << 60) + number).random() < part)
 
 
 @dataclass
@@ -40,6 +46,7 @@ class Stage:
     ran: Any      #: with a margin
     failed: Any   #: of those
     lost: int     #: chosen to be run, and without a margin
+    part: float   #: of the samples that are not near a limit
 
     def estimate(self, confidence: float) -> Estimate:
         """P with the interval that holds for its three parts together (Bonferroni): counts of a part each, by Clopper and Pearson."""
@@ -62,8 +69,8 @@ class Stage:
         run = int(self.ran.sum())
         return Estimate(value, max(0.0, low), min(1.0, high), confidence, "auto", samples, int((self.ran & self.failed).sum()), self.lost,
                         f"difference estimator: torque and drag of {samples} samples, runs of {run}, {int(near.sum())} of them near a limit with the "
-                        f"weight 1 and {int(far.sum())} others with the weight {1.0 / FAR:g}",
-                        {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / FAR})
+                        f"weight 1 and {int(far.sum())} others with the weight {1.0 / self.part:.4g}",
+                        {"runs": run, "near": int(self.near.sum()), "weight_of_others": 1.0 / self.part})
 
 
 def _upper_share(count: int, samples: int, parts: float) -> float:
@@ -90,7 +97,7 @@ class Auto(Answer):
             self.output.note_text(text)
         dynamic = [one.name for one in asked.failures if "torque-drag" not in KINDS[one.kind].questions]
         self.output.say(f"question auto: torque and drag of all samples; runs in time where they leave less than {100 * NEAR:g} % of a limit, and of "
-                        f"{100 * FAR:g} % of the others" + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
+                        f"{100 * part_of(asked.samples):.3g} % of the others" + (f"; only runs show {', '.join(dynamic)}" if dynamic else ""))
         points = Points("monte-carlo", asked.seed, whole.dimension, asked.samples)
         soft = self.study(self.quick, "study_torque_drag.h5")
         study = None
@@ -115,7 +122,7 @@ class Auto(Answer):
         margins = numpy.array([one.margins for one in quick]) / numpy.array([scale[name] for name in self.quick.names])
         least = margins.min(axis=1)  # NaN of a sample without torque and drag: run
         near = ~(abs(margins).min(axis=1) > NEAR)
-        run = [number for number in range(asked.samples) if near[number] or chosen(asked.seed, number)]
+        run = [number for number in range(asked.samples) if near[number] or chosen(asked.seed, number, part_of(asked.samples))]
         results = study.run(run, points.z)
         found = numpy.full((asked.samples, len(self.sample.names)), math.nan)
         for one in results:
@@ -130,7 +137,7 @@ class Auto(Answer):
     def _tell(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
         numpy = need("numpy")
         ran = ~numpy.isnan(found)
-        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()))
+        stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()), part_of(self.asked.samples))
         self.tell(name, stage.estimate(self.asked.confidence))
 
     def _compare(self, margins: Any, found: Any, scale: dict[str, float]) -> None:
