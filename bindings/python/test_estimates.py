@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.stats import norm
 
-from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, effective, form, sampled, sobol_indices
+from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, effective, form, plan, sampled, sobol_indices
 from drillmbd.probability.fields import Markov
 from drillmbd.probability.points import Points, drawn
 
@@ -233,6 +233,16 @@ class SurrogateTest(unittest.TestCase):
         self.assertLess(found.error, 1e-10)
         estimate = found.estimate()
         self.assertTrue(estimate.low <= norm.cdf(-2.0) <= estimate.high)
+
+    def test_plan(self):
+        """The degree falls with the number of variables, so that a fit takes seconds, not hours."""
+        self.assertEqual((plan(3, 100).degree, plan(200, 100).degree, plan(5000, 100).terms), (4, 1, 2000))
+        self.assertLess(plan(200, 100).seconds, 10.0)
+        import openturns as ot
+        for dimension in (1, 2, 5):
+            for degree in range(1, 5):
+                known = ot.HyperbolicAnisotropicEnumerateFunction(dimension, 0.6).getStrataCumulatedCardinal(degree)
+                self.assertEqual(plan(dimension, 10, degree).terms, known, (dimension, degree))
 
     def test_error_is_told(self):
         """A kink that polynomials do not follow: the told error is that of points it has not seen."""

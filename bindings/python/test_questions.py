@@ -1,12 +1,17 @@
 """Tests of the questions of a study: torque and drag, static states, runs, and auto; against closed forms, against each other, and against the
 analyses of the library on scenes that are read anew; of demands, stop rules and maps."""
 import csv
+import importlib.util
 import json
 import math
+import pathlib
+import shutil
+import subprocess
+import tempfile
 import unittest
 import unittest.mock
 
-from shared_tests import FolderTest, needs
+from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
 
 needs("h5py", "numpy", "scipy")
 
@@ -22,6 +27,7 @@ from drillmbd.probability.points import Points, drawn
 from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study, read_rows
 from drillmbd.scene.failure import KINDS
+from test_engines import MPIRUN, there
 from test_engines import SCENE as SHORT
 
 #: A straight horizontal hole of 60 m without buoyancy: thrust = load + mu w L, pull = mu w L, torque = mu w L D/2 + 0.5 load d/3.
@@ -213,6 +219,26 @@ class SoftTest(unittest.TestCase):
         self.assertEqual([sample(n, points.z(n)).margins for n in (0, 199, 200, 449)], [known[n] for n in (0, 199, 200, 449)])
         for engine in (engines.threads(2), engines.processes(2)):
             self.assertEqual([one.margins for one in Study(sample, engine).run(range(449, -1, -1), points.z)][::-1], known)
+
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    def test_mpi(self):
+        """Blocks of samples on ranks, with the same digits."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "level.toml")
+            path.write_text(LEVEL + ALL, encoding="utf-8")
+            words = (*MPIRUN, "3", *COMMAND, "probability", path, "-o", pathlib.Path(folder, "out"), "--samples", "450", "--engine", "mpi")
+            done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stderr[-800:])
+            sample = SceneSample(LEVEL + ALL)
+            known = [one.margins for one in Study(sample, engines.serial).run(range(450), Points("monte-carlo", 1, 1, 450).z)]
+            self.assertEqual(read_rows(pathlib.Path(folder, "out", "study.h5"))[0]["margin"].tolist(), known)
+
+    @there("distributed")
+    def test_dask(self):
+        sample = SceneSample(LEVEL + ALL)
+        points = Points("monte-carlo", 7, 1, 450)
+        known = [one.margins for one in Study(sample, engines.serial).run(range(450), points.z)]
+        self.assertEqual([one.margins for one in Study(sample, engines.dask(2)).run(range(450), points.z)], known)
 
     def test_registry(self):
         for word, kind in KINDS.items():

@@ -13,7 +13,7 @@ from ..answers import Output
 from ..errors import Usage
 from . import engines
 from .demands import Demand, demand_of
-from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, sobol_indices
+from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, plan, sobol_indices
 from .points import Points
 from .sample import FAILED, Result, SceneSample
 from .study import Progress, Study, StudyFile, usable
@@ -194,6 +194,9 @@ class Answer:
 
     def _surrogate(self, z: Any, margins: Any) -> None:
         """The estimate by a polynomial; a reason where the samples allow none."""
+        known = plan(z.shape[1], len(z))
+        self.output.say(f"surrogate: polynomials up to degree {known.degree} of {z.shape[1]} numbers, chosen of {known.terms}, fitted to {len(z)} margins: "
+                        f"about {known.seconds:.1g} s of a processor")
         try:
             found = Surrogate(z, margins)
         except ValueError as error:

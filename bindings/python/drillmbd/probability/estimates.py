@@ -299,6 +299,40 @@ def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: 
 LEAST_Q2 = 0.6  #: of a surrogate that an interval is told of
 
 
+MOST_TERMS, ALL_TERMS = 300, 2000  #: polynomials above degree 1, and in all
+SECONDS = 1.2e-6  #: of a processor for each margin and square of the number of polynomials, measured
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The fit of a surrogate before it is made."""
+    degree: int
+    terms: int      #: polynomials among which the fit chooses
+    seconds: float  #: of a processor, predicted
+
+
+def _enumeration(dimension: int) -> Any:
+    return need("openturns").HyperbolicAnisotropicEnumerateFunction(dimension, 0.6)
+
+
+def _count(dimension: int, degree: int) -> int:
+    """Polynomials in the first strata of equal hyperbolic degree (sum of a_i^0.6)^(1/0.6): 0, 1, 2 and 3 of one variable, then 3.17 of products of
+    two, a fourth degree where there is one variable only. Counted here because OpenTURNS counts them one by one."""
+    if degree > 4:
+        return int(_enumeration(dimension).getStrataCumulatedCardinal(degree))
+    if degree < 4 or dimension == 1:
+        return 1 + degree * dimension
+    return 1 + 3 * dimension + dimension * (dimension - 1) // 2
+
+
+def plan(dimension: int, samples: int, degree: int = 4) -> Plan:
+    """The largest degree, up to the given one, with MOST_TERMS polynomials or fewer; 1 at least."""
+    while degree > 1 and _count(dimension, degree) > MOST_TERMS:
+        degree -= 1
+    terms = min(_count(dimension, degree), ALL_TERMS)
+    return Plan(degree, terms, SECONDS * 0.8 * samples * terms * terms)
+
+
 class Surrogate:
     """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The rest tells
     its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many
@@ -314,9 +348,8 @@ class Surrogate:
             raise ValueError(f"{len(z)} samples with margins, must be >= 10")
         self.dimension = z.shape[1]
         standard = ot.Normal(self.dimension)
-        basis = ot.OrthogonalProductPolynomialFactory([ot.HermiteFactory()] * self.dimension,
-                                                      ot.HyperbolicAnisotropicEnumerateFunction(self.dimension, 0.6))
-        terms = min(basis.getEnumerateFunction().getStrataCumulatedCardinal(degree), 2000)
+        basis = ot.OrthogonalProductPolynomialFactory([ot.HermiteFactory()] * self.dimension, _enumeration(self.dimension))
+        terms = plan(self.dimension, len(z), degree).terms
         selection = ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut())
         algorithm = ot.FunctionalChaosAlgorithm(ot.Sample(z[~test]), ot.Sample(margins[~test][:, None]), standard,
                                                 ot.FixedStrategy(basis, terms), ot.LeastSquaresStrategy(selection))
