@@ -139,7 +139,6 @@ class CommandTest(FolderTest):
         rod = """
             [[string]]
             name = "rod"
-            fixed = "all"
             [[string.pipes]]
             count = 1
             elements = 1

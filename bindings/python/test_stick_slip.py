@@ -153,16 +153,17 @@ class StickSlipTest(unittest.TestCase):
         self.assertGreater(shares[1.0, 500], shares[5.0, 250])
 
     def test_bit_stuck(self):
-        """The longest stick of the library against that of the exact slip: friction that falls off fast and rises faster from rest."""
+        """The longest stick of the library against that of the exact slip: friction that falls off fast and rises faster from rest.
+        Where it falls off over a finite speed, a bit that is about to break away creeps longer: by 3.9, 2.2 and 1.6 % here."""
         known = stick(1.0 / ((0.36 - 0.30) * 500.0 * ROUND))
-        for stribeck, smoothing, step in ((2.0, 0.002, 1.0), (1.0, 0.001, 0.5)):
+        for stribeck, smoothing, step, bound in ((4.0, 0.005, 2.0, 0.04), (1.0, 0.001, 0.5, 0.025), (0.25, 0.00025, 0.25, 0.018)):
             text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
             sample = SceneSample(text, changes={
                 "programme[0].term.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "output.interval": "10 ms",
                 "hole.smoothing_speed": f"{smoothing} mm/s", "run.step": f"{step} ms"})
             found = sample(0, np.zeros(1))
             self.assertEqual(found.message, "")
-            self.assertLess(abs(found.demands[0] / known - 1.0), 0.015, (stribeck, found.demands, known))
+            self.assertLess(abs(found.demands[0] / known - 1.0), bound, (stribeck, found.demands, known))
             self.assertAlmostEqual(found.margins[0], 5.0 - found.demands[0], 12)
             self.assertLess(found.margins[0], 0.0)
 
