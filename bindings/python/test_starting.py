@@ -42,12 +42,18 @@ class StartingTest(unittest.TestCase):
             found = sample(0, [0.0] * sample.dimension)
             self.assertEqual((found.status, len(found.margins)), (DONE, 5), found.message)
 
+    def test_values_below_zero(self):
+        """A value that begins with a minus sign is no option."""
+        for dip in ("-5deg", "-5", "-5 deg", "-.5deg"):
+            self.assertIn('dip = "-', said("new", "drainage", "--dip", dip)[1])
+
     def test_new_refuses(self):
         with tempfile.TemporaryDirectory() as folder:
             target = str(pathlib.Path(folder, "hole.toml"))
             self.assertEqual(said("new", "drainage", "-o", target)[0], 0)
             self.assertEqual(said("new", "drainage", "-o", target)[0], 3)  # never over a file that is there
-        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--dip", "95"), "within -90 deg .. 90 deg"), (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "at least one")):
+        for words, part in ((("--dip", "5 m"), "--dip 5 m"), (("--dip", "95"), "within -90 deg .. 90 deg"), (("--rod", "120 mm"), "must lie between"), (("--length", "1 m"), "times --rod-length"),
+                            (("--length", "-5m"), "times --rod-length"), (("--rod", "0mm"), "must lie between"), (("--dip", "-95deg"), "within -90 deg")):
             status, _, told = said("new", "drainage", *words)
             self.assertEqual(status, 2)
             self.assertIn(part, told)

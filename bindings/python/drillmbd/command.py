@@ -5,6 +5,7 @@ import argparse
 import importlib
 import math
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -254,11 +255,22 @@ def _complete(asked: argparse.ArgumentParser) -> None:
     argcomplete.autocomplete(asked)
 
 
+def _joined(words: list[str]) -> list[str]:
+    """--dip -5deg as --dip=-5deg: a value below 0 is no option."""
+    found: list[str] = []
+    for word in words:
+        if found and re.fullmatch(r"--[a-z-]+", found[-1]) and re.match(r"-\.?\d", word):
+            found[-1] += "=" + word
+        else:
+            found.append(word)
+    return found
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns the exit status."""
     asked = parser()
     _complete(asked)
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words = _joined(list(sys.argv[1:] if arguments is None else arguments))
     cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
     options = asked.parse_args(words[:cut])
     if "" in (getattr(options, "output", None), getattr(options, "scene", None)):

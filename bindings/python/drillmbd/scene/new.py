@@ -167,11 +167,11 @@ def text(kind: str, given: dict[str, str], folder: str = ".") -> str:
     values.update(_named(given, asked, values, numbers))
     if abs(numbers["dip"]) > 0.5 * math.pi * (1.0 + 1e-12):
         raise ValueError(f"--dip {values['dip']} must be within -90 deg .. 90 deg, from the horizontal, up positive")
-    if numbers["rod"] >= numbers["hole"] or numbers["bore"] >= numbers["rod"]:
+    if numbers["rod"] >= numbers["hole"] or not 0.0 <= numbers["bore"] < numbers["rod"]:
         raise ValueError(f"--{'rods' if given.get('rods') else 'rod'} {values['rod']} must lie between --bore {values['bore']} and --hole {values['hole']}")
     count = math.floor(numbers["length"] / numbers["rod_length"] + 1e-9)
     if not 1 <= count <= 2 ** 20:
-        raise ValueError(f"--length {values['length']} must be at least one --rod-length, {values['rod_length']}")
+        raise ValueError(f"--length {values['length']} must be 1 to {2 ** 20} times --rod-length, {values['rod_length']}")
     values["middle"] = count // 2
     values["clearance"] = f"{0.5e3 * (numbers['hole'] - numbers['rod']):.3g} mm"
     title = f"{'drainage hole' if kind == 'drainage' else 'well'} of {values['length']}"
