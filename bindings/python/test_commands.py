@@ -135,7 +135,7 @@ class NonsenseTest(FolderTest):
     def test_scenes(self):
         """Numbers without end, devices as files, and what varies along a hole that is not there."""
         for told, text in (("must be finite", f"[hole]\nmu_dynamic = {'1' * 400}\n"), ("2: the file: has a number of too many digits", f"[hole]\nmu_dynamic = {'1' * 5000}\n"),
-                           ("is a folder or a device", '[hole]\nsurvey_file = "/dev/zero"\n'), ("must be below", 'catalogue = "/dev/zero"\n'),
+                           ("is a folder or a device", '[hole]\nsurvey_file = "/dev/zero"\n'), ("is a device or a named pipe", 'catalogue = "/dev/zero"\n'),
                            ("the scene has no [hole]", '[[variability.field]]\nname = "f"\nkeys = ["hole.mu_static"]\nrelative = true\ndistribution = "lognormal"\n'
                             'mean = 1\ndeviation = "40 %"\ncorrelation_length = "10 m"\nspacing = "5 m"\nto = "300 m"\n')):
             with self.subTest(text=text[:60]):
