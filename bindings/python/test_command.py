@@ -255,8 +255,8 @@ class CommandTest(FolderTest):
         for path in sorted(shipped.glob("*.toml")):
             without = re.sub(r"\[buckling\][^[]*", "", path.read_text(encoding="utf-8"))
             lines = self.ask("buckle", self.write("without.toml", without), status=2).split("the least is\n")[1]
-            if path.stem == "reference_rig":
-                lines += "follow = 0\n"  # the path is long and ends before the factor, which is extrapolated then
+            if path.stem != "drainage_300m":
+                lines += "follow = 0\n"  # paths of a minute; that of the reference rig ends before the factor, which is extrapolated then
             self.scene = self.write(path.name, without + lines)
             out, summary = self.answer("buckle")
             found, thrust = summary["buckling"], next(iter(summary["buckling_thrust"].values()))
