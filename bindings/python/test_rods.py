@@ -50,6 +50,16 @@ class RodsTest(FolderTest):
     """The command."""
     SCENE = SCENE
 
+    def test_no_all_clear_without_a_load_on_the_bit(self):
+        """Thrust and torque of drilling are not known then: no OK, and it is said; a limit of the pull alone is assessed."""
+        bare = SCENE.replace('load = "5 kN"\n', "")
+        for limits, cleared in (('[limits]\ntorque = "50 kN m"\npull = "500 kN"\n', False), ('[limits]\npull = "500 kN"\n', True)):
+            for text, drilled in ((bare, False), (SCENE, True)):
+                scene = self.write("bare.toml", text + limits)
+                out = self.ask("rod-by-rod", scene)
+                self.assertEqual((", OK\n" in out, "drilling is not assessed" in out), (cleared or drilled, not cleared and not drilled), out)
+                self.assertEqual("drilling is not assessed" in self.ask("torque-drag", scene, "--depths", "2"), not cleared and not drilled)
+
     def test_each_number_of_rods(self):
         """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they reach."""
         out, summary = self.answer("rod-by-rod")
