@@ -59,6 +59,10 @@ class RodsTest(FolderTest):
                 out = self.ask("rod-by-rod", scene)
                 self.assertEqual((", OK\n" in out, "drilling is not assessed" in out), (cleared or drilled, not cleared and not drilled), out)
                 self.assertEqual("drilling is not assessed" in self.ask("torque-drag", scene, "--depths", "2"), not cleared and not drilled)
+        law = self.write("law.toml", SCENE.replace('diameter = "94 mm"\nload', 'diameter = 0\nload') + '[limits]\ntorque = "50 kN m"\n')
+        for command in ("rod-by-rod", "torque-drag"):
+            self.assertIn("the torque of drilling is not assessed", self.ask(command, law))
+            self.assertNotIn("not assessed, because that", self.ask(command, law, "--torque-on-bit", "100 N m"))
 
     def test_each_number_of_rods(self):
         """The same loads as of a scene that has only the rods in the hole, from the bit on, at the depth that they reach."""

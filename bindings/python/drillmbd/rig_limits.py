@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from .answers import Output, file_name
+from .operating import Operating
 from .unit_systems import Units
 from .verdict import shown
 
@@ -65,12 +66,18 @@ def reach(depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dic
     return min(found, key=lambda one: one.depth) if found else None
 
 
-#: Of thrust and torque where the operations of drilling have no load of the bit.
-NOT_DRILLED = "drilling is not assessed, because no load on the bit is given; give load in [[bit]], or --weight-on-bit"
+def unknown(plan: Operating, limits: Iterable[str]) -> str:
+    """The limits that cannot be assessed because a load of drilling is missing, with the reason; "" where none is."""
+    given = set(limits) - {"pull"}
+    if given and not plan.weight_on_bit:
+        return "drilling is not assessed, because no load on the bit is given; give load in [[bit]], or --weight-on-bit"
+    if given - {"push"} and not plan.torque_on_bit:
+        return "the torque of drilling is not assessed, because that of the bit is neither given nor estimated; give --torque-on-bit"
+    return ""
 
 
-def write(output: Output, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float], drilled: bool) -> None:
-    """The table, its last row, and the depth that the rig reaches with this string. drilled: with a load on the bit."""
+def write(output: Output, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float], plan: Operating) -> None:
+    """The table, its last row, and the depth that the rig reaches with this string."""
     given = {key: limits[key] for key, _, _ in QUANTITIES if key in limits}
     if not given:
         output.say(f"{name}, limits of the rig: " + (NOT_ASSESSED if not limits else NOT_ASSESSED + " of thrust, pull or torque"))
@@ -78,8 +85,9 @@ def write(output: Output, name: str, depths: Sequence[float], table: Sequence[di
         return
     first = reach(depths, table, given)
     output.say(f"{name}, limits of the rig: {_text(depths, table, given, first, output.units)}")
-    if not drilled and {"push", "torque"} & set(given):
-        output.say(f"{name}, {NOT_DRILLED}")
+    missing = unknown(plan, given)
+    if missing:
+        output.say(f"{name}, {missing}")
     for key, word, _ in QUANTITIES:
         if key not in given:
             output.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
@@ -91,7 +99,7 @@ def write(output: Output, name: str, depths: Sequence[float], table: Sequence[di
         for depth, loads in zip(depths, table)])
     output.summary.setdefault("rig_limits", {})[name] = {
         "reach_m": first.depth if first and first.depth > depths[0] else None, "first_limit": first.word if first else None,
-        "assessed_to_m": depths[-1], "drilling_assessed": drilled, "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
+        "assessed_to_m": depths[-1], "drilling_assessed": not missing, "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
 
 
 def _text(depths: Sequence[float], table: Sequence[dict[str, Load]], given: dict[str, float], first: Reach | None, units: Units) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from .answers import Output, file_name, quantity
 from .errors import Usage
 from .remade import number_of
-from .rig_limits import NOT_DRILLED, QUANTITIES, Load, loads_at
+from .rig_limits import QUANTITIES, Load, loads_at, unknown
 from .scene import Scene
 from .torque_drag import WORDS, depths_of, settings_of
 from .unit_systems import Units
@@ -26,7 +26,7 @@ class Row:
     rods: int
     depth: float             #: [m] of the bit
     loads: dict[str, Load]   #: by key of [limits]; the largest of all operations
-    drilled: bool = True     #: with a load on the bit; else thrust and torque of drilling are not known
+    unknown: str = ""        #: limits that are not assessed, with the reason
 
     @property
     def make_up(self) -> float:
@@ -50,8 +50,7 @@ class Row:
         share = self.share(limits)
         if not limits and not self.locked:
             return NO_LIMIT
-        fine = OK if self.drilled or not set(limits) - {"pull"} else NOT_ASSESSED
-        return OVER if share > 1.0 else NEAR if share > NEAR_SHARE else fine
+        return OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.unknown else OK
 
 
 def rod_by_rod(scene: Scene, output: Output, options: Any) -> int:
@@ -72,7 +71,7 @@ def rod_by_rod(scene: Scene, output: Output, options: Any) -> int:
             last = depths_of(sim, string, "1")[0]
             depths = depths_of_rods(lengths_of(scene, string), last)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
-            rows = [Row(number + 1, depth, loads_at(one, list(WORDS.values()), settings.block_weight), bool(settings.plan.weight_on_bit))
+            rows = [Row(number + 1, depth, loads_at(one, list(WORDS.values()), settings.block_weight), unknown(settings.plan, limits))
                     for number, (depth, one) in enumerate(zip(depths, found.rows))]
             _write(output, name, rows, limits)
     return output.finish()
@@ -106,8 +105,8 @@ def _write(output: Output, name: str, rows: list[Row], limits: dict[str, float])
     for row in (rows[i] for i in listed):
         output.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: {_loads(row, units)}, {row.verdict(limits)}")
     output.say(f"{name}: {_reach(rows, limits, units)}")
-    if set(limits) - {"pull"} and not rows[0].drilled:
-        output.say(f"{name}, {NOT_DRILLED}")
+    if rows[0].unknown:
+        output.say(f"{name}, {rows[0].unknown}")
     if MAKE_UP not in limits:
         output.say(f"{name}, {NOT_GIVEN}")
     for key, word, _ in QUANTITIES:

@@ -71,7 +71,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
             curves = Curves(name, string, found, settings.block_weight)
             _write_rows(sim, output, curves, settings)
             loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
-            rig_limits.write(output, name, found.column("depth"), loads, scene.limits, bool(settings.plan.weight_on_bit))
+            rig_limits.write(output, name, found.column("depth"), loads, scene.limits, settings.plan)
             trip_speed = abs(settings.operations[int(enums.OPERATION_PICK_UP)].axial_speed)
             hydraulics.write(sim, output, name, found.column("depth"), trip_speed)
             _compare(scene, sim, output, curves, settings)
