@@ -411,6 +411,8 @@ class CommandTest(FolderTest):
         self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3 - rubbed, 3)
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3 - rubbed, 3)
         self.assertIn("free down to", out)
+        self.assertNotIn("free as far as", out)
+        self.assertIn("free as far as the string goes", self.ask("stuck", self.scene, "--overpull", "10 kN", "--stretch", "1 m"))
         self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
         self.assertIn("nothing arrives", self.ask("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
         for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"], ["--overpull", "-1 kN", "--stretch", "1 mm"]):
