@@ -70,7 +70,7 @@ static void damped_bands(void **state)
     (void)state;
     for (int joint = 0; joint < 2; joint++) {
         rig s;
-        open_string(&s, 56, joint, 2e-4);
+        open_string(&s, 80, joint, 2e-4);
         check_band(joint ? "damped, with a joint" : "damped", &s, DMB_MODES_DAMPED, 0.0, 35.0, 40);
         rig_close(&s);
     }
