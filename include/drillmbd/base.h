@@ -80,8 +80,7 @@ DMB_API const char *dmb_build_info(void);
 enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
 #undef DMB_STATUS_ENUM_ENTRY
 
-/* Name ("DMB_ERR_VALUE") and text of a status; for an unknown one "DMB_UNKNOWN" and its text. Never NULL.
- * Thread-safe. */
+/* Name ("DMB_ERR_VALUE") and text of a status, of an unknown one "DMB_UNKNOWN". Never NULL. Thread-safe. */
 DMB_API const char *dmb_status_name(int32_t status);
 DMB_API const char *dmb_status_text(int32_t status);
 

@@ -1,5 +1,4 @@
-/* libdrillmbd - bottom-hole assembly: places of a string that are stuck, mud motors, bodies in the middle of
- * a string. */
+/* libdrillmbd - bottom-hole assembly: stuck places of a string, mud motors, bodies in the middle of a string. */
 #ifndef DRILLMBD_BHA_H
 #define DRILLMBD_BHA_H
 

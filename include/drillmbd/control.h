@@ -117,8 +117,7 @@ typedef struct dmb_event_report {
 DMB_SIZED_STRUCT(dmb_event_report)
 /* As dmb_sim_advance, but ends at the first event on the way: DMB_NOTE_EVENT, dmb_sim_message names those told. One
  * that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to
- * call. Costs a copy of the state a step and some six steps a crossing. Reports may be NULL. DMB_ERR_VALUE without
- * events. */
+ * call. Costs a copy of the state a step, some six steps a crossing. Reports may be NULL. DMB_ERR_VALUE: no events. */
 DMB_API int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report);
 
 #ifdef __cplusplus

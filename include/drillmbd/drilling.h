@@ -168,17 +168,15 @@ DMB_SIZED_STRUCT(dmb_fatigue_result)
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);
 /* Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted.
- * The sim may be another one of the same model. Allocates nothing. O(places x
- * points). */
+ * Another sim of the same model may be given. Allocates nothing. O(places x points). */
 DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
 DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);
 /* Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa],
  * shape (classes). */
 DMB_API int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles);
 /* The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places
- * counts on bit for bit, in another process too: its size, save, restore. Allocate nothing. Errors: DMB_ERR_NULL,
- * _HANDLE; DMB_ERR_VALUE for another size, and for bytes that are no counts of these options, forged ones too: nothing
- * is changed then. O(places x points x classes). */
+ * continues bit for bit, in another process too. Allocate nothing. Errors, which change nothing: DMB_ERR_NULL, _HANDLE,
+ * _VALUE (another size; bytes that are no counts of these options). O(places x points x classes). */
 DMB_API int32_t dmb_fatigue_snapshot_size(const dmb_fatigue *fatigue, size_t *size);
 DMB_API int32_t dmb_fatigue_snapshot(const dmb_fatigue *fatigue, void *block, size_t size);
 DMB_API int32_t dmb_fatigue_restore(dmb_fatigue *fatigue, const void *block, size_t size);

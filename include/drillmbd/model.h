@@ -134,8 +134,7 @@ enum {
     DMB_FRICTION_NONE = -1,
     DMB_FRICTION_COULOMB = 0,  /* mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2) */
     DMB_FRICTION_AMBROSIO = 1, /* 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond */
-    DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB and raised there to
-                                  the maximum mu_static */
+    DMB_FRICTION_STRIBECK = 2, /* mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed; its maximum is mu_static */
     DMB_FRICTION_BRISTLE = 3   /* elastic bristle that sticks; breaks away at mu_static, one step late (order 1) */
 };
 
@@ -158,9 +157,8 @@ typedef struct dmb_wall_def {
                                  less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */
     double damping;           /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0 */
     double impact_depth;      /* [m] full damping from here on, of IMPACT; default 1e-4 */
-    double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01. Slower impacts return more than e: EXACT with
-                                 e = 0.4 returns 0.878 at 1 mm/s. With less, contacts that last, which keep the v0 of
-                                 their touch and are damped by K d mu/v0, take more iterations */
+    double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4:
+                                 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more */
     double mu_static;         /* [-] largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK
                                  creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks */
     double mu_dynamic;        /* [-] >= 0; default 0.30 */
@@ -419,8 +417,7 @@ DMB_SIZED_STRUCT(dmb_compile_options)
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
  * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall.
  * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first
- * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of
- * elements). */
+ * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 
 typedef struct dmb_model_info {

@@ -18,7 +18,7 @@ DMB_DECLARE_STRUCT(dmb_step_report)
 DMB_DEFINE_INIT(dmb_event_report, 32, {.count = 0})
 /* clang-format on */
 
-enum { MARGIN = 100, SLOW = 2 };
+enum { MARGIN = 100, SLOW = 2, HALVINGS = 20 };
 
 /* Outputs less their levels, so that beyond is > 0 in the direction of each. */
 typedef struct gaps {
@@ -220,7 +220,21 @@ static void narrow(const hunt *h, bracket *b, double at, const gaps *tried)
     b->slow = b->high - b->low > 0.5 * width ? b->slow + 1 : 0;
 }
 
-/* Takes the step that went over a crossing back and ends on the first one; `found`: the outputs there. */
+/* A step of a length within the bracket. Newton may fail there although it converges for the whole step, as where a
+ * contact closes shortly before: then a step half as long beyond the bracket's low end is tried, and so on. */
+static int32_t try_length(hunt *h, const bracket *b, double *length, gaps *tried)
+{
+    int32_t status = step_again(h, *length, NULL, tried);
+    for (int i = 0; i < HALVINGS && status == DMB_ERR_NO_CONVERGENCE; i++) {
+        *length = b->low + 0.5 * (*length - b->low);
+        status = step_again(h, *length, NULL, tried);
+    }
+    return status;
+}
+
+/* Takes the step that went over a crossing back and ends on the first one; `found`: the outputs there. If a length
+ * fails and a shorter step does not reach the crossing, it ends with that step, before the crossing, and the next step
+ * of the advance goes on from there. */
 static int32_t locate(hunt *h, gaps *found)
 {
     const dmb_clock reached = *h->sim->clock;
@@ -230,10 +244,14 @@ static int32_t locate(hunt *h, gaps *found)
     int32_t status = DMB_OK;
     for (double tolerance; tolerance = tolerance_of(h, b.crossed), status >= 0 && b.high - b.low > tolerance;) {
         gaps tried;
-        last = guess(h, &b, tolerance);
+        const double wanted = last = guess(h, &b, tolerance);
         h->walk.report.steps = steps;
         h->walk.report.rejected++;
-        status = step_again(h, last, NULL, &tried);
+        status = try_length(h, &b, &last, &tried);
+        if (status >= 0 && last < wanted && !crossings(h, &tried)) {
+            *found = tried;
+            return status;
+        }
         if (status >= 0) narrow(h, &b, last, &tried);
         if (status >= 0 && b.last > 0) *found = tried;
     }

@@ -318,9 +318,9 @@ FUNCTION_DOCS = {
     "dmb_fatigue_histogram":
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_snapshot_size":
-        "The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places counts on bit for bit, in another process too: its size, save, restore. Allocate nothing. Errors: ERR_NULL, _HANDLE; ERR_VALUE for another size, and for bytes that are no counts of these options, forged ones too: nothing is changed then. O(places x points x classes).",
+        "The counts so far as bytes in the caller's memory, with which another dmb_fatigue of the same options and places continues bit for bit, in another process too. Allocate nothing. Errors, which change nothing: ERR_NULL, _HANDLE, _VALUE (another size; bytes that are no counts of these options). O(places x points x classes).",
     "dmb_fatigue_take":
-        "Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+        "Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted. Another sim of the same model may be given. Allocates nothing. O(places x points).",
     "dmb_has":
         "1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there. ERR_VALUE: none of the above. Thread-safe.",
     "dmb_model_add_force":
@@ -350,7 +350,7 @@ FUNCTION_DOCS = {
     "dmb_model_clear_refused":
         "Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was added after all: a later one of its kind with the same name, or with at most one other field where one of them has none (environment, wall: any). This forgets them all.",
     "dmb_model_compile":
-        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements).",
+        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements).",
     "dmb_model_create":
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
@@ -460,7 +460,7 @@ FUNCTION_DOCS = {
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. The errors of the steps add up over a run, to some thousand times the tolerance in 10 s; repeat the run with a tenth of the tolerances to estimate the error at its end. NOTE_TOLERANCE where a step of step_min was too long for them; before that NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
     "dmb_sim_advance_to_event":
-        "As dmb_sim_advance, but ends at the first event on the way: NOTE_EVENT, dmb_sim_message names those told. One that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to call. Costs a copy of the state a step and some six steps a crossing. Reports may be NULL. ERR_VALUE without events.",
+        "As dmb_sim_advance, but ends at the first event on the way: NOTE_EVENT, dmb_sim_message names those told. One that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to call. Costs a copy of the state a step, some six steps a crossing. Reports may be NULL. ERR_VALUE: no events.",
     "dmb_sim_create":
         "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their guides leave free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
@@ -504,7 +504,7 @@ FUNCTION_DOCS = {
     "dmb_state_space_sparse":
         "One of the sparse matrices as triplets, row by row, none twice. All three arrays NULL: *count is their length. Else *count on entry is the room and on return what was written; too little is ERR_VALUE.",
     "dmb_status_name":
-        "Name (\"ERR_VALUE\") and text of a status; for an unknown one \"UNKNOWN\" and its text. Never NULL. Thread-safe.",
+        "Name (\"ERR_VALUE\") and text of a status, of an unknown one \"UNKNOWN\". Never NULL. Thread-safe.",
     "dmb_version":
         "Version of the linked library, 10000 major + 100 minor + patch. Cannot fail.",
     "dmb_window_create":

@@ -177,7 +177,7 @@ class WallDef(WallPart, Sized):
         "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
         "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
         "impact_depth": ("m", "full damping from here on, of IMPACT; default 1e-4"),
-        "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e: EXACT with e = 0.4 returns 0.878 at 1 mm/s. With less, contacts that last, which keep the v0 of their touch and are damped by K d mu/v0, take more iterations"),
+        "approach_speed": ("m/s", "floor of v0, > 0; default 0.01. Slower impacts return more than e (EXACT, 0.4: 0.878 at 1 mm/s); with less, lasting contacts (damped by K d mu/v0) iterate more"),
         "mu_static": ("-", "largest friction over normal force, >= mu_dynamic; default 0.35. Up to it STRIBECK creeps, at most at 2.1 smoothing_speed with the defaults, and BRISTLE sticks"),
         "mu_dynamic": ("-", ">= 0; default 0.30"),
         "stribeck_speed": ("m/s", "> 0; default 1e-2"),

@@ -283,7 +283,7 @@ class FrictionLaw(IntEnum):
 
     COULOMB: mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2)
     AMBROSIO: 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond
-    STRIBECK: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB and raised there to the maximum mu_static
+    STRIBECK: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed; its maximum is mu_static
     BRISTLE: elastic bristle that sticks; breaks away at mu_static, one step late (order 1)
     """
     NONE = -1

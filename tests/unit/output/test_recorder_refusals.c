@@ -231,7 +231,7 @@ static void a_long_time_between_samples(void **state)
         assert_int_equal(dmb_window_take(window, c.s.sim), DMB_OK);
     }
     assert_int_equal(result_of(window, 1).samples, 5);
-    take_steps(&c.s, 1e-3, 200);
+    take_divided_steps(&c.s, 1e-3, 200); /* the string rattles, the body falls freely */
     assert_int_equal(dmb_window_take(window, c.s.sim), DMB_OK);
     const dmb_window_result now = result_of(window, 1);
     assert_int_equal(now.samples, 1);
