@@ -30,8 +30,7 @@ typedef struct dmb_stuck_def {
     double overtorque;   /* [N m] torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad */
 } dmb_stuck_def;
 DMB_SIZED_STRUCT(dmb_stuck_def)
-/* Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE; of compile: _VALUE (no such pipe), _UNSUPPORTED (sideways on axial-torsional
- * pipes). */
+/* Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE; of compile: _VALUE (no such pipe), _UNSUPPORTED (axial-torsional). */
 DMB_API int32_t dmb_model_add_stuck(dmb_model *model, const dmb_stuck_def *def, dmb_id *stuck);
 
 typedef struct dmb_stuck_state {

@@ -342,7 +342,7 @@ FUNCTION_DOCS = {
     "dmb_model_add_string":
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_stuck":
-        "Errors: ERR_ID, _VALUE, _NOT_FINITE; of compile: _VALUE (no such pipe), _UNSUPPORTED (sideways on axial-torsional pipes).",
+        "Errors: ERR_ID, _VALUE, _NOT_FINITE; of compile: _VALUE (no such pipe), _UNSUPPORTED (axial-torsional).",
     "dmb_model_add_sub":
         "All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are ERR_ORDER, and so is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: ERR_NULL, _STRUCT_SIZE, _ID, _VALUE, _ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey), those of dmb_model_add_body, _string and _joint.",
     "dmb_model_add_wall":
