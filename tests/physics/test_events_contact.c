@@ -1,6 +1,5 @@
 /* Events of a string that rattles in a curved hole: where a shorter step towards the crossing does not converge, as
  * when a contact closes shortly before it, the event is found all the same, for every level, restitution and law. */
-#include <math.h>
 #include <stdio.h>
 
 #include "rig.h"
@@ -43,7 +42,7 @@ static void describe(rig *r, int32_t law, double restitution, double level)
 static double bit_speed(const rig *r)
 {
     dmb_channel channel = {.quantity = DMB_CHANNEL_BIT_SPEED};
-    double speed = NAN;
+    double speed = 0.0;
     must(r, dmb_query_channel(r->sim, &channel, &speed));
     return speed;
 }
