@@ -51,7 +51,7 @@ static int32_t describe_lying(string_model *s, uint32_t pipes)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = steel_pipe(PIPE, 3);
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default(); /* of height 0 */
+    const dmb_segment off = dmb_segment_default(); /* of height 0 */
     int32_t status = dmb_model_create(NULL, &s->model);
     s->sim = NULL;
     s->pipes = pipes;
@@ -64,7 +64,7 @@ static int32_t describe_lying(string_model *s, uint32_t pipes)
     if (status >= 0) status = dmb_model_add_wall(s->model, &wall, NULL);
     if (status >= 0) status = dmb_model_add_string(s->model, &def, &pipe.string);
     if (status >= 0) status = dmb_model_add_pipes(s->model, &pipe, pipes, &s->string);
-    if (status >= 0) status = dmb_model_add_programme(s->model, &off, 1, &push.programme);
+    if (status >= 0) status = dmb_model_add_time_function(s->model, &off, 1, &push.time_function);
     push.place = dmb_station(s->string, pipes - 1, 1.0);
     if (status >= 0) status = dmb_model_add_load(s->model, &push, &s->push);
     if (status >= 0) status = dmb_model_compile(s->model, NULL);
@@ -155,7 +155,7 @@ static int32_t on_the_low_side(void)
 /* ---- As a helix -------------------------------------------------------------------------------------------------- */
 
 /* A string without weight, its rig end beside the axis, wound up by loads that turn with a pitch of its own. The push
- * at the bit goes by a programme, another takes the winding loads off over one tick. */
+ * at the bit goes by a time function, another takes the winding loads off over one tick. */
 typedef struct helix_case {
     uint32_t pipes;
     double pipe, clearance; /* [m] */
@@ -165,10 +165,10 @@ typedef struct helix_case {
     double begins, ends, wound; /* ticks: ramp of the push, end of the winding loads */
 } helix_case;
 
-static dmb_term step_of(double h0, double h1, double from, double to)
+static dmb_segment step_of(double h0, double h1, double from, double to)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.h0 = h0;
     term.h1 = h1;
     term.x0 = from * TICK;
@@ -189,15 +189,15 @@ static dmb_wall_def rough_wall(const helix_case *c)
 
 static int32_t add_push(string_model *s, const helix_case *c)
 {
-    const dmb_term ramp = step_of(c->from, c->to, c->begins, c->ends),
-                   off = step_of(1.0, 0.0, c->wound, c->wound + 1.0);
+    const dmb_segment ramp = step_of(c->from, c->to, c->begins, c->ends),
+                      off = step_of(1.0, 0.0, c->wound, c->wound + 1.0);
     dmb_load_def load = dmb_load_def_default();
-    int32_t status = dmb_model_add_programme(s->model, &ramp, 1, &load.programme);
+    int32_t status = dmb_model_add_time_function(s->model, &ramp, 1, &load.time_function);
     load.frame = DMB_FRAME_HOLE;
     load.place = dmb_station(s->string, s->pipes - 1, 1.0);
     load.force[0] = -1.0;
     if (status >= 0) status = dmb_model_add_load(s->model, &load, NULL);
-    if (status >= 0) status = dmb_model_add_programme(s->model, &off, 1, &load.programme);
+    if (status >= 0) status = dmb_model_add_time_function(s->model, &off, 1, &load.time_function);
     load.force[0] = 0.0;
     for (uint32_t i = 0; i < s->pipes && status >= 0; i++) {
         const double angle = 2.0 * PI * c->pipe * (i + 1) / c->pitch;

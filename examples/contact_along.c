@@ -36,12 +36,12 @@ static int32_t describe(dmb_model *model, uint32_t elements, uint32_t points)
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 
-/* The middle rod between its tool joints: length on the wall, the force there, and what all sites bear. */
+/* The middle rod between its tool joints: length on the wall, the force there, and what all points bear. */
 static void tell(const dmb_sim *sim, uint32_t elements, uint32_t points)
 {
     dmb_contact contact = dmb_contact_default();
     double touching = 0.0, force = 0.0, all = 0.0;
-    for (uint32_t site = 0; dmb_query_contact(sim, site, &contact) >= 0; site++) {
+    for (uint32_t number = 0; dmb_query_contact(sim, number, &contact) >= 0; number++) {
         all += contact.normal_force;
         if (contact.pipe != 1 || !contact.closed) continue;
         touching += contact.length;

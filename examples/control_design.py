@@ -17,13 +17,13 @@ def scene(gain, kick=0.0):
     model.add_wall(friction_law=mbd.FRICTION_NONE)
     model.add_pipes(PIPES, string=string, kind=mbd.PIPE_AXIAL_TORSIONAL, outer_diameter=0.0635, inner_diameter=0.0515,
                     length=LENGTH, damping_time=1e-4)
-    model.add_drive(part=string, programme=model.add_programme(mbd.Term()))  # the feed stands still
-    still = model.add_programme(mbd.Term())
+    model.add_drive(part=string, time_function=model.add_time_function(mbd.Segment()))  # the feed stands still
+    still = model.add_time_function(mbd.Segment())
     drive = model.add_drive(part=string, component=mbd.RX, kind=mbd.DRIVE_LOAD if gain is None else mbd.DRIVE_CONTROL,
-                            gain=gain or 0.0, integral_gain=0.0 if gain is None else INTEGRAL, programme=still)
-    hump = [mbd.Term(kind=mbd.TERM_STEP, h1=sign, x0=at, x1=at + kick) for sign, at in ((1.0, 0.0), (-1.0, kick)) if kick]
+                            gain=gain or 0.0, integral_gain=0.0 if gain is None else INTEGRAL, time_function=still)
+    hump = [mbd.Segment(kind=mbd.SEGMENT_STEP, h1=sign, x0=at, x1=at + kick) for sign, at in ((1.0, 0.0), (-1.0, kick)) if kick]
     load = model.add_load(place=mbd.station(string, PIPES - 1, 1.0), frame=mbd.FRAME_BODY, moment=(200.0, 0.0, 0.0),
-                          programme=model.add_programme(*(hump or [mbd.Term()])))
+                          time_function=model.add_time_function(*(hump or [mbd.Segment()])))
     torque = model.add_input(name="torque", part=drive) if gain is None else mbd.Id()  # what a controller writes
     model.compile()
     return mbd.Sim(model), string, torque, load
@@ -34,10 +34,10 @@ def plant():
     sim, string, torque, load = scene(None)
     modes = sim.modes(count=40)
     torsional = [i for i, mode in enumerate(modes) if mode.share[1] > 0.9]  # what feed and push shake is left out
-    inputs = [mbd.Input(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.INPUT_SETTING, torque), (mbd.INPUT_LOAD, load))]
-    channels = [(mbd.CHANNEL_ROTATION, mbd.station(string)), (mbd.CHANNEL_ROTARY_SPEED, mbd.station(string)),
-                (mbd.CHANNEL_BIT_SPEED, mbd.station(string))]
-    outputs = [mbd.Output(kind=mbd.OUTPUT_CHANNEL, component=quantity, place=place) for quantity, place in channels]
+    inputs = [mbd.Excitation(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.EXCITATION_SETTING, torque), (mbd.EXCITATION_LOAD, load))]
+    outputs = [(mbd.OUTPUT_ROTATION, mbd.station(string)), (mbd.OUTPUT_ROTARY_SPEED, mbd.station(string)),
+                (mbd.OUTPUT_BIT_SPEED, mbd.station(string))]
+    outputs = [mbd.ResponseOutput(kind=mbd.RESPONSE_OUTPUT, component=quantity, place=place) for quantity, place in outputs]
     return sim.state_space(inputs, outputs, modes=modes, mode_list=torsional, shift=0.02)
 
 
@@ -69,7 +69,7 @@ def main():
             x = (step @ np.append(x, D * D * (3.0 - 2.0 * D)))[:-1]
             sim.step(h)
             linear.append(space.C[2] @ x)
-            run.append(sim.channel("bit_speed"))
+            run.append(sim.output("bit_speed"))
         off = max(abs(np.subtract(linear, run))) / max(np.abs(run))
         print(f"{name}: gain {gain:6.1f}, least damping {damping(A):.3f}, bit still swings by "
               f"{100 * max(np.abs(run[-1000:])) / max(np.abs(run)):4.1f} % in the end; model off the run by {100 * off:.1f} %")

@@ -20,7 +20,7 @@ static const double survey[][3] = {
 
 static int32_t describe(dmb_model **model, dmb_id *string)
 {
-    const dmb_term rest = dmb_term_default();
+    const dmb_segment rest = dmb_segment_default();
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
@@ -30,7 +30,7 @@ static int32_t describe(dmb_model **model, dmb_id *string)
     pipe.elements = 2;
     if (status >= 0) status = dmb_model_add_wall(*model, &wall, NULL);
     if (status >= 0) status = dmb_model_add_pipes(*model, &pipe, PIPES, string);
-    if (status >= 0) status = dmb_model_add_programme(*model, &rest, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_time_function(*model, &rest, 1, &drive.time_function);
     drive.component = DMB_X;
     if (status >= 0) status = dmb_model_add_drive(*model, &drive, NULL);
     drive.component = DMB_RX;
@@ -39,13 +39,13 @@ static int32_t describe(dmb_model **model, dmb_id *string)
 }
 
 /* Side force of one pipe: that of all its places of contact, upwards where the upper wall holds it. */
-static int32_t side_forces(const dmb_sim *sim, uint32_t sites, double upward[PIPES], double total[PIPES])
+static int32_t side_forces(const dmb_sim *sim, uint32_t points, double upward[PIPES], double total[PIPES])
 {
     dmb_contact contact = dmb_contact_default();
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < PIPES; ++i) upward[i] = total[i] = 0.0;
-    for (uint32_t site = 0; status >= 0 && site < sites; ++site) {
-        status = dmb_query_contact(sim, site, &contact);
+    for (uint32_t number = 0; status >= 0 && number < points; ++number) {
+        status = dmb_query_contact(sim, number, &contact);
         if (status < 0 || contact.pipe >= PIPES) continue; /* the rig end belongs to no pipe */
         total[contact.pipe] += contact.normal_force;
         upward[contact.pipe] += contact.normal_force * contact.normal[2];
@@ -77,7 +77,7 @@ static int32_t ask(dmb_model *model, dmb_sim *sim, dmb_id string)
     dmb_model_info info = dmb_model_info_default();
     dmb_contact_total sum = dmb_contact_total_default();
     int32_t status = dmb_model_get_info(model, &info);
-    if (status >= 0) status = side_forces(sim, info.contact_sites, upward, total);
+    if (status >= 0) status = side_forces(sim, info.contact_points, upward, total);
     if (status >= 0) status = print_pipes(sim, string, upward, total);
     if (status >= 0) status = dmb_query_contact_total(sim, &sum);
     if (status >= 0) status = dmb_query_reaction(sim, string, reaction);

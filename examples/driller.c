@@ -1,17 +1,17 @@
 /* The readings of a driller while a string is driven into rock: hook load, torque, weight on bit, rate of penetration,
- * bit speed and stick-slip index in a table of named channels. */
+ * bit speed and stick-slip index in a table of named outputs. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
 #include "command_line.h"
 
-enum { CHANNELS = 8, ROWS = 7 };
+enum { OUTPUTS = 8, ROWS = 7 };
 
 static dmb_id ramp(dmb_model *model, double to)
 {
-    const dmb_term term = {.struct_size = sizeof term, .kind = DMB_TERM_STEP, .x1 = 0.5, .h1 = to};
+    const dmb_segment term = {.struct_size = sizeof term, .kind = DMB_SEGMENT_STEP, .x1 = 0.5, .h1 = to};
     dmb_id made = {0, 0};
-    (void)dmb_model_add_programme(model, &term, 1, &made);
+    (void)dmb_model_add_time_function(model, &term, 1, &made);
     return made;
 }
 
@@ -28,8 +28,8 @@ static int32_t describe(dmb_model *model)
     rod.damping_time = 1e-3;
     bit.rock_law = DMB_ROCK_RATE;
     bit.bottom = 1e-3;
-    feed.programme = ramp(model, 0.01);
-    turn.programme = ramp(model, 8.0);
+    feed.time_function = ramp(model, 0.01);
+    turn.time_function = ramp(model, 8.0);
     turn.component = DMB_RX;
     (void)dmb_model_add_wall(model, &wall, NULL);
     (void)dmb_model_add_string(model, &string, NULL);
@@ -42,26 +42,26 @@ static int32_t describe(dmb_model *model)
 
 static int32_t drill(dmb_sim *sim)
 {
-    static const char *const names[CHANNELS] = {"hook_load", "rotation_torque", "weight_on_bit", "rate_of_penetration",
-                                                "bit_speed", "stretch",         "wind_up",       "stick_slip_index"};
-    double table[ROWS * (1 + CHANNELS)];
-    dmb_channel channels[CHANNELS] = {{{{0, 0}, 0, 0, 0.0}, 0, 0}}; /* place 0: the first string */
+    static const char *const names[OUTPUTS] = {"hook_load", "rotation_torque", "weight_on_bit", "rate_of_penetration",
+                                               "bit_speed", "stretch",         "wind_up",       "stick_slip_index"};
+    double table[ROWS * (1 + OUTPUTS)];
+    dmb_output outputs[OUTPUTS] = {{{{0, 0}, 0, 0, 0.0}, 0, 0}}; /* place 0: the first string */
     dmb_recorder recorder = dmb_recorder_default();
     const dmb_window_options last_second = {.struct_size = sizeof last_second, .slots = 100, .length = 1.0};
     dmb_window *window = NULL;
-    for (int i = 0; i < CHANNELS; i++) (void)dmb_channel_quantity(names[i], &channels[i].quantity);
-    int32_t status = dmb_window_create(sim, &last_second, &channels[4], 1, &window);
-    recorder.channels = channels, recorder.channel_count = CHANNELS, recorder.window = window;
+    for (int i = 0; i < OUTPUTS; i++) (void)dmb_output_quantity(names[i], &outputs[i].quantity);
+    int32_t status = dmb_window_create(sim, &last_second, &outputs[4], 1, &window);
+    recorder.outputs = outputs, recorder.output_count = OUTPUTS, recorder.window = window;
     recorder.table = table, recorder.capacity = ROWS, recorder.interval = 0.5;
     for (int i = 0; i <= 3000 && status >= 0; i++) {
         if (i > 0) status = dmb_sim_step(sim, 1e-3, NULL);
         if (status >= 0) status = dmb_window_take(window, sim);
         if (status >= 0) status = dmb_recorder_take(&recorder, sim);
     }
-    for (int i = 0; i < CHANNELS; i++) {
-        const char *unit, *name = dmb_channel_name(channels[i].quantity, &unit);
+    for (int i = 0; i < OUTPUTS; i++) {
+        const char *unit, *name = dmb_output_name(outputs[i].quantity, &unit);
         printf("%-20s %-6s", name, unit);
-        for (uint64_t k = 0; k < recorder.row_count; k++) printf(" %10.4f", table[k * (1 + CHANNELS) + 1 + (size_t)i]);
+        for (uint64_t k = 0; k < recorder.row_count; k++) printf(" %10.4f", table[k * (1 + OUTPUTS) + 1 + (size_t)i]);
         printf("\n");
     }
     dmb_window_destroy(&window);
@@ -73,7 +73,7 @@ int main(int count, char **words)
     if (count > 1)
         return command_line(
             count, words,
-            "Drives a string into rock and prints a table of the channels that a driller reads: hook load, torque, "
+            "Drives a string into rock and prints a table of the outputs that a driller reads: hook load, torque, "
             "weight on bit, rate of penetration, bit speed and stick-slip index.",
             NULL, 0);
     dmb_model *model = NULL;

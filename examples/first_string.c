@@ -7,12 +7,12 @@
 /* The rig moves its end of the string: up to `speed` within the first second. */
 static int32_t add_drive(dmb_model *model, int32_t component, double speed)
 {
-    dmb_term rise = dmb_term_default();
-    rise.kind = DMB_TERM_STEP;
+    dmb_segment rise = dmb_segment_default();
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = speed;
     dmb_drive_def drive = dmb_drive_def_default();
     drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, &rise, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(model, &rise, 1, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
 }
 

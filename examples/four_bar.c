@@ -33,7 +33,7 @@ int main(int count, char **words)
     if (count > 1) return command_line(count, words, "What must the motor of a four-bar linkage do?", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
-    dmb_term speed = dmb_term_default();
+    dmb_segment speed = dmb_segment_default();
     dmb_drive_def motor = dmb_drive_def_default();
     dmb_drive_state drive = dmb_drive_state_default();
     dmb_joint_state knee = dmb_joint_state_default();
@@ -41,7 +41,7 @@ int main(int count, char **words)
     int32_t status = dmb_model_create(NULL, &model);
     if (status >= 0) status = add_rods(model, pins);
     speed.h0 = 6.283185307179586; /* one revolution a second, from the start */
-    if (status >= 0) status = dmb_model_add_programme(model, &speed, 1, &motor.programme);
+    if (status >= 0) status = dmb_model_add_time_function(model, &speed, 1, &motor.time_function);
     motor.part = pins[0], motor.component = DMB_RX;
     if (status >= 0) status = dmb_model_add_drive(model, &motor, &id);
     if (status >= 0) status = dmb_model_compile(model, NULL);

@@ -55,8 +55,8 @@ static void tell_string(dmb_sim *sim)
     dmb_torque_drag_row by_depth = dmb_torque_drag_row_default(), one = dmb_torque_drag_row_default();
     dmb_contact contact = dmb_contact_default();
     if (dmb_analysis_static(sim, NULL, NULL) < 0) printf("%s\n", dmb_sim_message(sim));
-    for (uint32_t site = 38; site < 50 && dmb_query_contact(sim, site, &contact) >= 0; site += 2)
-        printf("ring %u: gap %8.3f mm, on the wall %7.2f N\n", site, 1e3 * contact.gap, contact.normal_force);
+    for (uint32_t number = 38; number < 50 && dmb_query_contact(sim, number, &contact) >= 0; number += 2)
+        printf("ring %u: gap %8.3f mm, on the wall %7.2f N\n", number, 1e3 * contact.gap, contact.normal_force);
     (void)dmb_operation_usual(DMB_OPERATION_PICK_UP, &up);
     same.friction = 0.20;
     if (dmb_analysis_torque_drag(sim, NULL, &up, 1, &by_depth) < 0) printf("%s\n", dmb_sim_message(sim));

@@ -8,10 +8,10 @@
 
 static dmb_id number(dmb_model *model, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
     term.h0 = value;
-    (void)dmb_model_add_programme(model, &term, 1, &id);
+    (void)dmb_model_add_time_function(model, &term, 1, &id);
     return id;
 }
 
@@ -46,7 +46,7 @@ static int32_t describe(dmb_model *model)
     (void)dmb_model_add_string(model, &string, &pipe.string);
     pipe.length = 9.0;
     (void)dmb_model_add_pipes(model, &pipe, 30, NULL);
-    head.programme = number(model, 8.0);
+    head.time_function = number(model, 8.0);
     head.limit_high = 3500.0;
     (void)dmb_model_add_drive(model, &head, &pressure.part);
     pressure.target = DMB_TARGET_LIMIT_HIGH;

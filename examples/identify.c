@@ -9,7 +9,7 @@
 #include "command_line.h"
 
 enum { SAMPLES = 40, STEPS = 10, VALUES = 2 * SAMPLES };
-static dmb_channel channels[2];
+static dmb_output outputs[2];
 
 static void done(int32_t status)
 {
@@ -44,15 +44,15 @@ static dmb_sim *rig(double friction, double energy)
     bit.bottom = 0.001; /* the string turns before it cuts */
     done(dmb_model_add_bit(model, &bit, NULL));
     for (int i = 0; i < 2; i++) {
-        dmb_term ramp = dmb_term_default();
+        dmb_segment ramp = dmb_segment_default();
         dmb_drive_def drive = dmb_drive_def_default();
-        ramp.kind = DMB_TERM_STEP5;
+        ramp.kind = DMB_SEGMENT_STEP5;
         ramp.x1 = 0.5;
         ramp.h1 = speed[i];
         drive.component = i == 0 ? DMB_X : DMB_RX;
-        done(dmb_model_add_programme(model, &ramp, 1, &drive.programme));
-        done(dmb_model_add_drive(model, &drive, &channels[i].place.part));
-        channels[i].quantity = DMB_CHANNEL_DRIVE_FORCE;
+        done(dmb_model_add_time_function(model, &ramp, 1, &drive.time_function));
+        done(dmb_model_add_drive(model, &drive, &outputs[i].place.part));
+        outputs[i].quantity = DMB_OUTPUT_DRIVE_FORCE;
     }
     done(dmb_model_compile(model, NULL));
     done(dmb_sim_create(model, NULL, &sim));
@@ -78,7 +78,7 @@ static void run(const double at[2], double values[VALUES], double derivatives[VA
     for (int i = 0; i < 4; i++) dmb_sim_destroy(&sides[i]);
     for (int i = 0; i < SAMPLES; i++) {
         for (int k = 0; k < STEPS; k++) done(dmb_sensitivity_step(sensitivity, 2e-3, NULL));
-        done(dmb_sensitivity_channels(sensitivity, channels, 2, values + 2 * i, derivatives[2 * i]));
+        done(dmb_sensitivity_outputs(sensitivity, outputs, 2, values + 2 * i, derivatives[2 * i]));
     }
     dmb_sensitivity_destroy(&sensitivity);
     dmb_sim_destroy(&sim);

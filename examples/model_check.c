@@ -1,5 +1,5 @@
 /* How many degrees of freedom has my model, and what holds what? The rig of the reference study as one would draw it:
- * head, 100 flexible pipes, bit, 101 fixed joints between them, a cylindrical guide at the head and two drives in it.
+ * head, 100 flexible pipes, bit, 101 fixed joints between them, a cylindrical support at the head and two drives in it.
  * The same string described in one piece has the same degrees_of_freedom and none of these equations. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@ static int32_t add_body(dmb_model *model, double x, double mass, dmb_id *id)
     return dmb_model_add_body(model, &body, id);
 }
 
-/* One pipe, a string of its own that nothing guides, from x on. */
+/* One pipe, a string of its own that nothing supports, from x on. */
 static int32_t add_pipe(dmb_model *model, double x, dmb_id *id)
 {
     dmb_string_def string = dmb_string_def_default();
@@ -38,25 +38,25 @@ static int32_t join(dmb_model *model, int32_t kind, dmb_place a, dmb_place b, dm
     return dmb_model_add_joint(model, &joint, id);
 }
 
-static int32_t add_drive(dmb_model *model, dmb_id guide, int32_t component, double speed)
+static int32_t add_drive(dmb_model *model, dmb_id support, int32_t component, double speed)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.h1 = speed;
-    drive.part = guide;
+    drive.part = support;
     drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, &term, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(model, &term, 1, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
 }
 
 static int32_t describe(dmb_model *model)
 {
     const dmb_place ground = dmb_station((dmb_id){0, 0}, 0, 0.0);
-    dmb_id part, guide;
+    dmb_id part, support;
     int32_t status = add_body(model, 0.0, 100.0, &part);
     dmb_place last = dmb_station(part, 0, 0.0);
-    if (status >= 0) status = join(model, DMB_JOINT_CYLINDRICAL, ground, last, &guide);
+    if (status >= 0) status = join(model, DMB_JOINT_CYLINDRICAL, ground, last, &support);
     for (int i = 0; i < PIPES && status >= 0; ++i) {
         status = add_pipe(model, i, &part);
         if (status >= 0) status = join(model, DMB_JOINT_FIXED, last, dmb_station(part, 0, 0.0), NULL);
@@ -64,8 +64,8 @@ static int32_t describe(dmb_model *model)
     }
     if (status >= 0) status = add_body(model, PIPES, 5.0, &part);
     if (status >= 0) status = join(model, DMB_JOINT_FIXED, last, dmb_station(part, 0, 0.0), NULL);
-    if (status >= 0) status = add_drive(model, guide, DMB_X, 0.01);
-    return status < 0 ? status : add_drive(model, guide, DMB_RX, 20.944);
+    if (status >= 0) status = add_drive(model, support, DMB_X, 0.01);
+    return status < 0 ? status : add_drive(model, support, DMB_RX, 20.944);
 }
 
 int main(int count, char **words)

@@ -11,7 +11,7 @@ static int32_t describe(dmb_model *model, double inside)
     dmb_wall_def hole = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def rod = dmb_pipe_def_default();
-    dmb_ring_def collar = dmb_ring_def_default();
+    dmb_stabiliser_def collar = dmb_stabiliser_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     mud.fluid_density = 1400.0;
     mud.inner_density = inside;
@@ -30,7 +30,7 @@ static int32_t describe(dmb_model *model, double inside)
     if (status >= 0) status = dmb_model_add_wall(model, &hole, NULL);
     if (status >= 0) status = dmb_model_add_string(model, &string, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 5, NULL);
-    if (status >= 0) status = dmb_model_add_ring(model, &collar, NULL);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &collar, NULL);
     if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
@@ -41,13 +41,13 @@ static int32_t hang(const char *name, double inside)
     dmb_sim *sim = NULL;
     dmb_modes *modes = NULL;
     dmb_mode mode = dmb_mode_default();
-    const dmb_channel load = {.quantity = DMB_CHANNEL_HOOK_LOAD};
+    const dmb_output load = {.quantity = DMB_OUTPUT_HOOK_LOAD};
     double hook = 0.0;
     int32_t status = dmb_model_create(NULL, &model);
     if (status >= 0) status = describe(model, inside);
     if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
     if (status >= 0) status = dmb_analysis_static(sim, NULL, NULL);
-    if (status >= 0) status = dmb_query_channel(sim, &load, &hook);
+    if (status >= 0) status = dmb_query_output(sim, &load, &hook);
     if (status >= 0) status = dmb_analysis_modes(sim, NULL, &modes);
     if (status >= 0) status = dmb_modes_get(modes, 0, &mode);
     if (status >= 0) printf("%-12s hook load %7.1f N, lowest frequency %.4f Hz\n", name, hook, mode.frequency);

@@ -39,11 +39,11 @@ static int32_t describe(dmb_model *model, dmb_id *pump)
 static int32_t pump_at(dmb_sim *sim, dmb_id pump, double litres_per_minute)
 {
     dmb_flow_state flow = dmb_flow_state_default();
-    const dmb_channel load = {.quantity = DMB_CHANNEL_HOOK_LOAD};
+    const dmb_output load = {.quantity = DMB_OUTPUT_HOOK_LOAD};
     double hook = 0.0;
     int32_t status = dmb_sim_set_input(sim, pump, litres_per_minute / 60e3);
     if (status >= 0) status = dmb_analysis_static(sim, NULL, NULL);
-    if (status >= 0) status = dmb_query_channel(sim, &load, &hook);
+    if (status >= 0) status = dmb_query_output(sim, &load, &hook);
     if (status >= 0) status = dmb_query_flow(sim, &flow);
     if (status < 0) return status;
     printf("%4.0f l/min: pump %6.2f bar (bore %5.2f, bit %5.2f, annulus %5.2f), hook load %.1f N (drag %.1f N, "

@@ -19,10 +19,10 @@ static dmb_id add_section(double position, int32_t start_free)
 
 static dmb_id add_constant(double value)
 {
-    dmb_term constant = dmb_term_default();
-    dmb_id programme;
+    dmb_segment constant = dmb_segment_default();
+    dmb_id time_function;
     constant.h0 = value;
-    return dmb_model_add_programme(model, &constant, 1, &programme) < 0 ? (dmb_id){0, 0} : programme;
+    return dmb_model_add_time_function(model, &constant, 1, &time_function) < 0 ? (dmb_id){0, 0} : time_function;
 }
 
 static dmb_id describe(void)
@@ -34,7 +34,7 @@ static dmb_id describe(void)
     dmb_motor motor = dmb_motor_default();
     dmb_drive_def turn = dmb_drive_def_default(), drive = dmb_drive_def_default();
     dmb_load_def rock = dmb_load_def_default();
-    dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_TABLE, .table_time = times, .table_count = 2};
+    dmb_segment ramp = {.struct_size = sizeof ramp, .kind = DMB_SEGMENT_TABLE, .table_time = times, .table_count = 2};
     double no_load_speed = 0.0;
     dmb_id id;
     mud.gravity[2] = 0.0;
@@ -42,7 +42,7 @@ static dmb_id describe(void)
     mud.torsional_damping = 0.5;
     (void)dmb_model_set_environment(model, &mud);
     turn.part = add_section(0.0, DMB_FREE_RX);
-    turn.component = DMB_RX, turn.programme = add_constant(2.0);
+    turn.component = DMB_RX, turn.time_function = add_constant(2.0);
     (void)dmb_model_add_drive(model, &turn, NULL);
     joint.kind = DMB_JOINT_REVOLUTE;
     joint.place_a = dmb_station(turn.part, 1, 1.0);
@@ -52,12 +52,12 @@ static dmb_id describe(void)
     motor.table_count = 4;
     for (int i = 0; i < 4; i++) motor.table_speed[i] = speeds[i], motor.table_torque[i] = sheet[i];
     (void)dmb_motor_drive(&motor, &drive, &no_load_speed);
-    drive.programme = add_constant(no_load_speed);
+    drive.time_function = add_constant(no_load_speed);
     (void)dmb_model_add_drive(model, &drive, &id);
     ramp.table_value = torques;
     rock.place = dmb_station(joint.place_b.part, 1, 1.0);
     rock.moment[0] = 1.0;
-    (void)dmb_model_add_programme(model, &ramp, 1, &rock.programme);
+    (void)dmb_model_add_time_function(model, &ramp, 1, &rock.time_function);
     (void)dmb_model_add_load(model, &rock, NULL);
     return id;
 }

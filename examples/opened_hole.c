@@ -11,10 +11,10 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
     dmb_wall_def hole = dmb_wall_def_default();
     dmb_hole_section pilot = dmb_hole_section_default();
     dmb_pipe_def rod = dmb_pipe_def_default();
-    dmb_ring_def follows = dmb_ring_def_default(), wings = dmb_ring_def_default();
+    dmb_stabiliser_def follows = dmb_stabiliser_def_default(), wings = dmb_stabiliser_def_default();
     dmb_bit_def bit = dmb_bit_def_default(), reamer = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     hole.diameter = 0.120; /* as it was reamed before the run */
     hole.cut_spacing = pilot.transition = 0.25;
     hole.cut_end = 20.0;
@@ -32,14 +32,14 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
     int32_t status = dmb_model_add_wall(model, &hole, NULL);
     if (status >= 0) status = dmb_model_add_hole_sections(model, &pilot, 1);
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 4, NULL);
-    if (status >= 0) status = dmb_model_add_ring(model, &follows, stabiliser);
-    if (status >= 0) status = dmb_model_add_ring(model, &wings, &reamer.ring);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &follows, stabiliser);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &wings, &reamer.stabiliser);
     for (int i = 0; i < 2 && status >= 0; i++) {
         status = dmb_model_add_bit(model, i == 0 ? &bit : &reamer, NULL);
-        term.kind = DMB_TERM_STEP;
+        term.kind = DMB_SEGMENT_STEP;
         term.h1 = i == 0 ? 0.1 : 20.0; /* [m/s, rad/s] */
         drive.component = i == 0 ? DMB_X : DMB_RX;
-        if (status >= 0) status = dmb_model_add_programme(model, &term, 1, &drive.programme);
+        if (status >= 0) status = dmb_model_add_time_function(model, &term, 1, &drive.time_function);
         if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
     }
     return status < 0 ? status : dmb_model_compile(model, NULL);
@@ -48,7 +48,8 @@ static int32_t describe(dmb_model *model, double diameter, dmb_id *stabiliser)
 static double force_on(dmb_sim *sim, dmb_id stabiliser)
 {
     dmb_contact wall = dmb_contact_default();
-    for (uint32_t site = 0; dmb_query_contact(sim, site, &wall) >= 0 && wall.part.index != stabiliser.index;) site++;
+    for (uint32_t number = 0; dmb_query_contact(sim, number, &wall) >= 0 && wall.part.index != stabiliser.index;)
+        number++;
     return wall.normal_force;
 }
 

@@ -7,12 +7,12 @@
 
 static dmb_id set_point(dmb_model *model, const char *name, int32_t component, double acceleration, double jerk)
 {
-    const dmb_term rest = dmb_term_default();
+    const dmb_segment rest = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_input_def input = dmb_input_def_default();
     dmb_id id = {0, 0};
     drive.component = component;
-    (void)dmb_model_add_programme(model, &rest, 1, &drive.programme);
+    (void)dmb_model_add_time_function(model, &rest, 1, &drive.time_function);
     (void)dmb_model_add_drive(model, &drive, &input.part);
     (void)snprintf(input.name, sizeof input.name, "%s", name);
     input.rate_limit = acceleration;

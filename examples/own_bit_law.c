@@ -26,7 +26,7 @@ static int32_t describe(double speed, dmb_model **model, dmb_place *end)
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_term turn = dmb_term_default();
+    dmb_segment turn = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_force_def torque = dmb_force_def_default();
     int32_t status = dmb_model_create(NULL, model);
@@ -43,7 +43,7 @@ static int32_t describe(double speed, dmb_model **model, dmb_place *end)
     if (status >= 0) status = dmb_model_set_environment(*model, &environment);
     if (status >= 0) status = dmb_model_add_string(*model, &string, &pipe.string);
     if (status >= 0) status = dmb_model_add_pipes(*model, &pipe, 20, NULL);
-    if (status >= 0) status = dmb_model_add_programme(*model, &turn, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_time_function(*model, &turn, 1, &drive.time_function);
     if (status >= 0) status = dmb_model_add_drive(*model, &drive, NULL);
     *end = torque.place[0] = dmb_station(pipe.string, 19, 1.0);
     if (status >= 0) status = dmb_model_add_force(*model, &torque, NULL);

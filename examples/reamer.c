@@ -9,12 +9,12 @@
 static int32_t add_drive(dmb_model *model, int32_t kind, int32_t component, double value)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.h1 = value;
     drive.kind = kind;
     drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, &term, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(model, &term, 1, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
 }
 
@@ -22,7 +22,7 @@ static int32_t describe(dmb_model *model, double rock_at_bit, double rock_at_rea
 {
     dmb_wall_def hole = dmb_wall_def_default();
     dmb_pipe_def rod = dmb_pipe_def_default();
-    dmb_ring_def body = dmb_ring_def_default();
+    dmb_stabiliser_def body = dmb_stabiliser_def_default();
     dmb_bit_def pilot = dmb_bit_def_default(), wings = dmb_bit_def_default();
     hole.diameter = 0.153;
     hole.normal_law = DMB_NORMAL_NONE;
@@ -38,7 +38,7 @@ static int32_t describe(dmb_model *model, double rock_at_bit, double rock_at_rea
     wings.radius = 0.076;
     int32_t status = dmb_model_add_wall(model, &hole, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 10, NULL);
-    if (status >= 0) status = dmb_model_add_ring(model, &body, &wings.ring);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &body, &wings.stabiliser);
     if (status >= 0) status = dmb_model_add_bit(model, &pilot, bit);
     if (status >= 0) status = dmb_model_add_bit(model, &wings, reamer);
     if (status >= 0) status = add_drive(model, DMB_DRIVE_LOAD, DMB_X, 10e3);

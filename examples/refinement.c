@@ -10,7 +10,7 @@
 #include "command_line.h"
 
 enum { MESHES = 5, ANSWERS = 4 };
-static const char *const heads[ANSWERS] = {"guide force [N]", "wall force sum [N]", "z of pipe 3 [mm]", "swing [mm]"};
+static const char *const heads[ANSWERS] = {"support force [N]", "wall force sum [N]", "z of pipe 3 [mm]", "swing [mm]"};
 
 static int fail(const char *message)
 {
@@ -56,20 +56,20 @@ static int swing(unsigned elements, double *answer)
     dmb_string_def held = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_pose pose = dmb_pose_default();
     dmb_sim_options options = dmb_sim_options_default();
     dmb_id string;
     options.newton_tolerance = 1e-10; /* what iterations leave over must not hide what refinement changes */
     held.start_free = DMB_FREE_NONE;
     pipe.elements = elements;
-    term.kind = DMB_TERM_STEP5;
+    term.kind = DMB_SEGMENT_STEP5;
     term.x1 = 0.25;
     term.h0 = 1.0;
     dmb_model_create(NULL, &model);
     dmb_model_add_string(model, &held, &string);
     dmb_model_add_pipes(model, &pipe, 5, &string);
-    dmb_model_add_programme(model, &term, 1, &load.programme);
+    dmb_model_add_time_function(model, &term, 1, &load.time_function);
     load.place = dmb_station(string, 4, 1.0);
     load.force[1] = 500.0;
     dmb_model_add_load(model, &load, NULL);

@@ -26,16 +26,16 @@ typedef struct rig {
 /* Speed of a drive in one stage: up, and down at its end. */
 static int32_t add_drive(dmb_model *model, int32_t component, double begin, double speed, dmb_id *id)
 {
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     dmb_drive_def drive = dmb_drive_def_default();
     for (int i = 0; i < 2; ++i) {
-        terms[i].kind = DMB_TERM_STEP5;
+        terms[i].kind = DMB_SEGMENT_STEP5;
         terms[i].x0 = begin + (i == 0 ? 0.0 : STAGE - RAMP);
         terms[i].x1 = terms[i].x0 + RAMP;
         terms[i].h1 = i == 0 ? speed : -speed;
     }
     drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, terms, 2, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(model, terms, 2, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, id);
 }
 

@@ -1,4 +1,4 @@
-/* A short assembly, tilted in a guide and pushed aside, that turns and drills ahead: how fast it builds angle by its
+/* A short assembly, tilted in a support and pushed aside, that turns and drills ahead: how fast it builds angle by its
  * tilt and by the steerability of its bit. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ static int32_t describe(dmb_model *model, double side_cutting, dmb_id *string)
     dmb_pipe_def collar = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_load_def push = dmb_load_def_default();
-    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_joint_def support = dmb_joint_def_default();
     light.gravity[2] = 0.0;
     assembly.follows_hole = 0;
     assembly.start_free = DMB_FREE_ALL;
@@ -27,12 +27,12 @@ static int32_t describe(dmb_model *model, double side_cutting, dmb_id *string)
     if (status >= 0) status = dmb_model_add_string(model, &assembly, string);
     if (status >= 0) status = dmb_model_add_pipes(model, &collar, 1, NULL);
     if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
-    guide.kind = DMB_JOINT_POINT_ON_LINE; /* the rear end slides along the hole that is there */
-    guide.place_b = dmb_station(*string, 0, 0.0);
+    support.kind = DMB_JOINT_POINT_ON_LINE; /* the rear end slides along the hole that is there */
+    support.place_b = dmb_station(*string, 0, 0.0);
     push.place = dmb_station(*string, 0, 1.0);
     push.force[1] = 5.0;
     if (status >= 0) status = dmb_model_add_load(model, &push, NULL);
-    if (status >= 0) status = dmb_model_add_joint(model, &guide, NULL);
+    if (status >= 0) status = dmb_model_add_joint(model, &support, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 
@@ -61,7 +61,7 @@ int main(int count, char **words)
 {
     if (count > 1)
         return command_line(count, words,
-                            "A short assembly, tilted in a guide and pushed aside, that turns and drills ahead: how "
+                            "A short assembly, tilted in a support and pushed aside, that turns and drills ahead: how "
                             "fast it builds angle by its tilt and by the steerability of its bit.",
                             NULL, 0);
     const double steerability[] = {0.01, 0.5, 1.0};

@@ -5,14 +5,14 @@
 
 #include "command_line.h"
 
-static int32_t add_ring(dmb_model *model, const char *name, uint32_t pipe, double fraction)
+static int32_t add_stabiliser(dmb_model *model, const char *name, uint32_t pipe, double fraction)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.pipe = pipe;
     ring.fraction = fraction;
     ring.outer_diameter = 0.150;
     (void)snprintf(ring.name, sizeof ring.name, "%s", name);
-    return dmb_model_add_ring(model, &ring, NULL);
+    return dmb_model_add_stabiliser(model, &ring, NULL);
 }
 
 /* Four collars of 9 m; stabilisers at a fulcrum behind the bit and twice farther up, or the upper two alone. */
@@ -34,9 +34,9 @@ static int32_t describe(dmb_model *model, int fulcrum, dmb_id *bit)
     if (status >= 0) status = dmb_model_add_string(model, &string, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &collar, 4, NULL);
     if (status >= 0) status = dmb_model_add_bit(model, &crown, bit);
-    if (status >= 0) status = add_ring(model, "upper", 1, 0.55);
-    if (status >= 0) status = add_ring(model, "middle", 2, 0.90);
-    if (status >= 0 && fulcrum) status = add_ring(model, "near bit", 3, 0.88);
+    if (status >= 0) status = add_stabiliser(model, "upper", 1, 0.55);
+    if (status >= 0) status = add_stabiliser(model, "middle", 2, 0.90);
+    if (status >= 0 && fulcrum) status = add_stabiliser(model, "near bit", 3, 0.88);
     return status;
 }
 
@@ -45,10 +45,10 @@ static void tell(dmb_sim *sim, dmb_id bit)
     dmb_contact contact = dmb_contact_default();
     dmb_modes *modes = NULL;
     dmb_mode mode = dmb_mode_default();
-    for (uint32_t site = 0; dmb_query_contact(sim, site, &contact) >= 0; site++)
+    for (uint32_t number = 0; dmb_query_contact(sim, number, &contact) >= 0; number++)
         if (contact.closed)
-            printf("  %s at site %u: %8.2f N %s\n", contact.part.index == bit.index ? "bit" : "string or ring", site,
-                   contact.normal_force, contact.normal[2] > 0.0 ? "on the high side" : "on the low side");
+            printf("  %s at contact point %u: %8.2f N %s\n", contact.part.index == bit.index ? "bit" : "string or ring",
+                   number, contact.normal_force, contact.normal[2] > 0.0 ? "on the high side" : "on the low side");
     if (dmb_analysis_modes(sim, NULL, &modes) < 0) printf("%s\n", dmb_sim_message(sim));
     for (uint32_t i = 0; i < 3 && dmb_modes_get(modes, i, &mode) >= 0; i++) printf("  %.4f Hz\n", mode.frequency);
     dmb_modes_destroy(&modes);

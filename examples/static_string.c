@@ -22,9 +22,9 @@
 
 static int32_t add_drive(dmb_model *model, int32_t component, dmb_id *drive)
 {
-    const dmb_term rest = dmb_term_default(); /* a constant 0: the head holds still */
+    const dmb_segment rest = dmb_segment_default(); /* a constant 0: the head holds still */
     dmb_drive_def def = dmb_drive_def_default();
-    const int32_t status = dmb_model_add_programme(model, &rest, 1, &def.programme);
+    const int32_t status = dmb_model_add_time_function(model, &rest, 1, &def.time_function);
     def.component = component;
     return status < 0 ? status : dmb_model_add_drive(model, &def, drive);
 }

@@ -23,14 +23,14 @@ drillmbd::model describe(dmb_id &table)
     model.add_wall(wall);
     rod.length = 3.0;
     model.add_pipes(rod, 30);
-    dmb_term turning = dmb_term_default();
-    turning.kind = DMB_TERM_STEP5;
+    dmb_segment turning = dmb_segment_default();
+    turning.kind = DMB_SEGMENT_STEP5;
     turning.h1 = 120.0 * rpm;
     drive.component = DMB_RX;
-    drive.programme = model.add_programme(turning);
+    drive.time_function = model.add_time_function(turning);
     table = model.add_drive(drive);
     drive.component = DMB_X; // held along the hole
-    drive.programme = model.add_programme(dmb_term_default());
+    drive.time_function = model.add_time_function(dmb_segment_default());
     model.add_drive(drive);
     model.compile();
     return model;

@@ -8,11 +8,11 @@
 static dmb_id drive(dmb_model *model, int32_t kind, int32_t component, double speed)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     dmb_id id = {0, 0};
-    rise.kind = DMB_TERM_STEP;
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = speed;
-    (void)dmb_model_add_programme(model, &rise, 1, &drive.programme);
+    (void)dmb_model_add_time_function(model, &rise, 1, &drive.time_function);
     drive.kind = kind;
     drive.component = component;
     drive.gain = 200.0;
@@ -49,10 +49,10 @@ static int32_t describe(dmb_model *model)
     feed.name[0] = 'f';
     feed.rate_limit = 0.1;
     (void)dmb_model_add_input(model, &feed, NULL);
-    event(model, "the bit is on bottom", DMB_CHANNEL_WEIGHT_ON_BIT, DMB_EVENT_RISING, 1.0, 0.0);
-    event(model, "torque above 690 N m", DMB_CHANNEL_ROTATION_TORQUE, DMB_EVENT_RISING, 690.0, 0.1);
-    event(model, "the bit stands still", DMB_CHANNEL_BIT_SPEED, DMB_EVENT_FALLING, 0.5, 0.05);
-    event(model, "the bit turns again", DMB_CHANNEL_BIT_SPEED, DMB_EVENT_RISING, 5.0, 0.3);
+    event(model, "the bit is on bottom", DMB_OUTPUT_WEIGHT_ON_BIT, DMB_EVENT_RISING, 1.0, 0.0);
+    event(model, "torque above 690 N m", DMB_OUTPUT_ROTATION_TORQUE, DMB_EVENT_RISING, 690.0, 0.1);
+    event(model, "the bit stands still", DMB_OUTPUT_BIT_SPEED, DMB_EVENT_FALLING, 0.5, 0.05);
+    event(model, "the bit turns again", DMB_OUTPUT_BIT_SPEED, DMB_EVENT_RISING, 5.0, 0.3);
     return dmb_model_compile(model, NULL);
 }
 

@@ -19,7 +19,7 @@ static int32_t describe(dmb_model *model, parts *p)
     dmb_input_def jam = dmb_input_def_default();
     dmb_event_def freed = dmb_event_def_default();
     dmb_drive_def winch = dmb_drive_def_default();
-    dmb_term speed = dmb_term_default();
+    dmb_segment speed = dmb_segment_default();
     down.gravity[0] = -down.gravity[2]; /* the string hangs along x */
     down.gravity[2] = 0.0;
     down.axial_damping = 20.0;
@@ -31,7 +31,7 @@ static int32_t describe(dmb_model *model, parts *p)
     int32_t status = dmb_model_set_environment(model, &down);
     if (status >= 0) status = dmb_model_add_string(model, &string, &p->string);
     if (status >= 0) status = dmb_model_add_pipes(model, &rod, 100, NULL);
-    if (status >= 0) status = dmb_model_add_programme(model, &speed, 1, &winch.programme);
+    if (status >= 0) status = dmb_model_add_time_function(model, &speed, 1, &winch.time_function);
     winch.part = p->string;
     winch.component = DMB_X;
     if (status >= 0) status = dmb_model_add_drive(model, &winch, NULL);
@@ -46,7 +46,7 @@ static int32_t describe(dmb_model *model, parts *p)
     (void)strcpy(freed.name, "freed");
     freed.direction = DMB_EVENT_FALLING;
     freed.level = 0.5;
-    freed.output.quantity = DMB_CHANNEL_STUCK;
+    freed.output.quantity = DMB_OUTPUT_STUCK;
     freed.output.place.part = p->stuck;
     if (status >= 0) status = dmb_model_add_event(model, &freed, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);

@@ -25,7 +25,7 @@ typedef struct turning {
     dmb_model *model;
     dmb_sim *sim;
     dmb_id string, drive;
-    dmb_output outputs[OUTPUTS];
+    dmb_response_output outputs[OUTPUTS];
     double linear[OUTPUTS];           /* amplitude at the frequency */
     double amplitudes[OUTPUTS][4][2]; /* mean, 1x, 2x, 3x */
     dmb_stepped_sine_report report;
@@ -41,7 +41,7 @@ static int32_t describe(turning *t)
     dmb_string_def rig = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term up = dmb_term_default();
+    dmb_segment up = dmb_segment_default();
     int32_t status = dmb_model_create(NULL, &t->model);
     mud.lateral_damping = 40.0;
     wall.friction_law = DMB_FRICTION_COULOMB;
@@ -54,10 +54,10 @@ static int32_t describe(turning *t)
     pipe.eccentricity = 2e-3;
     pipe.damping_time = 1e-3;
     if (status >= 0) status = dmb_model_add_pipes(t->model, &pipe, PIPES, NULL);
-    up.kind = DMB_TERM_STEP5;
+    up.kind = DMB_SEGMENT_STEP5;
     up.h1 = TURN * t->frequency;
     up.x1 = 1.0;
-    if (status >= 0) status = dmb_model_add_programme(t->model, &up, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_time_function(t->model, &up, 1, &drive.time_function);
     drive.component = DMB_RX;
     if (status >= 0) status = dmb_model_add_drive(t->model, &drive, &t->drive);
     if (status >= 0) status = dmb_model_compile(t->model, NULL);
@@ -66,12 +66,12 @@ static int32_t describe(turning *t)
 
 static void ask(turning *t)
 {
-    for (int k = 0; k < OUTPUTS; k++) t->outputs[k] = dmb_output_default();
+    for (int k = 0; k < OUTPUTS; k++) t->outputs[k] = dmb_response_output_default();
     t->outputs[0].place = dmb_station(t->string, PIPES / 2, 0.0);
     t->outputs[0].component = DMB_Y;
     t->outputs[1].place = t->outputs[0].place;
     t->outputs[1].component = DMB_Z;
-    t->outputs[2].kind = DMB_OUTPUT_CONTACT;
+    t->outputs[2].kind = DMB_RESPONSE_CONTACT;
     t->outputs[2].place.pipe = PIPES / 2;
     t->outputs[2].component = DMB_Z;
 }
@@ -79,9 +79,9 @@ static void ask(turning *t)
 static int32_t find_linear(turning *t)
 {
     dmb_response_options options = dmb_response_options_default();
-    dmb_input own = dmb_input_default();
+    dmb_excitation own = dmb_excitation_default();
     dmb_response *response = NULL;
-    own.kind = DMB_INPUT_ECCENTRICITY;
+    own.kind = DMB_EXCITATION_ECCENTRICITY;
     options.frequencies = &t->frequency;
     options.points = 1;
     options.friction = 0; /* a string that turns slides */

@@ -21,11 +21,11 @@ model.add_wall(diameter=0.094, stations=[(0, math.radians(90), 0), (10, math.rad
 string = model.add_pipes(PIPES, outer_diameter=0.073, inner_diameter=0.061, eccentricity=1e-3, angle_spread=math.pi,
                          damping_time=1e-4)
 bit = model.add_bit(mass=5.0, diameter=0.0)
-# Programmes are sums of terms: a smooth start, and a table of (time, value).
-turning = model.add_programme(mbd.Term(kind=mbd.TERM_STEP, x1=0.2, h1=100.0 * RPM))
-feeding = model.add_programme(mbd.Term(table=([0.0, 0.2, 0.5], [0.0, 0.01, 0.01])))
-feed = model.add_drive(programme=feeding)
-rotation = model.add_drive(component=mbd.RX, programme=turning)
+# Time functions are sums of terms: a smooth start, and a table of (time, value).
+turning = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP, x1=0.2, h1=100.0 * RPM))
+feeding = model.add_time_function(mbd.Segment(table=([0.0, 0.2, 0.5], [0.0, 0.01, 0.01])))
+feed = model.add_drive(time_function=feeding)
+rotation = model.add_drive(component=mbd.RX, time_function=turning)
 model.compile()
 info = model.info()
 print(f"{info.pipes} pipes, {info.mass:.1f} kg, {info.degrees_of_freedom} degrees of freedom")
@@ -49,9 +49,9 @@ print(f"static start: {report.iterations} iterations, the wall bears {lying.cont
 sim = model.sim()
 sim.static()
 tip = mbd.station(string, PIPES - 1, 1.0)
-recorder = sim.recorder([(tip, mbd.CHANNEL_DISPLACEMENT_Z, "far end, up [m]"),
-                         (rotation, mbd.CHANNEL_DRIVE_FORCE, "torque at the rig [N m]"),
-                         (feed, mbd.CHANNEL_DRIVE_FORCE, "push at the rig [N]")], capacity=1000)
+recorder = sim.recorder([(tip, mbd.OUTPUT_DISPLACEMENT_Z, "far end, up [m]"),
+                         (rotation, mbd.OUTPUT_DRIVE_FORCE, "torque at the rig [N m]"),
+                         (feed, mbd.OUTPUT_DRIVE_FORCE, "push at the rig [N]")], capacity=1000)
 done = sim.run(0.5, step=1e-3, recorder=recorder,
                progress=lambda at: print(f"\r{100 * at.fraction:3.0f} %, {at.real_time_factor:.0f} times real time", end=""))
 print(f"\n{done.steps} steps; torque at the end {recorder.table[-1][2]:.1f} N m, energy error {sim.energy().error:.1e}")
@@ -72,9 +72,9 @@ places = [mbd.station(string, pipe, 1.0) for pipe in range(PIPES)]
 along = [pipe + 1.0 for pipe in range(PIPES)]
 print("modes [Hz]: " + ", ".join(f"{frequency:.2f}" for frequency in modes.frequencies[:8]))
 middle = mbd.station(string, PIPES // 2, 0.5)
-response = sim.response([mbd.Input(kind=mbd.INPUT_ECCENTRICITY)], [mbd.output(middle, mbd.Z), mbd.output(tip, mbd.RX)],
+response = sim.response([mbd.Excitation(kind=mbd.EXCITATION_ECCENTRICITY)], [mbd.response_output(middle, mbd.Z), mbd.response_output(tip, mbd.RX)],
                         frequency_low=0.5, frequency_high=40.0, points=200)
-bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [mbd.output(middle, mbd.Z)], [1e-6],
+bands, severity = sim.speeds([mbd.Order(), mbd.Order(order=2.0)], [mbd.response_output(middle, mbd.Z)], [1e-6],
                              speed_low=20.0 * RPM, speed_high=300.0 * RPM, points=150)
 print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.high / RPM:.0f}" for band in bands) or "none"))
 
@@ -82,8 +82,8 @@ print("speeds to avoid [rpm]: " + (", ".join(f"{band.low / RPM:.0f} .. {band.hig
 pushed = mbd.Model()
 pushed.add_wall(diameter=0.094)
 rods = pushed.add_pipes(12, string=pushed.add_string(end_free=mbd.FREE_CYLINDRICAL & ~mbd.FREE_X))
-push = pushed.add_drive(kind=mbd.DRIVE_LOAD, part=rods, programme=pushed.add_programme(0.0))
-still = pushed.add_drive(part=rods, component=mbd.RX, programme=pushed.add_programme(0.0))
+push = pushed.add_drive(kind=mbd.DRIVE_LOAD, part=rods, time_function=pushed.add_time_function(0.0))
+still = pushed.add_drive(part=rods, component=mbd.RX, time_function=pushed.add_time_function(0.0))
 pushed.compile()
 with pushed.sim() as column:
     column.static()

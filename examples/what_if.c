@@ -49,13 +49,13 @@ static int32_t add_head(dmb_model *model)
 /* A torque against the rotation at the bit, as hard rock gives from 2 s on. */
 static int32_t add_rock(dmb_model *model, dmb_id string)
 {
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     dmb_load_def load = dmb_load_def_default();
-    rise.kind = DMB_TERM_STEP;
+    rise.kind = DMB_SEGMENT_STEP;
     rise.x0 = 2.0;
     rise.x1 = 2.1;
     rise.h1 = 1.0;
-    const int32_t status = dmb_model_add_programme(model, &rise, 1, &load.programme);
+    const int32_t status = dmb_model_add_time_function(model, &rise, 1, &load.time_function);
     load.place = dmb_station(string, 49, 1.0);
     load.moment[0] = -200.0;
     return status < 0 ? status : dmb_model_add_load(model, &load, NULL);
@@ -63,7 +63,7 @@ static int32_t add_rock(dmb_model *model, dmb_id string)
 
 static int32_t describe(rig *r)
 {
-    const dmb_term rest = dmb_term_default();
+    const dmb_segment rest = dmb_segment_default();
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def feed = dmb_drive_def_default(), motor = dmb_drive_def_default();
@@ -71,11 +71,11 @@ static int32_t describe(rig *r)
     if (status >= 0) status = dmb_model_add_wall(r->model, &wall, NULL);
     if (status >= 0) status = dmb_model_add_pipes(r->model, &pipe, 50, &r->string);
     if (status >= 0) status = add_head(r->model);
-    if (status >= 0) status = dmb_model_add_programme(r->model, &rest, 1, &feed.programme);
+    if (status >= 0) status = dmb_model_add_time_function(r->model, &rest, 1, &feed.time_function);
     if (status >= 0) status = dmb_model_add_drive(r->model, &feed, NULL);
     motor.kind = DMB_DRIVE_LOAD;
     motor.component = DMB_RX;
-    motor.programme = feed.programme; /* a constant 0, until the controller speaks */
+    motor.time_function = feed.time_function; /* a constant 0, until the controller speaks */
     if (status >= 0) status = dmb_model_add_drive(r->model, &motor, &r->motor);
     if (status >= 0) status = add_rock(r->model, r->string);
     return status < 0 ? status : dmb_model_compile(r->model, NULL);

@@ -201,10 +201,10 @@ void set_callback(Def &def, Function &function) noexcept
 }
 // A term that is function(time, out): out[0] its value, out[1] and out[2] what `provides` says.
 template <typename Function>
-DRILLMBD_NODISCARD dmb_term term_of(Function &function, std::int32_t provides = 0) noexcept
+DRILLMBD_NODISCARD dmb_segment segment_of(Function &function, std::int32_t provides = 0) noexcept
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.provides = provides;
     bind(term.callback, term.callback_context, function);
     return term;
@@ -288,16 +288,16 @@ public:
     explicit model(const dmb_model_options &options) : handle_(nullptr) { check(dmb_model_create(&options, &handle_)); }
 
     void set_environment(const dmb_environment_def &def) { done(dmb_model_set_environment(handle_, &def)); }
-    dmb_id add_programme(const dmb_term *terms, std::uint32_t count)
+    dmb_id add_time_function(const dmb_segment *terms, std::uint32_t count)
     {
         dmb_id id = {0, 0};
-        done(dmb_model_add_programme(handle_, terms, count, &id));
+        done(dmb_model_add_time_function(handle_, terms, count, &id));
         return id;
     }
-    dmb_id add_programme(const dmb_term &term) { return add_programme(&term, 1); }
-    dmb_id add_programme(std::initializer_list<dmb_term> terms)
+    dmb_id add_time_function(const dmb_segment &term) { return add_time_function(&term, 1); }
+    dmb_id add_time_function(std::initializer_list<dmb_segment> terms)
     {
-        return add_programme(terms.begin(), static_cast<std::uint32_t>(terms.size()));
+        return add_time_function(terms.begin(), static_cast<std::uint32_t>(terms.size()));
     }
     dmb_id add_pipes(const dmb_pipe_def &def, std::uint32_t count)
     {
@@ -313,7 +313,7 @@ public:
     dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
     dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
     dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }
-    dmb_id add_ring(const dmb_ring_def &def) { return add(dmb_model_add_ring, def); }
+    dmb_id add_stabiliser(const dmb_stabiliser_def &def) { return add(dmb_model_add_stabiliser, def); }
     dmb_id add_joint(const dmb_joint_def &def) { return add(dmb_model_add_joint, def); }
     dmb_id add_coupling(const dmb_coupling_def &def) { return add(dmb_model_add_coupling, def); }
     dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }
@@ -592,7 +592,7 @@ private:
     dmb_fatigue *handle_;
 };
 
-// A window over channels.
+// A window over outputs.
 class window {
 public:
     explicit window(dmb_window *handle = nullptr) noexcept : handle_(handle) {}
@@ -625,10 +625,10 @@ public:
 #if defined(DRILLMBD_EXCEPTIONS)
     void take(const dmb_sim *sim) { check(dmb_window_take(handle_, sim)); }
     void reset_samples() { check(dmb_window_reset(handle_)); }
-    DRILLMBD_NODISCARD dmb_window_result result(std::uint32_t channel = 0) const
+    DRILLMBD_NODISCARD dmb_window_result result(std::uint32_t output = 0) const
     {
         dmb_window_result answer = dmb_window_result_default();
-        check(dmb_window_get(handle_, channel, &answer));
+        check(dmb_window_get(handle_, output, &answer));
         return answer;
     }
 #endif
@@ -749,11 +749,11 @@ public:
     std::int32_t step(double duration) { return check(dmb_sensitivity_step(handle_, duration, nullptr)); }
     std::int32_t advance(double time) { return check(dmb_sensitivity_advance(handle_, time, nullptr)); }
     // values: room for what is asked; derivatives: that times the number of parameters, which the caller knows.
-    void channels(span<const dmb_channel> asked, span<double> values, span<double> derivatives) const
+    void outputs(span<const dmb_output> asked, span<double> values, span<double> derivatives) const
     {
         if (values.size() < asked.size() || derivatives.size() < asked.size())
-            throw error(DMB_ERR_VALUE, "values and derivatives must have room for each channel that is asked for");
-        check(dmb_sensitivity_channels(handle_, asked.data(), asked.count(), values.data(), derivatives.data()));
+            throw error(DMB_ERR_VALUE, "values and derivatives must have room for each output that is asked for");
+        check(dmb_sensitivity_outputs(handle_, asked.data(), asked.count(), values.data(), derivatives.data()));
     }
 #endif
 
@@ -1036,7 +1036,8 @@ public:
         return report;
     }
 
-    DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_input> inputs, span<const dmb_output> outputs,
+    DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_excitation> inputs,
+                                                   span<const dmb_response_output> outputs,
                                                    const dmb_response_options *options = nullptr)
     {
         dmb_response *found = nullptr;
@@ -1045,7 +1046,7 @@ public:
         return drillmbd::response(found);
     }
     // Runs on until the Fourier amplitudes at a frequency [Hz] have settled.
-    DRILLMBD_NODISCARD sine_response sine(double frequency, span<const dmb_output> outputs,
+    DRILLMBD_NODISCARD sine_response sine(double frequency, span<const dmb_response_output> outputs,
                                           const dmb_stepped_sine_options *options = nullptr)
     {
         const dmb_stepped_sine_options used = options != nullptr ? *options : dmb_stepped_sine_options_default();
@@ -1060,7 +1061,7 @@ public:
         return answer;
     }
     // Bands of rotary speed to avoid, `room` of them at most; limits: amplitudes that are allowed, one for each output.
-    DRILLMBD_NODISCARD speed_bands speeds(span<const dmb_order> orders, span<const dmb_output> outputs,
+    DRILLMBD_NODISCARD speed_bands speeds(span<const dmb_order> orders, span<const dmb_response_output> outputs,
                                           span<const double> limits, const dmb_speeds_options *options = nullptr,
                                           std::uint32_t room = 64)
     {
@@ -1105,14 +1106,15 @@ public:
         done(dmb_fatigue_create(handle_, &options, places.data(), places.count(), &made));
         return drillmbd::fatigue(made);
     }
-    DRILLMBD_NODISCARD drillmbd::window window(span<const dmb_channel> channels,
+    DRILLMBD_NODISCARD drillmbd::window window(span<const dmb_output> outputs,
                                                const dmb_window_options *options = nullptr)
     {
         dmb_window *made = nullptr;
-        done(dmb_window_create(handle_, options, channels.data(), channels.count(), &made));
+        done(dmb_window_create(handle_, options, outputs.data(), outputs.count(), &made));
         return drillmbd::window(made);
     }
-    DRILLMBD_NODISCARD drillmbd::state_space state_space(span<const dmb_input> inputs, span<const dmb_output> outputs,
+    DRILLMBD_NODISCARD drillmbd::state_space state_space(span<const dmb_excitation> inputs,
+                                                         span<const dmb_response_output> outputs,
                                                          const dmb_state_space_options *options = nullptr)
     {
         dmb_state_space *made = nullptr;
@@ -1271,12 +1273,12 @@ public:
         text.resize(needed - 1);
         return text;
     }
-    // A channel DMB_CHANNEL_... at a place; {}: the first string, or none.
-    DRILLMBD_NODISCARD double channel(std::int32_t quantity, const dmb_place &place = dmb_place{}) const
+    // A output DMB_OUTPUT_... at a place; {}: the first string, or none.
+    DRILLMBD_NODISCARD double output(std::int32_t quantity, const dmb_place &place = dmb_place{}) const
     {
-        const dmb_channel asked = {place, quantity, 0};
+        const dmb_output asked = {place, quantity, 0};
         double value = 0.0;
-        check(dmb_query_channel(handle_, &asked, &value));
+        check(dmb_query_output(handle_, &asked, &value));
         return value;
     }
     std::int32_t record(dmb_profile_recorder &recorder) const

@@ -57,10 +57,10 @@ struct parts {
     dmb_id string, bit, feed, turning;
 };
 
-dmb_term step_term(double end, double value)
+dmb_segment step_segment(double end, double value)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = end;
     term.h1 = value;
     return term;
@@ -74,12 +74,12 @@ parts describe(drillmbd::model &model)
     model.add_wall(dmb_wall_def_default());
     made.string = model.add_pipes(dmb_pipe_def_default(), 5);
     made.bit = model.add_bit(dmb_bit_def_default());
-    drive.programme = model.add_programme({step_term(0.01, 0.04), step_term(0.02, 0.01)});
+    drive.time_function = model.add_time_function({step_segment(0.01, 0.04), step_segment(0.02, 0.01)});
     made.feed = model.add_drive(drive);
     drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;
-    drive.programme = model.add_programme(step_term(0.01, 20.0));
+    drive.time_function = model.add_time_function(step_segment(0.01, 20.0));
     made.turning = model.add_drive(drive);
     EXPECT(model.compile() == DMB_OK);
     return made;
@@ -106,14 +106,14 @@ void scene_from_end_to_end()
     drillmbd::fatigue fatigue = sim.fatigue(curve, {dmb_station(made.string, 2, 0.5)});
     fatigue.take(sim.get());
     EXPECT(fatigue.result().samples == 1);
-    drillmbd::window window = sim.window({dmb_channel{dmb_place{}, DMB_CHANNEL_BIT_SPEED, 0}});
+    drillmbd::window window = sim.window({dmb_output{dmb_place{}, DMB_OUTPUT_BIT_SPEED, 0}});
     window.take(sim.get());
-    EXPECT(window.result().mean == sim.channel(DMB_CHANNEL_BIT_SPEED));
-    EXPECT(thrown_by([&] { (void)sim.channel(DMB_CHANNEL_JOINT_STATE); }) == DMB_ERR_ID);
+    EXPECT(window.result().mean == sim.output(DMB_OUTPUT_BIT_SPEED));
+    EXPECT(thrown_by([&] { (void)sim.output(DMB_OUTPUT_JOINT_STATE); }) == DMB_ERR_ID);
     EXPECT(std::isfinite(sim.torque_drag({dmb_operation_default()}).at(0).hook_load));
     EXPECT(std::isfinite(sim.profile({DMB_PROFILE_TORQUE}, {0.5, 1.5}).at(1)));
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));
-    EXPECT(sim.contact(0).site == 0);
+    EXPECT(sim.contact(0).number == 0);
     EXPECT(sim.contact_total().normal_force >= 0.0);
     EXPECT(sim.kinetic_energy(made.string, 2) > 0.0);
     EXPECT(sim.energy().kinetic > 0.0);
@@ -334,11 +334,11 @@ void response_of_a_body()
     const dmb_id body = model.add_body(def);
     model.compile();
     drillmbd::sim sim(model);
-    dmb_input force = dmb_input_default();
-    dmb_output move = dmb_output_default();
+    dmb_excitation force = dmb_excitation_default();
+    dmb_response_output move = dmb_response_output_default();
     dmb_response_options options = dmb_response_options_default();
     force.place = move.place = dmb_station(body, 0, 0.0);
-    move.kind = DMB_OUTPUT_ACCELERATION;
+    move.kind = DMB_RESPONSE_ACCELERATION;
     force.amplitude = 3.0;
     options.points = 5;
     drillmbd::response response = sim.response({force}, {move}, &options);
@@ -357,24 +357,24 @@ void stepped_sine_of_a_body()
     drillmbd::model model;
     dmb_body_def def = dmb_body_def_default();
     dmb_drive_def push = dmb_drive_def_default();
-    dmb_term shake = dmb_term_default();
+    dmb_segment shake = dmb_segment_default();
     def.mass = 2.0;
     def.free_mask = DMB_FREE_X;
-    shake.kind = DMB_TERM_HARMONIC;
+    shake.kind = DMB_SEGMENT_HARMONIC;
     shake.h1 = 3.0;
     shake.omega = 10.0 * 3.14159265358979323846;
     push.kind = DMB_DRIVE_LOAD;
     push.part = model.add_body(def);
     push.component = DMB_X;
-    push.programme = model.add_programme({shake});
+    push.time_function = model.add_time_function({shake});
     model.add_drive(push);
     model.compile();
     drillmbd::sim sim(model);
-    dmb_output rate = dmb_output_default();
-    rate.kind = DMB_OUTPUT_ACCELERATION;
+    dmb_response_output rate = dmb_response_output_default();
+    rate.kind = DMB_RESPONSE_ACCELERATION;
     rate.place = dmb_station(push.part, 0, 0.0);
-    dmb_output speed = rate;
-    speed.kind = DMB_OUTPUT_VELOCITY;
+    dmb_response_output speed = rate;
+    speed.kind = DMB_RESPONSE_VELOCITY;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     options.harmonics = 2;
     const drillmbd::sine_response found = sim.sine(5.0, {rate, speed}, &options);
@@ -399,10 +399,10 @@ void speeds_of_a_body()
     def.mass = 2.0;
     model.set_environment(none);
     dmb_order once = dmb_order_default();
-    dmb_output move = dmb_output_default();
-    once.input.kind = DMB_INPUT_UNBALANCE;
-    once.input.amplitude = 1e-3;
-    once.input.place = move.place = dmb_station(model.add_body(def), 0, 0.0);
+    dmb_response_output move = dmb_response_output_default();
+    once.excitation.kind = DMB_EXCITATION_UNBALANCE;
+    once.excitation.amplitude = 1e-3;
+    once.excitation.place = move.place = dmb_station(model.add_body(def), 0, 0.0);
     model.compile();
     drillmbd::sim sim(model);
     dmb_speeds_options options = dmb_speeds_options_default();
@@ -647,9 +647,9 @@ void spans_of_all_kinds()
     EXPECT(vector[4] == 7.0 && writable.count() == 5 && writable.end() - writable.begin() == 5);
 }
 
-// A programme that is a function object: the sim turns as it says; where it throws the call fails and changes nothing.
-// A log of two inputs that is replayed gives the same state; so does the pose of a point off a place, by its three
-// axes.
+// A time function that is a function object: the sim turns as it says; where it throws the call fails and changes
+// nothing. A log of two inputs that is replayed gives the same state; so does the pose of a point off a place, by its
+// three axes.
 void arrays_are_spans()
 {
     drillmbd::model model;
@@ -692,7 +692,8 @@ void callbacks_do_not_throw_through_c()
     dmb_drive_def drive = dmb_drive_def_default();
     const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 2);
     drive.component = DMB_RX;
-    drive.programme = model.add_programme(drillmbd::term_of(speed, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL));
+    drive.time_function =
+        model.add_time_function(drillmbd::segment_of(speed, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL));
     model.add_drive(drive);
     model.compile();
     drillmbd::sim sim(model);

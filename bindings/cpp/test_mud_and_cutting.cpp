@@ -18,9 +18,9 @@ bool near(double found, double wanted)
     return false;
 }
 
-dmb_term constant(double value)
+dmb_segment constant(double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.h0 = value;
     return term;
 }
@@ -40,7 +40,7 @@ void mud_goes_along(int axis)
     drillmbd::model model;
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_body_def body = dmb_body_def_default();
     dmb_load_def load = dmb_load_def_default();
@@ -54,7 +54,7 @@ void mud_goes_along(int axis)
     ring.outer_diameter = 0.1;
     ring.added_mass[0] = 1.0;
     ring.added_mass[1] = 4.0;
-    model.add_ring(ring);
+    model.add_stabiliser(ring);
     bit.mass = 20.0;
     bit.added_mass[0] = 0.5;
     bit.added_mass[1] = 8.0;
@@ -107,7 +107,7 @@ void motors_take_pressure()
     const double speed = model.set_motor(motor, drive);
     EXPECT(near(drive.mud_pressure, 2.0 * pi / (0.8 * 0.02)));
     EXPECT(near(speed, 2.0 * pi * 0.012 / 0.02));
-    drive.programme = model.add_programme(constant(speed));
+    drive.time_function = model.add_time_function(constant(speed));
     const dmb_id turning = model.add_drive(drive);
     model.compile();
     drillmbd::sim sim(model);
@@ -145,10 +145,10 @@ void cutters_widen_the_hole()
     bit.intrinsic_energy = 1e4;
     bit.contact_strength = 0.0;
     model.add_bit(bit);
-    drive.programme = model.add_programme(constant(1.0));
+    drive.time_function = model.add_time_function(constant(1.0));
     model.add_drive(drive);
     drive.component = DMB_RX;
-    drive.programme = model.add_programme(constant(10.0));
+    drive.time_function = model.add_time_function(constant(10.0));
     model.add_drive(drive);
     model.compile();
     drillmbd::sim sim(model);

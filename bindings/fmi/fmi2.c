@@ -144,7 +144,7 @@ FUNCTION(fmi2Status, fmi2SetupExperiment, fmi2Component handle, fmi2Boolean has_
     if (!u || unit_require(u, 1u << UNIT_INSTANTIATED, "fmi2SetupExperiment") != UNIT_OK) return fmi2Error;
     if (start == 0.0) return fmi2OK;
     return (fmi2Status)unit_tell(
-        u, UNIT_ERROR, "start refused: start time = %g s, must be 0: programmes of the scene begin there", start);
+        u, UNIT_ERROR, "start refused: start time = %g s, must be 0: time functions of the scene begin there", start);
 }
 
 FUNCTION(fmi2Status, fmi2EnterInitializationMode, fmi2Component handle)

@@ -163,11 +163,11 @@ static int wrong_size(scene_file *scene, const open_record *record)
 
 static int add_output(scene_file *scene, const open_record *record)
 {
-    const size_t size = (scene->output_count + 1u) * sizeof(dmb_channel);
-    dmb_channel *grown = realloc(scene->outputs, size);
+    const size_t size = (scene->output_count + 1u) * sizeof(dmb_output);
+    dmb_output *grown = realloc(scene->outputs, size);
     if (!grown) return refuse(scene, "scene refused: no memory for %zu bytes of outputs", size);
     scene->outputs = grown;
-    scene->outputs[scene->output_count++] = ((const scene_output *)(const void *)record->structs)->channel;
+    scene->outputs[scene->output_count++] = ((const scene_output *)(const void *)record->structs)->noted;
     return 0;
 }
 
@@ -177,7 +177,7 @@ static int add_turning(scene_file *scene, const open_record *record)
 {
     const scene_swing *swing = (const void *)record->structs;
     scene_turning *turning = calloc(1, sizeof *turning);
-    if (!turning) return refuse(scene, "scene refused: no memory for a programme");
+    if (!turning) return refuse(scene, "scene refused: no memory for a time function");
     turning->share = swing->share;
     turning->order = swing->order;
     turning->term = swing->term;
@@ -191,17 +191,17 @@ static int complete_turning(scene_file *scene, const open_record *record)
     if (!scene->turnings || scene->turnings->terms)
         return refuse(scene, "scene refused: a call turning_of without turning; export the unit anew");
     scene->turnings->terms = (const void *)record->structs;
-    scene->turnings->term_count = record->head->structs;
+    scene->turnings->segment_count = record->head->structs;
     return 0;
 }
 
-/* Gives the terms of a programme the callbacks that were told before it. */
+/* Gives the terms of a time function the callbacks that were told before it. */
 static int use_turnings(scene_file *scene, const open_record *record)
 {
     for (scene_turning *turning = scene->turnings; turning && !turning->is_used; turning = turning->next) {
         if (!turning->terms || turning->term >= record->head->structs)
-            return refuse(scene, "scene refused: a call turning does not fit its programme; export the unit anew");
-        dmb_term *term = (dmb_term *)(void *)record->structs + turning->term;
+            return refuse(scene, "scene refused: a call turning does not fit its time function; export the unit anew");
+        dmb_segment *term = (dmb_segment *)(void *)record->structs + turning->term;
         term->callback = scene_turning_value;
         term->callback_context = turning;
         turning->is_used = 1;
@@ -230,7 +230,7 @@ static int settings_call(scene_file *scene, const open_record *record)
         if (!has_size(record, sizeof(scene_swing))) return wrong_size(scene, record);
         return add_turning(scene, record);
     } else if (is_call(record, "turning_of")) {
-        if (!has_size(record, sizeof(dmb_term))) return wrong_size(scene, record);
+        if (!has_size(record, sizeof(dmb_segment))) return wrong_size(scene, record);
         return complete_turning(scene, record);
     } else {
         return -2;
@@ -253,9 +253,9 @@ static int32_t add_pipes(dmb_model *model, const scene_record *head, const void 
     return dmb_model_add_pipes(model, structs, head->count, id);
 }
 
-static int32_t add_programme(dmb_model *model, const scene_record *head, const void *structs, dmb_id *id)
+static int32_t add_time_function(dmb_model *model, const scene_record *head, const void *structs, dmb_id *id)
 {
-    return dmb_model_add_programme(model, structs, head->structs, id);
+    return dmb_model_add_time_function(model, structs, head->structs, id);
 }
 
 static int32_t add_hole_sections(dmb_model *model, const scene_record *head, const void *structs, dmb_id *id)
@@ -293,7 +293,7 @@ typedef struct call_entry {
 #define DEFINITION_ENTRY(name, type) {#name, sizeof(type), name},
 static const call_entry calls[] = {SCENE_DEFINITIONS(DEFINITION_ENTRY) /* */
                                    {"add_pipes", sizeof(dmb_pipe_def), add_pipes},
-                                   {"add_programme", sizeof(dmb_term), add_programme},
+                                   {"add_time_function", sizeof(dmb_segment), add_time_function},
                                    {"add_hole_sections", sizeof(dmb_hole_section), add_hole_sections},
                                    {"set_environment", sizeof(dmb_environment_def), set_environment},
                                    {"set_name", sizeof(scene_name), set_name},
@@ -304,7 +304,7 @@ static int model_call(scene_file *scene, const open_record *record)
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         if (!is_call(record, calls[i].name)) continue;
         if (!has_size(record, calls[i].struct_size)) return wrong_size(scene, record);
-        if (is_call(record, "add_programme") && use_turnings(scene, record) != 0) return -1;
+        if (is_call(record, "add_time_function") && use_turnings(scene, record) != 0) return -1;
         dmb_id id = {0, 0};
         const int32_t status = calls[i].function(scene->model, record->head, record->structs, &id);
         if (status < 0)

@@ -7,9 +7,9 @@
 typedef struct scene_turning {
     struct scene_turning *next;
     double share, order;
-    const dmb_term *terms; /* of the other programme, in the file's bytes; NULL: not there yet */
-    uint32_t term_count, term;
-    int is_used; /* 1: a programme has it */
+    const dmb_segment *terms; /* of the other time function, in the file's bytes; NULL: not there yet */
+    uint32_t segment_count, term;
+    int is_used; /* 1: a time function has it */
 } scene_turning;
 /* The callback of such a term; its context is a scene_turning. */
 int32_t scene_turning_value(void *context, double time, double out[3]);
@@ -23,7 +23,7 @@ typedef struct scene_file {
     dmb_static_options statics;
     int has_static;
     double step;           /* [s] scene_run */
-    dmb_channel *outputs;  /* shape (output_count) */
+    dmb_output *outputs;   /* shape (output_count) */
     uint32_t output_count; /* [-] */
     scene_turning *turnings;
     char message[512]; /* why the last call failed */

@@ -36,7 +36,7 @@ typedef struct scene_record {
 /* An output of the unit, and what the run begins with. */
 typedef struct scene_output {
     uint32_t struct_size, reserved;
-    dmb_channel channel;
+    dmb_output noted;
 } scene_output;
 typedef struct scene_name { /* of the call set_name */
     uint32_t struct_size, reserved;
@@ -48,43 +48,43 @@ typedef struct scene_run {
     double step; /* [s] of the steps within a communication step; 0: chosen by the library */
 } scene_run;
 
-/* Call "turning", before the add_programme whose term number `term` swings with the revolutions of another programme; a
- * call "turning_of" with the terms of that one follows it. */
+/* Call "turning", before the add_time_function whose term number `term` swings with the revolutions of another time
+ * function; a call "turning_of" with the terms of that one follows it. */
 typedef struct scene_swing {
     uint32_t struct_size, term;
     double share, order; /* [-] of its rate; swings a revolution */
 } scene_swing;
 
 /* Calls with one struct that give an id. */
-#define SCENE_DEFINITIONS(X)          \
-    X(add_wall, dmb_wall_def)         \
-    X(add_string, dmb_string_def)     \
-    X(add_body, dmb_body_def)         \
-    X(add_bit, dmb_bit_def)           \
-    X(add_ring, dmb_ring_def)         \
-    X(add_joint, dmb_joint_def)       \
-    X(add_coupling, dmb_coupling_def) \
-    X(add_drive, dmb_drive_def)       \
-    X(add_load, dmb_load_def)         \
-    X(add_spring, dmb_spring_def)     \
-    X(add_stuck, dmb_stuck_def)       \
-    X(add_input, dmb_input_def)       \
+#define SCENE_DEFINITIONS(X)              \
+    X(add_wall, dmb_wall_def)             \
+    X(add_string, dmb_string_def)         \
+    X(add_body, dmb_body_def)             \
+    X(add_bit, dmb_bit_def)               \
+    X(add_stabiliser, dmb_stabiliser_def) \
+    X(add_joint, dmb_joint_def)           \
+    X(add_coupling, dmb_coupling_def)     \
+    X(add_drive, dmb_drive_def)           \
+    X(add_load, dmb_load_def)             \
+    X(add_spring, dmb_spring_def)         \
+    X(add_stuck, dmb_stuck_def)           \
+    X(add_input, dmb_input_def)           \
     X(add_event, dmb_event_def)
 
 /* Pointers in structs to arrays: call, struct, pointer, count, numbers for each count. */
 #define SCENE_ARRAYS(X)                                             \
-    X(add_programme, dmb_term, table_time, table_count, 1)          \
-    X(add_programme, dmb_term, table_value, table_count, 1)         \
+    X(add_time_function, dmb_segment, table_time, table_count, 1)   \
+    X(add_time_function, dmb_segment, table_value, table_count, 1)  \
     X(add_wall, dmb_wall_def, survey, survey_count, 3)              \
     X(add_spring, dmb_spring_def, table_elongation, table_count, 1) \
     X(add_spring, dmb_spring_def, table_force, table_count, 1)
 
 /* Pointers that a file cannot say: they are NULL. */
-#define SCENE_NULLS(X)                           \
-    X(add_programme, dmb_term, callback)         \
-    X(add_programme, dmb_term, callback_context) \
-    X(sim, dmb_sim_options, allocator)           \
-    X(sim, dmb_sim_options, log)                 \
+#define SCENE_NULLS(X)                                  \
+    X(add_time_function, dmb_segment, callback)         \
+    X(add_time_function, dmb_segment, callback_context) \
+    X(sim, dmb_sim_options, allocator)                  \
+    X(sim, dmb_sim_options, log)                        \
     X(sim, dmb_sim_options, log_context)
 
 uint32_t scene_checksum(const void *bytes, uint64_t size);

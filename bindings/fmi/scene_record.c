@@ -14,20 +14,20 @@ static const id_field id_fields[] = {
     {"add_pipes", offsetof(dmb_pipe_def, string)},
     {"add_body", offsetof(dmb_body_def, string)},
     {"add_bit", offsetof(dmb_bit_def, string)}, {"add_bit", offsetof(dmb_bit_def, load)},
-    {"add_ring", offsetof(dmb_ring_def, string)},
+    {"add_stabiliser", offsetof(dmb_stabiliser_def, string)},
     {"add_joint", offsetof(dmb_joint_def, place_a)}, {"add_joint", offsetof(dmb_joint_def, place_b)},
     {"add_coupling", offsetof(dmb_coupling_def, joint)},
     {"add_coupling", offsetof(dmb_coupling_def, joint) + sizeof(dmb_id)},
     {"add_coupling", offsetof(dmb_coupling_def, third_joint)}, {"add_coupling", offsetof(dmb_coupling_def, fourth_joint)},
-    {"add_drive", offsetof(dmb_drive_def, part)}, {"add_drive", offsetof(dmb_drive_def, programme)},
+    {"add_drive", offsetof(dmb_drive_def, part)}, {"add_drive", offsetof(dmb_drive_def, time_function)},
     {"add_drive", offsetof(dmb_drive_def, excitation)},
-    {"add_load", offsetof(dmb_load_def, place)}, {"add_load", offsetof(dmb_load_def, programme)},
+    {"add_load", offsetof(dmb_load_def, place)}, {"add_load", offsetof(dmb_load_def, time_function)},
     {"add_spring", offsetof(dmb_spring_def, place_a)}, {"add_spring", offsetof(dmb_spring_def, place_b)},
     {"add_stuck", offsetof(dmb_stuck_def, place)},
     {"add_input", offsetof(dmb_input_def, part)},
     {"add_event", offsetof(dmb_event_def, output)},
     {"set_name", offsetof(scene_name, part)},
-    {"output", offsetof(scene_output, channel)}};
+    {"output", offsetof(scene_output, noted)}};
 /* clang-format on */
 
 typedef struct array_field {
@@ -107,9 +107,9 @@ void scene_note(scene_book *book, const char *call, const void *structs, size_t 
     if (!book->is_full) memcpy(book->bytes + start, &head, sizeof head);
 }
 
-void scene_note_output(scene_book *book, dmb_channel channel)
+void scene_note_output(scene_book *book, dmb_output noted)
 {
-    const scene_output output = {(uint32_t)sizeof output, 0, channel};
+    const scene_output output = {(uint32_t)sizeof output, 0, noted};
     SCENE_NOTE(book, "output", output);
 }
 

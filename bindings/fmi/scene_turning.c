@@ -1,4 +1,4 @@
-/* A speed that swings once (or `order` times) a revolution of another programme, as drillmbd/scene/terms.py has it:
+/* A speed that swings once (or `order` times) a revolution of another time function, as drillmbd/scene/terms.py has it:
  * with w the rate of the other and theta its integral from 0, value  share w sin(order theta),   rate  share (w'
  * sin(order theta) + order w^2 cos(order theta)), integral  share (1 - cos(order theta))/order. */
 #include <math.h>
@@ -20,15 +20,15 @@ static void smooth_step(double t, double begin, double end, double out[3])
     }
 }
 
-static void one_term(double t, const dmb_term *term, double out[3])
+static void one_segment(double t, const dmb_segment *term, double out[3])
 {
-    if (term->kind == DMB_TERM_STEP) {
+    if (term->kind == DMB_SEGMENT_STEP) {
         const double height = term->h1 - term->h0;
         smooth_step(t, term->x0, term->x1, out);
         out[0] *= height;
         out[1] = term->h0 + height * out[1];
         out[2] = term->h0 * t + height * out[2];
-    } else if (term->kind == DMB_TERM_HARMONIC) {
+    } else if (term->kind == DMB_SEGMENT_HARMONIC) {
         const double w = term->omega, phase = term->phase;
         const double swing = w != 0.0 ? (cos(phase) - cos(w * t + phase)) / w : sin(phase) * t;
         out[0] = term->h1 * w * cos(w * t + phase);
@@ -45,8 +45,8 @@ int32_t scene_turning_value(void *context, double time, double out[3])
 {
     const scene_turning *turning = context;
     double sum[3] = {0.0, 0.0, 0.0}, more[3];
-    for (uint32_t i = 0; i < turning->term_count; ++i) {
-        one_term(time, &turning->terms[i], more);
+    for (uint32_t i = 0; i < turning->segment_count; ++i) {
+        one_segment(time, &turning->terms[i], more);
         for (int k = 0; k < 3; ++k) sum[k] += more[k];
     }
     const double share = turning->share, order = turning->order;

@@ -105,7 +105,7 @@ unit_status unit_begin(unit *u, double start)
     if (unit_require(u, 1u << UNIT_INSTANTIATED, "enter initialization mode") != UNIT_OK) return UNIT_ERROR;
     if (start != 0.0)
         return unit_tell(u, UNIT_ERROR,
-                         "start refused: start time = %g s, must be 0: programmes of the scene begin there", start);
+                         "start refused: start time = %g s, must be 0: time functions of the scene begin there", start);
     u->mode = UNIT_INITIALISING;
     return UNIT_OK;
 }
@@ -214,9 +214,9 @@ static unit_status get_input(unit *u, uint32_t i, double *value)
 static unit_status get_output(unit *u, uint32_t i, double *value)
 {
     if (unit_prepare(u) != UNIT_OK) return UNIT_ERROR;
-    const int32_t status = dmb_query_channel(u->sim, &u->scene.outputs[i], value);
+    const int32_t status = dmb_query_output(u->sim, &u->scene.outputs[i], value);
     if (status >= 0) return UNIT_OK;
-    (void)dmb_channel_check(u->sim, &u->scene.outputs[i], 1);
+    (void)dmb_output_check(u->sim, &u->scene.outputs[i], 1);
     return unit_tell(u, UNIT_ERROR, "output %u cannot be read: %s: %s", i, dmb_status_text(status),
                      dmb_sim_message(u->sim));
 }

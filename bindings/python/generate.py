@@ -14,13 +14,13 @@ HEADERS = HERE.parents[1] / "include" / "drillmbd"
 PACKAGE = HERE / "drillmbd"
 
 # Names of enumerations whose members share too little, or whose prefix says too little. Key: the first member.
-ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_CONSTANT": "TermKind",
+ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "SEGMENT_CONSTANT": "SegmentKind",
               "NORMAL_NONE": "NormalLaw", "FRICTION_NONE": "FrictionLaw", "PIPE_FLEXIBLE": "PipeKind",
               "ROCK_NONE": "RockLaw", "JOINT_FIXED": "JointKind", "JOINT_ACTIVE": "JointMode",
-              "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "ProgrammeProvides",
+              "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "TimeFunctionProvides",
               "PROVIDES_JACOBIAN": "ConstraintProvides", "PROVIDES_TANGENT": "ForceProvides", "DRIVE_MOTION": "DriveKind",
-              "CHANNEL_DISPLACEMENT_X": "Quantity", "CHANNEL_HOOK_LOAD": "Reading", "INPUT_DRIVE": "InputKind",
-              "OUTPUT_DISPLACEMENT": "OutputKind", "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
+              "OUTPUT_DISPLACEMENT_X": "Quantity", "OUTPUT_HOOK_LOAD": "Reading", "EXCITATION_DRIVE": "ExcitationKind",
+              "RESPONSE_DISPLACEMENT": "ResponseKind", "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
               "STATE_FULL": "StateForm", "MOTION_SPEED": "MotionInput", "MATRIX_A": "Matrix", "ARRAY_VELOCITY": "Array",
               "ROW_FREE": "RowState",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
@@ -34,7 +34,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
 FLAGS = ("FREE", "FEATURE", "PROVIDES", "STUCK")  # prefixes of bits of masks
 STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
-MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
+MIXINS = {"Id": "IdPart", "Segment": "SegmentPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
           "SpringDef": "SpringPart", "DriveDef": "DrivePart", "Motor": "MotorPart", "ForceDef": "ForcePart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}
@@ -241,7 +241,7 @@ def python_type(kind):
 
 
 # What the classes of _record.py take besides fields, and the fields that it stands for.
-MORE_KEYS = {"Term": ("table", "function"), "WallDef": ("stations", "friction_table"), "SpringDef": ("table",), "Motor": ("table",),
+MORE_KEYS = {"Segment": ("table", "function"), "WallDef": ("stations", "friction_table"), "SpringDef": ("table",), "Motor": ("table",),
              "DriveDef": ("curve", "gain_table"), "ForceDef": ("places", "function"), "ConstraintDef": ("places", "function")}
 
 
@@ -251,7 +251,7 @@ def given_type(kind):
         return "str | bytes"
     if re.match(r"c_double \*", kind):
         return "Iterable[float]"
-    return {"Place": "Place | Id | None", "Id": "Id | None", "Channel": "Channel | tuple[Any, Any]",
+    return {"Place": "Place | Id | None", "Id": "Id | None", "Output": "Output | tuple[Any, Any]",
             "c_double": "SupportsFloat"}.get(kind, python_type(kind).replace("'", ""))
 
 
@@ -297,7 +297,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart
 
 '''
 FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations

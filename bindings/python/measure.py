@@ -41,7 +41,7 @@ def overhead():
 def growth(cycles):
     def cycle():
         model = mbd.Model()
-        model.add_drive(part=model.add_pipes(2), programme=model.add_programme(lambda time: 0.05 * time))
+        model.add_drive(part=model.add_pipes(2), time_function=model.add_time_function(lambda time: 0.05 * time))
         model.compile()
         with model.sim() as sim:
             sim.step(1e-3)

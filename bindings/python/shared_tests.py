@@ -24,11 +24,11 @@ diameter = 0
 """
 DRIVES = """[[drive]]
 name = "feed"
-programme = "0 m/s"
+time_function = "0 m/s"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 """
 
 

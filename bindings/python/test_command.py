@@ -20,17 +20,17 @@ needs("numpy")
 SCENE = """title = "short rig"
 [hole]
 diameter = "94 mm"
-""" + SHORT_STRING + """[[programme]]
+""" + SHORT_STRING + """[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
 """ + DRIVES + """[run]
 end = "20 ms"
 step = "1 ms"
 static = true
-[output]
+[results]
 interval = "2 ms"
 vtk_interval = "10 ms"
-[[channel]]
+[[output]]
 name = "torque [N m]"
 quantity = "drive-force"
 place = "head"
@@ -42,7 +42,7 @@ count = 5
 frequency_low = "1 Hz"
 frequency_high = "30 Hz"
 points = 30
-[[response.input]]
+[[response.excitation]]
 kind = "eccentricity"
 [[response.output]]
 name = "middle"
@@ -75,14 +75,14 @@ start_free = []
 [[string.pipes]]
 count = 5
 section_stiffness = ["1e12 N", "1e12 N", "1e12 N", "1e5 N m2", "1e5 N m2", "1e5 N m2"]
-[[programme]]
+[[time_function]]
 name = "none yet"
-term = {h0 = 0}
+segment = {h0 = 0}
 [[load]]
 name = "push"
 place = {part = "column", pipe = "last", fraction = 1.0}
 force = ["-1 N", 0, 0]
-programme = "none yet"
+time_function = "none yet"
 [buckling]
 scale = "part"
 part = "push"
@@ -179,13 +179,13 @@ class CommandTest(FolderTest):
             out, summary = self.answer("run", "--verify", "--step", step)
             found = summary["verification"]
             self.assertAlmostEqual(found["end_s"], 0.02)
-            channel = found["channels"]["torque [N m]"]
-            changes.append(abs(channel["step"] - channel["half_step"]) / abs(channel["step"]))
+            output = found["outputs"]["torque [N m]"]
+            changes.append(abs(output["step"] - output["half_step"]) / abs(output["step"]))
             if step == "1 ms":
                 self.assertEqual((summary["hash"], summary["run"]["steps"]), (plain["hash"], plain["run"]["steps"]))
                 with open(self.output / "run.csv", encoding="utf-8", newline="") as file:
                     largest = max(abs(float(row["torque [N m]"])) for row in csv.DictReader(file))
-                self.assertGreaterEqual(channel["step"], largest)  # all of the run: it has 20 steps; a row of the table every other one
+                self.assertGreaterEqual(output["step"], largest)  # all of the run: it has 20 steps; a row of the table every other one
             self.assertIn("again with half the step", out)
         self.assertLess(changes[1], changes[0])
         self.scene = self.write("rig.toml", SCENE.replace('step = "1 ms"\n', ""))
@@ -342,7 +342,7 @@ class CommandTest(FolderTest):
 
     def test_torque_drag_loads_of_the_scene(self):
         """Load and torque of the bit are those of the scene; with another load the estimate of the torque follows."""
-        scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + '[[programme]]\nname = "bit load"\nterm = {h0 = "2 kN"}\n'
+        scene = SCENE.replace("diameter = 0", 'diameter = "90 mm"\nload = "bit load"') + '[[time_function]]\nname = "bit load"\nsegment = {h0 = "2 kN"}\n'
         self.scene = self.write("rig.toml", scene)
         for words, weight, torque in ((), 2e3, 30.0), (("--weight-on-bit", "4 kN"), 4e3, 60.0):
             out, summary = self.answer("torque-drag", *words)
@@ -513,10 +513,10 @@ class CommandTest(FolderTest):
             self.skipTest("not there: plotly")
         import drillmbd.report as report
         from drillmbd import scene
-        from drillmbd.answers import Output
+        from drillmbd.results import CommandOutput
 
         def verdicts(text, failing=""):
-            study = report.Study(scene.loads(text), Output(None, "x.toml", scene.loads(text), "report", True))
+            study = report.Study(scene.loads(text), CommandOutput(None, "x.toml", scene.loads(text), "report", True))
             if failing:
                 setattr(study, failing, lambda: (_ for _ in ()).throw(ArithmeticError("no solution")))
             study.ask()

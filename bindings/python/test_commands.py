@@ -23,7 +23,7 @@ SHORT = ((r'(\[run\]\nend =) "[^"]*"', r'\1 "20 ms"'), (r"(?m)^points = \d+", "p
 COMMANDS = (("check",), ("static",), ("run", "--until", "10 ms"), ("modes", "--count", "2"), ("response",), ("speeds",), ("buckle",),
             ("torque-drag", "--depths", "2"), ("stuck", "--pull", "20 kN"), ("rod-by-rod",), ("sweep", "check", "--vary", "hole.mu_dynamic=0.1,0.2"),
             ("probability", "--samples", "1", "--method", "monte-carlo", "--engine", "serial"))
-LOOSE = SCENE.replace('[[drive]]\nname = "feed"\nprogramme = "0 m/s"\n', "")  # nothing holds the string along its axis
+LOOSE = SCENE.replace('[[drive]]\nname = "feed"\ntime_function = "0 m/s"\n', "")  # nothing holds the string along its axis
 HEAVY = SCENE.replace("count = 8", "count = 3000").replace('end = "20 ms"', 'end = "200 s"') + """[buckling]
 scale = "all"
 [variability]
@@ -231,9 +231,9 @@ class EndTest(FolderTest):
 
     def test_every_command_stops(self):
         """Ctrl-C within an analysis: status 130, and a summary with what is known."""
-        from drillmbd import questions
-        for name in questions.QUESTIONS:
-            with mock.patch.dict(questions.QUESTIONS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
+        from drillmbd import commands
+        for name in commands.QUESTIONS:
+            with mock.patch.dict(commands.QUESTIONS, {name: mock.Mock(side_effect=KeyboardInterrupt)}):
                 self.ask(name, self.scene, "-o", self.folder / "out", status=130)
             found = self.summary()
             self.assertEqual((found["command"], found["status"]), (name, 130))
@@ -243,8 +243,8 @@ class EndTest(FolderTest):
     def test_stopped_within_an_exec(self):
         """Python ends by the signal where Ctrl-C came within an exec, though it was dealt with; the command has its own status still."""
         for end, status in (("program()", 130),):  # sys.exit(main()) has -2 there by Python 3.11
-            self.write("stopped.py", "import sys\nfrom drillmbd import questions\nfrom drillmbd.command import main, program\n"
-                       f"questions.QUESTIONS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
+            self.write("stopped.py", "import sys\nfrom drillmbd import commands\nfrom drillmbd.command import main, program\n"
+                       f"commands.QUESTIONS['check'] = lambda *_: exec('raise KeyboardInterrupt')\n{end}\n")
             process = subprocess.run([COMMAND[0], "-m", "stopped", "check", self.scene, "-o", self.folder / "out"], capture_output=True, text=True,
                                      env=ENVIRONMENT, cwd=self.folder)
             self.assertEqual((process.returncode, process.stderr), (status, ""))
@@ -273,9 +273,9 @@ class EndTest(FolderTest):
 
     def test_sweep_goes_on(self):
         """Cases of the same settings are kept; of another scene, command or option they are computed again."""
-        from drillmbd import questions
+        from drillmbd import commands
         words = ("sweep", self.scene, "stuck", "--vary", "hole.mu_dynamic=0.1:0.3:3", "-o", self.folder / "out", "--", "--pull", "20 kN")
-        real, seen = questions.QUESTIONS["stuck"], []
+        real, seen = commands.QUESTIONS["stuck"], []
 
         def stop_at_third(*arguments):
             seen.append(0)
@@ -283,7 +283,7 @@ class EndTest(FolderTest):
                 raise KeyboardInterrupt
             return real(*arguments)
 
-        with mock.patch.dict(questions.QUESTIONS, {"stuck": stop_at_third}):
+        with mock.patch.dict(commands.QUESTIONS, {"stuck": stop_at_third}):
             self.ask(*words, status=130)
             found = self.summary()
             self.assertEqual((found["status"], found["computed"], found["cases"]), (130, 2, 3))

@@ -147,11 +147,11 @@ class StructTest(unittest.TestCase):
 
     def test_survey_and_table_are_kept(self):
         wall = mbd.WallDef(stations=[(0, math.pi / 2, 0), (30, 1.6, 0.1)])
-        term = mbd.Term(table=[(0, 1), (2, 5), (3, -1)])
+        term = mbd.Segment(table=[(0, 1), (2, 5), (3, -1)])
         gc.collect()
         self.assertEqual(wall.survey_count, 2)
         self.assertEqual(wall.survey[3], 30.0)
-        self.assertEqual((term.kind, term.table_count, term.table_value[2]), (mbd.TERM_TABLE, 3, -1.0))
+        self.assertEqual((term.kind, term.table_count, term.table_value[2]), (mbd.SEGMENT_TABLE, 3, -1.0))
 
     def test_ids_compare_by_value(self):
         self.assertEqual(mbd.Id(1, 2), mbd.Id(1, 2))
@@ -173,10 +173,10 @@ class Rig:
         self.model.add_wall(diameter=0.094)
         self.string = self.model.add_pipes(pipes, outer_diameter=0.073, inner_diameter=0.061)
         self.bit = self.model.add_bit(mass=5.0)
-        self.feed_programme = self.model.add_programme(mbd.Term(kind=mbd.TERM_STEP, x1=0.02, h1=0.05))
-        self.feed = self.model.add_drive(programme=self.feed_programme)
+        self.feed_time_function = self.model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP, x1=0.02, h1=0.05))
+        self.feed = self.model.add_drive(time_function=self.feed_time_function)
         self.turning = self.model.add_drive(kind=mbd.DRIVE_CONTROL, component=mbd.RX, gain=100.0,
-                                            programme=self.model.add_programme(10.0))
+                                            time_function=self.model.add_time_function(10.0))
         self.model.compile()
         self.tip = mbd.station(self.string, pipes - 1, 1.0)
 
@@ -212,7 +212,7 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(len(self.sim.section(mbd.station(self.rig.string, 2, 0.5)).force), 6)
         self.assertGreater(self.sim.kinetic_energy(self.rig.string, 2), 0.0)
         self.assertEqual(self.sim.contact_total().closed,
-                         sum(self.sim.contact(i).closed for i in range(self.rig.model.info().contact_sites)))
+                         sum(self.sim.contact(i).closed for i in range(self.rig.model.info().contact_points)))
         self.assertAlmostEqual(self.sim.momentum().mass, self.rig.model.info().mass)
         self.assertEqual(len(self.sim.reaction(self.rig.string)), 6)
         self.assertEqual(self.sim.bit(self.rig.bit).weight, 0.0)
@@ -254,10 +254,10 @@ class SceneTest(unittest.TestCase):
     def test_events(self):
         model = mbd.Model()
         string = model.add_pipes(1)
-        drive = model.add_drive(part=string, programme=model.add_programme(0.5))
+        drive = model.add_drive(part=string, time_function=model.add_time_function(0.5))
         for name, level in (("far", 0.02), ("near", 0.01), ("with it", 0.01)):
-            model.add_event(name=name, output=mbd.Channel(place=mbd.station(string, 0, 0.0)), level=level)
-        model.add_event(name="fast", output=mbd.Channel(place=mbd.station(drive, 0, 0.0), quantity=mbd.CHANNEL_DRIVE_SPEED),
+            model.add_event(name=name, output=mbd.Output(place=mbd.station(string, 0, 0.0)), level=level)
+        model.add_event(name="fast", output=mbd.Output(place=mbd.station(drive, 0, 0.0), quantity=mbd.OUTPUT_DRIVE_SPEED),
                         level=1.0)
         model.compile()
         with model.sim() as sim:
@@ -270,7 +270,7 @@ class SceneTest(unittest.TestCase):
     def test_inputs(self):
         model = mbd.Model()
         string = model.add_pipes(1)
-        drive = model.add_drive(part=string, kind=mbd.DRIVE_CONTROL, component=mbd.RX, gain=5.0, programme=model.add_programme(1.0))
+        drive = model.add_drive(part=string, kind=mbd.DRIVE_CONTROL, component=mbd.RX, gain=5.0, time_function=model.add_time_function(1.0))
         model.add_input(name="rotation", part=drive, low=0.0, high=20.0, rate_limit=2.0, outside=mbd.OUTSIDE_CLAMPED)
         model.add_input(name="gain", part=drive, target=mbd.TARGET_GAIN)
         model.compile()
@@ -297,8 +297,8 @@ class SceneTest(unittest.TestCase):
         self.assertTrue(twin.same_scene(model))
 
     def test_recorder(self):
-        recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X), (self.rig.feed, mbd.CHANNEL_DRIVE_SPEED),
-                                      (None, mbd.CHANNEL_ENERGY_ERROR)], capacity=6, interval=2e-3)
+        recorder = self.sim.recorder([(self.rig.tip, mbd.OUTPUT_POSITION_X), (self.rig.feed, mbd.OUTPUT_DRIVE_SPEED),
+                                      (None, mbd.OUTPUT_ENERGY_ERROR)], capacity=6, interval=2e-3)
         for _ in range(10):
             self.assertEqual(recorder.take(), mbd.OK)
             self.sim.step(1e-3)
@@ -315,7 +315,7 @@ class SceneTest(unittest.TestCase):
     def test_recorder_without_numpy(self):
         numpy, mbd.recorder.numpy = mbd.recorder.numpy, None
         try:
-            recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X)], capacity=3)
+            recorder = self.sim.recorder([(self.rig.tip, mbd.OUTPUT_POSITION_X)], capacity=3)
             recorder.take()
             self.assertEqual(len(recorder.table), 1)
             self.assertAlmostEqual(recorder.table[0][1], 5.0)
@@ -324,7 +324,7 @@ class SceneTest(unittest.TestCase):
 
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
-            recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X)], capacity=3)
+            recorder = self.sim.recorder([(self.rig.tip, mbd.OUTPUT_POSITION_X)], capacity=3)
             recorder.take()
             recorder.write_csv(os.path.join(folder, "table.csv"))
             self.sim.write_vtk(pathlib.Path(folder, "string.vtp"))
@@ -364,9 +364,9 @@ class ResponseTest(unittest.TestCase):
         self.sim = model.sim()
 
     def test_free_body(self):
-        force = mbd.Input(place=self.body, amplitude=3.0, phase=math.pi / 2)
-        response = self.sim.response([force], [mbd.Output(place=self.body), mbd.Output(
-            kind=mbd.OUTPUT_ACCELERATION, place=self.body)], frequencies=[0.5, 2.0, 8.0])
+        force = mbd.Excitation(place=self.body, amplitude=3.0, phase=math.pi / 2)
+        response = self.sim.response([force], [mbd.ResponseOutput(place=self.body), mbd.ResponseOutput(
+            kind=mbd.RESPONSE_ACCELERATION, place=self.body)], frequencies=[0.5, 2.0, 8.0])
         self.assertEqual(response.shape, (3, 1, 2))
         self.assertEqual(list(response.frequencies), [0.5, 2.0, 8.0])
         for f, x, a, all_a in zip(response.frequencies, response.transfer(0, 0), response.transfer(0, 1),
@@ -376,7 +376,7 @@ class ResponseTest(unittest.TestCase):
             self.assertAlmostEqual(all_a, 1.5j)
 
     def test_grid_and_table(self):
-        response = self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], points=5,
+        response = self.sim.response([mbd.Excitation(place=self.body)], [mbd.ResponseOutput(place=self.body)], points=5,
                                      frequency_low=1.0, frequency_high=16.0, logarithmic=1)
         for got, want in zip(response.frequencies, (1, 2, 4, 8, 16)):
             self.assertAlmostEqual(got, want)
@@ -391,10 +391,10 @@ class ResponseTest(unittest.TestCase):
     def test_stepped_sine(self):
         model = mbd.Model()
         body = model.add_body(mass=2.0, free_mask=mbd.FREE_X)
-        shake = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
-        model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, programme=shake)
+        shake = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
+        model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, time_function=shake)
         model.compile()
-        (amplitudes,), report = model.sim().stepped_sine(5.0, [mbd.Output(kind=mbd.OUTPUT_ACCELERATION, place=body)],
+        (amplitudes,), report = model.sim().stepped_sine(5.0, [mbd.ResponseOutput(kind=mbd.RESPONSE_ACCELERATION, place=body)],
                                                  harmonics=2)
         self.assertEqual((report.status, report.settled, report.windows), (mbd.OK, 1, 3))
         self.assertAlmostEqual(amplitudes[0], 0.0)
@@ -403,8 +403,8 @@ class ResponseTest(unittest.TestCase):
 
     def test_speeds(self):
         """m r w^2 / (m w^2) = r: the same at every speed, above a limit and below another."""
-        order = mbd.Order(input=mbd.Input(kind=mbd.INPUT_UNBALANCE, place=self.body, amplitude=1e-3))
-        output = mbd.Output(place=self.body)
+        order = mbd.Order(excitation=mbd.Excitation(kind=mbd.EXCITATION_UNBALANCE, place=self.body, amplitude=1e-3))
+        output = mbd.ResponseOutput(place=self.body)
         bands, severity = self.sim.speeds([order], [output], [4e-4], speed_low=5.0, speed_high=20.0, points=7)
         self.assertEqual(len(bands), 1)
         self.assertEqual((bands.status, bands.report.truncated, bands[0].truncated), (mbd.NOTE_INCOMPLETE, 3, 3))
@@ -416,7 +416,7 @@ class ResponseTest(unittest.TestCase):
 
     def test_refusal_says_why(self):
         with self.assertRaises(mbd.Error) as caught:
-            self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])
+            self.sim.response([mbd.Excitation(place=self.body)], [mbd.ResponseOutput(place=self.body)], frequencies=[0.0])
         self.assertEqual(caught.exception.name, "DMB_ERR_SINGULAR")
         self.assertIn("body 0", caught.exception.message)
 
@@ -479,11 +479,11 @@ class WholeModelTest(unittest.TestCase):
             model.add_pipes(2, mbd.PipeDef(string=string, joint_length=0.1, eccentricity=1e-3))
             model.add_body(attach=mbd.ATTACH_START, string=string, mass=30.0)
             body = model.add_body(mass=2.0, position=(5, 0, 0))
-            load = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=1.0, omega=30.0), 0.5,
-                                       mbd.Term(table=[(0, 0), (0.01, 1)]))
+            load = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_HARMONIC, h1=1.0, omega=30.0), 0.5,
+                                       mbd.Segment(table=[(0, 0), (0.01, 1)]))
             bit = model.add_bit(rock_law=mbd.ROCK_RATE, load=load)
-            model.add_load(place=mbd.station(body), force=(10, 0, 0), programme=load)
-            model.add_drive(kind=mbd.DRIVE_LOAD, part=body, programme=load, excitation=load)
+            model.add_load(place=mbd.station(body), force=(10, 0, 0), time_function=load)
+            model.add_drive(kind=mbd.DRIVE_LOAD, part=body, time_function=load, excitation=load)
             self.assertEqual(model.compile(features=mbd.FEATURE_ALL & ~mbd.FEATURE_DAMPING), mbd.OK)
             with model.sim(spectral_radius=0.9, energy_ledger=0) as sim:
                 for _ in range(20):
@@ -512,7 +512,7 @@ class WholeModelTest(unittest.TestCase):
             string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
             model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
             push = model.add_load(place=mbd.station(string, 9, 1.0), force=(-1.0, 0.0, 0.0),
-                                  programme=model.add_programme(0.0))
+                                  time_function=model.add_time_function(0.0))
             model.compile()
             with model.sim() as sim:
                 sim.static()
@@ -530,7 +530,7 @@ class WholeModelTest(unittest.TestCase):
             string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
             model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
             tip = mbd.station(string, 9, 1.0)
-            push = model.add_load(place=tip, force=(-1.0, 0.0, 0.0), programme=model.add_programme(0.0))
+            push = model.add_load(place=tip, force=(-1.0, 0.0, 0.0), time_function=model.add_time_function(0.0))
             model.compile()
             with model.sim() as sim:
                 sim.static()
@@ -671,8 +671,8 @@ class JointTest(unittest.TestCase):
         elbow = model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=upper, place_b=lower, origin_a=(0.5, 0, 0),
                                 axis_a=(0, 1, 0), match=1)
         model.add_coupling(joint=(hinge, elbow), ratio=-2.0)
-        drive = model.add_drive(part=hinge, component=mbd.RX, programme=model.add_programme(mbd.Term(
-            kind=mbd.TERM_STEP5, x1=0.1, h1=1.0)))
+        drive = model.add_drive(part=hinge, component=mbd.RX, time_function=model.add_time_function(mbd.Segment(
+            kind=mbd.SEGMENT_STEP5, x1=0.1, h1=1.0)))
         model.compile()
         with model.sim() as sim:
             for _ in range(200):
@@ -797,10 +797,10 @@ class ErrorTest(unittest.TestCase):
 
 
 class CallbackTest(unittest.TestCase):
-    def build(self, *terms):
+    def build(self, *segments):
         model = mbd.Model()
         string = model.add_pipes(2)
-        drive = model.add_drive(part=string, programme=model.add_programme(*terms))
+        drive = model.add_drive(part=string, time_function=model.add_time_function(*segments))
         model.compile()
         return model, drive
 
@@ -811,7 +811,7 @@ class CallbackTest(unittest.TestCase):
             self.assertAlmostEqual(sim.drive(drive).speed, 0.02)
 
     def test_with_rate_and_integral(self):
-        term = mbd.Term(function=lambda t: (t, 1.0, 0.5 * t * t),
+        term = mbd.Segment(function=lambda t: (t, 1.0, 0.5 * t * t),
                         provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)
         model, drive = self.build(term)
         with model.sim() as sim:
@@ -820,12 +820,12 @@ class CallbackTest(unittest.TestCase):
             self.assertAlmostEqual(sim.drive(drive).position, 0.005, places=9)
 
     def test_exception_stops_the_step_and_comes_out(self):
-        def programme(time):
+        def time_function(time):
             if time > 0.0045:
                 raise ZeroDivisionError("on purpose")
             return 1.0
 
-        model, _ = self.build(programme)
+        model, _ = self.build(time_function)
         with model.sim() as sim:
             for _ in range(4):
                 sim.step(1e-3)
@@ -841,12 +841,12 @@ class CallbackTest(unittest.TestCase):
                 self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
 
     def test_keyboard_interrupt_is_not_wrapped(self):
-        def programme(time):
+        def time_function(time):
             if time > 0.0005:
                 raise KeyboardInterrupt
             return 0.0
 
-        model, _ = self.build(programme)
+        model, _ = self.build(time_function)
         with model.sim() as sim, self.assertRaises(KeyboardInterrupt):
             sim.step(1e-3)
 
@@ -1004,7 +1004,7 @@ class LifetimeTest(unittest.TestCase):
     def test_callback_lives_as_long_as_the_sim(self):
         def build():
             model = mbd.Model()
-            drive = model.add_drive(part=model.add_pipes(1), programme=model.add_programme(lambda time: 0.1))
+            drive = model.add_drive(part=model.add_pipes(1), time_function=model.add_time_function(lambda time: 0.1))
             model.compile()
             return model.sim(), drive
 
@@ -1022,7 +1022,7 @@ class LifetimeTest(unittest.TestCase):
         function = Function()
         watched = weakref.ref(function)
         model = mbd.Model()
-        model.add_drive(part=model.add_pipes(1), programme=model.add_programme(function))
+        model.add_drive(part=model.add_pipes(1), time_function=model.add_time_function(function))
         model.compile()
         sims = [model.sim(), model.sim()]
         del function, model
@@ -1044,7 +1044,7 @@ class LifetimeTest(unittest.TestCase):
 
     def test_recorder_keeps_its_sim(self):
         rig = Rig(2)
-        recorder = rig.model.sim().recorder([(rig.tip, mbd.CHANNEL_POSITION_X)], capacity=2)
+        recorder = rig.model.sim().recorder([(rig.tip, mbd.OUTPUT_POSITION_X)], capacity=2)
         del rig
         gc.collect()
         self.assertEqual(recorder.take(), mbd.OK)

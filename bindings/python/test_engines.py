@@ -22,7 +22,7 @@ import h5py
 import numpy as np
 
 from drillmbd.probability import engines
-from drillmbd.probability.points import Points
+from drillmbd.probability.sampling import Points
 from drillmbd.probability.sample import DONE, FAILED, Result, SceneSample
 from drillmbd.probability.study import Study, StudyError, StudyFile, differences, read_rows
 
@@ -32,17 +32,17 @@ SCENE = """title = "short rig"
 [hole]
 diameter = "94 mm"
 """ + SHORT_STRING + """load = "rock"
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-[[programme]]
+segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+[[time_function]]
 name = "rock"
-term = {kind = "step", x1 = "20 ms", h1 = "2 kN"}
+segment = {kind = "step", x1 = "20 ms", h1 = "2 kN"}
 """ + DRIVES + """[run]
 end = "30 ms"
 step = "1 ms"
 static = true
-[output]
+[results]
 interval = "2 ms"
 [variability]
 seed = 7
@@ -63,7 +63,7 @@ high = "2 mm"
 correlation_length = "3 m"
 [[variability.process]]
 name = "rock load"
-programme = "rock"
+time_function = "rock"
 distribution = "gamma"
 mean = 1
 deviation = 0.2

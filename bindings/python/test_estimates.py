@@ -17,7 +17,7 @@ from scipy.stats import norm
 
 from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, effective, form, plan, sampled, sobol_indices
 from drillmbd.probability.fields import Markov
-from drillmbd.probability.points import Points, drawn
+from drillmbd.probability.sampling import Points, drawn
 
 REPEATS = 100 if "--whole" in sys.argv else 10
 ALLOWED = {100: 5, 10: 1}[REPEATS]  #: that may lie outside, of intervals of 99 %

@@ -14,7 +14,7 @@ from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 needs("numpy")
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import INPUT_SETTING, OUTPUT_CHANNEL, Input, Output, fmu, scene  # noqa: E402
+from drillmbd import EXCITATION_SETTING, RESPONSE_OUTPUT, Excitation, ResponseOutput, fmu, scene  # noqa: E402
 from test_scene import EVERYTHING, SCENES  # noqa: E402
 
 try:
@@ -27,23 +27,23 @@ SCENE = """title = "short rig <3 & more>"
 survey = [["0 m", "90 deg", "0 deg"], ["5 m", "88 deg", "1 deg"], ["20 m", "86 deg", "2 deg"]]
 diameter = "94 mm"
 """ + SHORT_STRING + """load = "push"
-[[programme]]
+[[time_function]]
 name = "push"
-term = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}
-[[programme]]
+segment = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}
+[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-[[programme]]
+segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+[[time_function]]
 name = "gear"
-term = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
+segment = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
 [[drive]]
 name = "feed"
-programme = "0 m/s"
+time_function = "0 m/s"
 [[drive]]
 name = "head"
 kind = "control"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 excitation = "gear"
 gain = "500 N m s"
 [[spring]]
@@ -65,14 +65,14 @@ high = 3
 end = "100 ms"
 step = "1 ms"
 static = true
-[[channel]]
+[[output]]
 name = "torque [N m]"
 quantity = "drive-force"
 place = "head"
-[[channel]]
+[[output]]
 name = "bit speed"
 quantity = "bit-speed"
-[[channel]]
+[[output]]
 name = "wall force"
 quantity = "contacts-normal-force"
 """
@@ -97,11 +97,11 @@ part = "pull"
 name = "weight"
 target = "bit-load"
 part = "bit"
-[[channel]]
+[[output]]
 name = "head speed"
 quantity = "drive-speed"
 place = "head"
-""" + "".join(f"""[[channel]]
+""" + "".join(f"""[[output]]
 name = "{quantity}"
 quantity = "{quantity}"
 place = {{part = "main", pipe = 4, fraction = 0.3}}
@@ -193,7 +193,7 @@ class Fmu(FolderTest):
             sim.inputs["friction"] = 1.25
             sim.static()
             for step in range(20):
-                want = [sim.channel(quantity, place) for _, place, quantity in loaded.channels]
+                want = [sim.output(quantity, place) for _, place, quantity in loaded.outputs]
                 self.assertEqual(unit.get(200000, 200001, 200002), want)
                 unit.set(100000, 5.0 + step)
                 sim.inputs["speed"] = 5.0 + step
@@ -244,11 +244,11 @@ class Fmu(FolderTest):
             sim.inputs["friction"] = 2.0
             sim.static()
             sim.inputs["speed"] = 10.0
-            self.assertEqual(unit.get(200000, 200001), [sim.channel(q, place) for _, place, q in loaded.channels[:2]])
+            self.assertEqual(unit.get(200000, 200001), [sim.output(q, place) for _, place, q in loaded.outputs[:2]])
             self.assertEqual(unit.get(200000), [5000.0])  # gain times speed
             unit.step(0.0, 1e-3)
             sim.step(1e-3)
-            self.assertEqual(unit.get(200000, 200001), [sim.channel(q, place) for _, place, q in loaded.channels[:2]])
+            self.assertEqual(unit.get(200000, 200001), [sim.output(q, place) for _, place, q in loaded.outputs[:2]])
         unit.close()
 
     def test_description3(self):
@@ -287,7 +287,7 @@ class Fmu(FolderTest):
         loaded, root, folder = self.unpacked(3, MOVED)
         free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
                 if one.get("dependencies") == ""}
-        outputs = [200000 + number for number in range(len(loaded.channels))]
+        outputs = [200000 + number for number in range(len(loaded.outputs))]
         inputs = [100000 + number for number in range(len(loaded.model.inputs()))]
         self.assertEqual(len(free), len(outputs) - 4)  # not of forces and accelerations
         unit = Unit3(folder, root.get("instantiationToken"), "rig3")
@@ -320,7 +320,7 @@ class Fmu(FolderTest):
         unit.begin()
         names = list(loaded.model.inputs())
         at = {name: 100000 + names.index(name) for name in ("speed", "pull factor", "weight")}
-        outputs = [200000 + number for number in range(len(loaded.channels))]
+        outputs = [200000 + number for number in range(len(loaded.outputs))]
         found = {name: unit.derivative(outputs, [reference], [1.0]) for name, reference in at.items()}
         free = {int(one.get("valueReference")) for one in root.find("ModelStructure").findall("Output")
                 if one.get("dependencies") == ""}
@@ -331,9 +331,9 @@ class Fmu(FolderTest):
         self.assertLess(max(map(abs, limited)), 1e-20)  # what has a rate limit does not jump
         with loaded.new_sim() as sim:
             sim.static()
-            inputs = [Input(kind=INPUT_SETTING, place=mbd.station(loaded.model.inputs()[name].input)) for name in at]
+            inputs = [Excitation(kind=EXCITATION_SETTING, place=mbd.station(loaded.model.inputs()[name].input)) for name in at]
             asked = [0, len(outputs) - 1]  # torque of the head, acceleration
-            D = sim.state_space(inputs, [Output(kind=OUTPUT_CHANNEL, component=loaded.channels[i][2], place=loaded.channels[i][1])
+            D = sim.state_space(inputs, [ResponseOutput(kind=RESPONSE_OUTPUT, component=loaded.outputs[i][2], place=loaded.outputs[i][1])
                                          for i in asked]).D
         self.assertGreater(abs(D[1]).min(), 1e-9)
         for column, name in enumerate(at):
@@ -394,10 +394,10 @@ class Fmu(FolderTest):
         for unit, want in (("kg m2/s", {"kg": 1, "m": 2, "s": -1}), ("N s/m2", {"kg": 1, "m": -1, "s": -1}), ("-", {}),
                            ("N m s", {"kg": 1, "m": 2, "s": -1}), ("1/m", {"m": -1}), ("Pa", {"kg": 1, "m": -1, "s": -2})):
             self.assertEqual(fmu.base_exponents(unit), want, unit)
-        from drillmbd.channels import channel_numbers, channel_unit
-        for number in channel_numbers():
-            if " or " not in channel_unit(number) and not channel_unit(number).startswith("unit of"):
-                fmu.base_exponents(channel_unit(number))
+        from drillmbd.outputs import output_numbers, output_unit
+        for number in output_numbers():
+            if " or " not in output_unit(number) and not output_unit(number).startswith("unit of"):
+                fmu.base_exponents(output_unit(number))
 
     def test_the_same_bytes_each_time(self):
         first, second = self.folder / "rig.fmu", self.folder / "b" / "rig.fmu"
@@ -408,7 +408,7 @@ class Fmu(FolderTest):
 
     def test_refused(self):
         loaded = scene.loads(SCENE)
-        bare = scene.loads(SCENE.split("[[channel]]")[0])
+        bare = scene.loads(SCENE.split("[[output]]")[0])
         for text, given, version in (("no outputs", bare, 3), ("must be 2 or 3", loaded, 4)):
             with self.assertRaisesRegex(fmu.CannotExport, text):
                 fmu.export(given, self.folder / "no.fmu", version)
@@ -429,9 +429,9 @@ class Fmu(FolderTest):
         import drillmbd as mbd
         model = mbd.Model()
         string = model.add_pipes(2)
-        model.add_drive(programme=model.add_programme(lambda time: 0.0))
+        model.add_drive(time_function=model.add_time_function(lambda time: 0.0))
         model.compile()
-        given = scene.Scene(title="", model=model, names={}, pipes={}, channels=[("speed", mbd.station(string), mbd.CHANNEL_SPIN)])
+        given = scene.Scene(title="", model=model, names={}, pipes={}, outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
         with self.assertRaisesRegex(fmu.CannotExport, "function of Python"):
             fmu.export(given, self.folder / "no.fmu")
 
@@ -447,7 +447,7 @@ class Fmu(FolderTest):
         string = model.add_pipes(2)
         model.set_name(string, "rods")
         model.compile()
-        given = scene.Scene(title="", model=model, names={}, pipes={}, channels=[("speed", mbd.station(string), mbd.CHANNEL_SPIN)])
+        given = scene.Scene(title="", model=model, names={}, pipes={}, outputs=[("speed", mbd.station(string), mbd.OUTPUT_SPIN)])
         fmu.export(given, self.folder / "named.fmu")
         with zipfile.ZipFile(self.folder / "named.fmu") as archive:
             archive.extractall(self.folder / "named")
@@ -464,7 +464,7 @@ class Fmu(FolderTest):
         self.assertTrue(zipfile.is_zipfile(target))
         self.ask("fmu", str(self.scene), "--version", "2", "-q")
         self.assertTrue((self.folder / "rig.fmu").exists())
-        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[channel]]")[0])), status=2))
+        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[output]]")[0])), status=2))
         self.ask("fmu", str(self.scene), "-o", str(self.folder / "nowhere" / "x.fmu"), status=3)
         help_text = subprocess.run([*COMMAND, "fmu", "--help"], env=ENVIRONMENT, capture_output=True, text=True, check=True).stdout
         self.assertIn("drillmbd fmu rig.toml -o rig.fmu", help_text)

@@ -88,7 +88,7 @@ class GuideTest(unittest.TestCase):
         model.compile()
         with model.sim() as sim:
             sim.static()
-            on_the_wall = sum(sim.contact(site).normal_force for site in range(model.info().contact_sites)
+            on_the_wall = sum(sim.contact(site).normal_force for site in range(model.info().contact_points)
                               if sim.contact(site).part == string)
             below_the_bit = sim.contact_total().normal_force - on_the_wall
         self.assertAlmostEqual(on_the_wall, 8186.0, delta=1.0)  # "leave 8.2 kN to it"

@@ -29,7 +29,7 @@ start_free = ["x", "y", "z", "rx", "ry", "rz"]
 velocity = VELOCITY
 [[string.pipes]]
 kind = "rigid"
-[[ring]]
+[[stabiliser]]
 name = "collar"
 mass = "6 kg"
 outer_diameter = "100 mm"
@@ -94,11 +94,11 @@ contact_strength = 0
 [[drive]]
 name = "feed"
 component = "x"
-programme = "1 m/s"
+time_function = "1 m/s"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "10 rad/s"
+time_function = "10 rad/s"
 """
 
 
@@ -171,7 +171,7 @@ class MotorPressureTest(TwoWays):
         self.near(line.mud_pressure, 2.0 * math.pi / (self.EFFICIENCY * self.DISPLACEMENT))
         self.near(speed, 2.0 * math.pi * self.FLOW / self.DISPLACEMENT)
         keys = (f'kind = "control"\ncomponent = "rx"\ngain = "{line.gain!r} N m s"\nlimit_low = 0\n'
-                f'limit_high = "{line.limit_high!r} N m"\nprogramme = "{speed!r} rad/s"\nmud_pressure = "{line.mud_pressure!r} Pa/(N m)"\n')
+                f'limit_high = "{line.limit_high!r} N m"\ntime_function = "{speed!r} rad/s"\nmud_pressure = "{line.mud_pressure!r} Pa/(N m)"\n')
         motor = next(one for one in MOTOR.splitlines() if one.startswith("motor"))
         ends = []
         for text in (MOTOR, MOTOR.replace(motor, keys)):

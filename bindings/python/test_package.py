@@ -33,7 +33,7 @@ def there(*names):
 
 
 def ramp(time):
-    """A programme that pickles: a function of a module."""
+    """A time function that pickles: a function of a module."""
     return 0.05 * min(time / 0.02, 1.0)
 
 
@@ -46,14 +46,14 @@ def full_model():
     model.add_pipes(2, string=string, kind=mbd.PIPE_RIGID)
     model.add_pipes(2, mbd.PipeDef(string=string, joint_length=0.1, eccentricity=1e-3))
     body = model.add_body(mass=2.0, position=(5, 0, 0.5))
-    load = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=1.0, omega=30.0), 0.5,
-                               mbd.Term(table=([0.0, 0.01], [0.0, 1.0])))
+    load = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_HARMONIC, h1=1.0, omega=30.0), 0.5,
+                               mbd.Segment(table=([0.0, 0.01], [0.0, 1.0])))
     model.add_bit(rock_law=mbd.ROCK_RATE, load=load)
-    model.add_load(place=mbd.station(body), force=(10, 0, 0), programme=load)
+    model.add_load(place=mbd.station(body), force=(10, 0, 0), time_function=load)
     hinge = model.add_joint(kind=mbd.JOINT_REVOLUTE, name="hinge", place_b=body, origin_a=(5, 0, 1), axis_a=(0, 1, 0),
                             match=1)
-    model.add_drive(part=hinge, component=mbd.RX, kind=mbd.DRIVE_LOAD, programme=load)
-    feed = model.add_drive(programme=model.add_programme(ramp))
+    model.add_drive(part=hinge, component=mbd.RX, kind=mbd.DRIVE_LOAD, time_function=load)
+    feed = model.add_drive(time_function=model.add_time_function(ramp))
     model.compile(features=mbd.FEATURE_ALL & ~mbd.FEATURE_EXCITATION)
     return model, string, feed
 
@@ -82,7 +82,7 @@ class NamesTest(unittest.TestCase):
                 self.assertTrue(value.__doc__, name)
 
     def test_each_name_has_a_docstring(self):
-        """Constants by their own sentence where the headers have one, channels by their unit, structs by what they are for,
+        """Constants by their own sentence where the headers have one, outputs by their unit, structs by what they are for,
         each public method and property of all classes."""
         for name in mbd.__all__:
             self.assertTrue(getattr(mbd, name).__doc__, name)
@@ -92,9 +92,9 @@ class NamesTest(unittest.TestCase):
                     if not member.startswith("_") and (inspect.isfunction(static) or isinstance(static, property)):
                         self.assertTrue(inspect.getdoc(static), f"{name}.{member}")
         self.assertEqual(mbd.FRICTION_BRISTLE.__doc__, "elastic bristle that sticks; breaks away at mu_static, one step late (order 1)")
-        self.assertTrue(mbd.CHANNEL_VELOCITY_X.__doc__.startswith("[m/s]"))
+        self.assertTrue(mbd.OUTPUT_VELOCITY_X.__doc__.startswith("[m/s]"))
         self.assertIn("STRIBECK: mu_d", mbd.FrictionLaw.__doc__)
-        self.assertIn("output (Channel)", mbd.EventDef.__doc__)
+        self.assertIn("output (Output)", mbd.EventDef.__doc__)
         self.assertIn("dmb_model_add_pipes", mbd.PipeDef.__doc__)
         self.assertNotIn("reserved", mbd.DriveDef.__doc__)
         self.assertNotIn("reserved", repr(mbd.DriveDef()))
@@ -110,7 +110,7 @@ class NamesTest(unittest.TestCase):
         self.assertIs(mbd.JOINT_REVOLUTE, mbd.JointKind.REVOLUTE)
         self.assertEqual(mbd.FREE_X | mbd.FREE_RX, mbd.FREE_CYLINDRICAL)
         self.assertEqual(mbd.Status(-5), mbd.ERR_VALUE)
-        self.assertEqual(mbd.Quantity.BIT_WEIGHT, mbd.CHANNEL_BIT_WEIGHT)
+        self.assertEqual(mbd.Quantity.BIT_WEIGHT, mbd.OUTPUT_BIT_WEIGHT)
 
     def test_names_before_they_were_changed(self):
         for old, new in mbd._OLD_NAMES.items():
@@ -194,24 +194,24 @@ class ErrorPartsTest(unittest.TestCase):
 
 class DescriptionTest(unittest.TestCase):
     def test_structs_copy_compare_and_pickle(self):
-        for made in (mbd.PipeDef(length=2.0, curvature=(1, 2, 3)), mbd.Term(table=[(0, 1), (2, 5)]),
-                     mbd.WallDef(stations=[(0, 1.5, 0), (30, 1.6, 0.1)]), mbd.Term(function=ramp),
+        for made in (mbd.PipeDef(length=2.0, curvature=(1, 2, 3)), mbd.Segment(table=[(0, 1), (2, 5)]),
+                     mbd.WallDef(stations=[(0, 1.5, 0), (30, 1.6, 0.1)]), mbd.Segment(function=ramp),
                      mbd.JointDef(name="hinge"), mbd.station(mbd.Id(1, 2), 3, 0.5), mbd.Id(3, 4)):
             for other in (copy.copy(made), copy.deepcopy(made), pickle.loads(pickle.dumps(made))):
                 self.assertEqual(other, made)
         self.assertNotEqual(mbd.PipeDef(), mbd.PipeDef(length=2.0))
-        self.assertNotEqual(mbd.Term(table=[(0, 1), (2, 5)]), mbd.Term(table=[(0, 1), (2, 6)]))
+        self.assertNotEqual(mbd.Segment(table=[(0, 1), (2, 5)]), mbd.Segment(table=[(0, 1), (2, 6)]))
 
     def test_table_as_pairs_or_columns(self):
-        pairs = mbd.Term(table=[(0, 1), (2, 5)])
-        self.assertEqual(mbd.Term(table=([0, 2], [1, 5])), pairs)
-        self.assertEqual(mbd.Term(table=((0, 1), (2, 5))), pairs)
+        pairs = mbd.Segment(table=[(0, 1), (2, 5)])
+        self.assertEqual(mbd.Segment(table=([0, 2], [1, 5])), pairs)
+        self.assertEqual(mbd.Segment(table=((0, 1), (2, 5))), pairs)
         if mbd.numpy is not None:
             times, values = mbd.numpy.array([0.0, 2.0]), mbd.numpy.array([1.0, 5.0])
-            self.assertEqual(mbd.Term(table=(times, values)), pairs)
-            self.assertEqual(mbd.Term(table=mbd.numpy.array([[0.0, 1.0], [2.0, 5.0]])), pairs)
+            self.assertEqual(mbd.Segment(table=(times, values)), pairs)
+            self.assertEqual(mbd.Segment(table=mbd.numpy.array([[0.0, 1.0], [2.0, 5.0]])), pairs)
         with self.assertRaises(ValueError):
-            mbd.Term(table=([0, 1, 2], [1, 5]))
+            mbd.Segment(table=([0, 1, 2], [1, 5]))
 
     def test_models_copy_and_pickle(self):
         model, string, feed = full_model()
@@ -234,8 +234,8 @@ class DescriptionTest(unittest.TestCase):
         string = model.add_pipes(5, name="drill pipe")
         model.add_pipes(2, name="collars", outer_diameter=0.12)
         head = model.add_body(name="rotary head")
-        turn = model.add_programme(12.0)
-        rotation = model.add_drive(part=string, component=mbd.RX, programme=turn, name="rotation")
+        turn = model.add_time_function(12.0)
+        rotation = model.add_drive(part=string, component=mbd.RX, time_function=turn, name="rotation")
         setting = model.add_input(name="rotation", part=rotation, rate_limit=1.0)
         model.set_name(string, "main")
         model.set_name(turn, "12 rad/s")
@@ -265,7 +265,7 @@ class DescriptionTest(unittest.TestCase):
 
     def test_lambda_does_not_pickle(self):
         model = mbd.Model()
-        model.add_programme(lambda time: time)
+        model.add_time_function(lambda time: time)
         with self.assertRaises((pickle.PicklingError, AttributeError)):
             pickle.dumps(model)
 
@@ -279,7 +279,7 @@ class RunTest(unittest.TestCase):
     def setUp(self):
         self.model = mbd.Model()
         self.string = self.model.add_pipes(3)
-        self.model.add_drive(programme=self.model.add_programme(0.01))
+        self.model.add_drive(time_function=self.model.add_time_function(0.01))
         self.model.compile()
         self.sim = self.model.sim()
 
@@ -350,13 +350,13 @@ class RunTest(unittest.TestCase):
         self.assertEqual(hashes, hashes[:1] * 3)
 
     def test_recorder_in_a_run(self):
-        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X, "rig end [m]")], capacity=100)
+        recorder = self.sim.recorder([(self.string, mbd.OUTPUT_POSITION_X, "rig end [m]")], capacity=100)
         self.sim.run(0.01, step=1e-3, recorder=recorder)
         self.assertEqual(len(recorder), 11)
         self.assertEqual(recorder.columns, ["time [s]", "rig end [m]"])
 
     def test_interrupt_leaves_what_is_done(self):
-        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X)], capacity=10 ** 6)
+        recorder = self.sim.recorder([(self.string, mbd.OUTPUT_POSITION_X)], capacity=10 ** 6)
         threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
             self.sim.run(1e3, step=1e-3, recorder=recorder)
@@ -369,7 +369,7 @@ class RunTest(unittest.TestCase):
         """Ctrl-C as a Python function begins was lost: the step failed with ERR_CALLBACK, or went on."""
         model = mbd.Model()
         body = model.add_body(mass=1.0)
-        model.add_load(place=body, force=(1, 0, 0), programme=model.add_programme(*[lambda time: 0.1] * 20))
+        model.add_load(place=body, force=(1, 0, 0), time_function=model.add_time_function(*[lambda time: 0.1] * 20))
         model.compile()
         for _ in range(15):
             with model.sim(energy_ledger=0) as sim:
@@ -385,7 +385,7 @@ class RunTest(unittest.TestCase):
 
     @there("numpy")
     def test_table_shares_memory(self):
-        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X)], capacity=5)
+        recorder = self.sim.recorder([(self.string, mbd.OUTPUT_POSITION_X)], capacity=5)
         recorder.take()
         table = recorder.table
         self.assertTrue(mbd.numpy.shares_memory(table, recorder._memory))
@@ -437,31 +437,31 @@ class ArraysTest(unittest.TestCase):
         for _ in range(20):
             self.assertEqual(made.step(1e-3).steps, 1)
         place = mbd.station(strings[-1], 2, 1.0)
-        values, derivatives = made.channels([(place, "position_z"), (place, "velocity_z")])
+        values, derivatives = made.outputs([(place, "position_z"), (place, "velocity_z")])
         for damping in (4.99, 5.01):
             sim = describe(damping).sim()
             for _ in range(20):
                 sim.step(1e-3)
-            runs.append(sim.channel("velocity_z", mbd.station(strings[-1], 2, 1.0)))
+            runs.append(sim.output("velocity_z", mbd.station(strings[-1], 2, 1.0)))
         self.assertAlmostEqual(derivatives[1][0], (runs[1] - runs[0]) / 0.02, delta=1e-6 * abs(derivatives[1][0]) + 1e-12)
         pose, velocity = made.rows("damping")
         self.assertEqual(len(pose), len(velocity))
         self.assertEqual(made.kinks("damping"), 0)
         made.advance(0.03)
         with self.assertRaises(mbd.Error):
-            made.channels([(place, "energy_error")])
+            made.outputs([(place, "energy_error")])
 
-    def test_channels(self):
-        names = mbd.channel_names()
+    def test_outputs(self):
+        names = mbd.output_names()
         self.assertIn("hook_load", names)
-        self.assertEqual(mbd.channel_unit(mbd.channel_quantity("bit_speed")), "rad/s")
-        self.assertEqual(self.sim.channel("axial_force", self.places[4]), self.sim.section(self.places[4]).force[0])
-        self.assertEqual(self.sim.channel("hook_load"), self.sim.section(mbd.station(self.string, 0, 0.0)).force[0])
+        self.assertEqual(mbd.output_unit(mbd.output_quantity("bit_speed")), "rad/s")
+        self.assertEqual(self.sim.output("axial_force", self.places[4]), self.sim.section(self.places[4]).force[0])
+        self.assertEqual(self.sim.output("hook_load"), self.sim.section(mbd.station(self.string, 0, 0.0)).force[0])
         with self.assertRaises(mbd.Error) as raised:
-            self.sim.channel("joint_action_x", self.string)
+            self.sim.output("joint_action_x", self.string)
         self.assertIn("must be a joint", str(raised.exception))
         with self.assertRaises(ValueError):
-            mbd.channel_quantity("hookload")
+            mbd.output_quantity("hookload")
         window = self.sim.window([(None, "bit_speed")], length=1.0, levels=[0.1])
         recorder = self.sim.recorder([(0, "stick_slip_index"), (None, "stretch")], 4, window=window)
         rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_TORQUE], 5, 3)
@@ -486,13 +486,13 @@ class ArraysTest(unittest.TestCase):
         string = model.add_string(start_free=mbd.FREE_CYLINDRICAL)
         model.add_pipes(8, string=string, damping_time=1e-3)
         feed = model.add_drive(part=string, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6,
-                               programme=model.add_programme(mbd.Term()))
-        model.add_drive(part=string, component=mbd.RX, programme=model.add_programme(mbd.Term()))
+                               time_function=model.add_time_function(mbd.Segment()))
+        model.add_drive(part=string, component=mbd.RX, time_function=model.add_time_function(mbd.Segment()))
         model.compile()
         sim = mbd.Sim(model)
-        inputs = [mbd.Input(kind=mbd.INPUT_DRIVE, place=mbd.station(feed))]
-        outputs = [mbd.Output(kind=mbd.OUTPUT_DISPLACEMENT, place=mbd.station(string, 7, 1.0), component=mbd.X),
-                   mbd.Output(kind=mbd.OUTPUT_CHANNEL, place=mbd.station(string), component=mbd.CHANNEL_HOOK_LOAD)]
+        inputs = [mbd.Excitation(kind=mbd.EXCITATION_DRIVE, place=mbd.station(feed))]
+        outputs = [mbd.ResponseOutput(kind=mbd.RESPONSE_DISPLACEMENT, place=mbd.station(string, 7, 1.0), component=mbd.X),
+                   mbd.ResponseOutput(kind=mbd.RESPONSE_OUTPUT, place=mbd.station(string), component=mbd.OUTPUT_HOOK_LOAD)]
         full = sim.state_space(inputs, outputs)
         A, B, C, D = full.matrices
         self.assertEqual(full.info.states, len(A))
@@ -515,14 +515,14 @@ class ArraysTest(unittest.TestCase):
         moving.set_environment(gravity=(0.0, 0.0, 0.0))
         other = moving.add_string(start_free=mbd.FREE_CYLINDRICAL)
         moving.add_pipes(8, string=other, damping_time=1e-3)
-        moving.add_drive(part=other, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6, programme=moving.add_programme(
-            mbd.Term(table=([0.0, rise], [0.0, 1e-4]))))
-        moving.add_drive(part=other, component=mbd.RX, programme=moving.add_programme(mbd.Term()))
+        moving.add_drive(part=other, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6, time_function=moving.add_time_function(
+            mbd.Segment(table=([0.0, rise], [0.0, 1e-4]))))
+        moving.add_drive(part=other, component=mbd.RX, time_function=moving.add_time_function(mbd.Segment()))
         moving.compile()
         run = mbd.Sim(moving)
         for _ in range(n * 4):
             run.step(h / 4)
-        want = run.channel("position_x", mbd.station(other, 7, 1.0)) - 8.0
+        want = run.output("position_x", mbd.station(other, 7, 1.0)) - 8.0
         self.assertLess(abs(1e-4 * (C @ x)[0] - want), 2e-3 * abs(want))
         # sparse: the lowest frequency of R' K R, R' M R is that of the modes
         M, K, R = full.M, full.K, full.R
@@ -616,7 +616,7 @@ class ArraysTest(unittest.TestCase):
         along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 4)
         self.assertEqual(list(along.frame().columns), ["depth [m]", "axial force [N]", "torque [N m]", "wall force [N/m]"])
         self.assertEqual(along.frame()["depth [m]"].tolist(), along["depth"])
-        bands, severity = self.sim.speeds([mbd.Order()], [mbd.output(self.places[4], mbd.Z)], [1e-9], points=20,
+        bands, severity = self.sim.speeds([mbd.Order()], [mbd.response_output(self.places[4], mbd.Z)], [1e-9], points=20,
                                           speed_low=2.0, speed_high=40.0, contact=mbd.CONTACT_OPEN)
         self.assertEqual((bands.speeds[0], bands.speeds[-1], len(bands.speeds)), (2.0, 40.0, 20))
         self.assertEqual(bands.severity_frame()["severity [-]"].tolist(), severity)
@@ -627,7 +627,7 @@ class ArraysTest(unittest.TestCase):
         frame = self.sim.profile(self.string, 10).frame()
         self.assertEqual(frame.shape[0], 21)
         self.assertIn("axial force [N]", frame.columns)
-        recorder = self.model.sim().recorder([(self.places[9], mbd.CHANNEL_POSITION_Z)], capacity=4)
+        recorder = self.model.sim().recorder([(self.places[9], mbd.OUTPUT_POSITION_Z)], capacity=4)
         recorder.take()
         self.assertTrue(recorder.frame().columns[1].endswith("[m]"))
         self.assertIn("frequency [Hz]", self.sim.modes(count=3, contact=mbd.CONTACT_OPEN).frame().columns)
@@ -639,8 +639,8 @@ class ArraysTest(unittest.TestCase):
         from drillmbd import plots
         profile = self.sim.profile(self.string, 10)
         modes = self.sim.modes(count=4, contact=mbd.CONTACT_OPEN)
-        response = self.sim.response([mbd.Input(place=self.places[9], component=mbd.Z)],
-                                     [mbd.Output(place=self.places[9], component=mbd.Z)], points=20,
+        response = self.sim.response([mbd.Excitation(place=self.places[9], component=mbd.Z)],
+                                     [mbd.ResponseOutput(place=self.places[9], component=mbd.Z)], points=20,
                                      contact=mbd.CONTACT_OPEN)
         band = mbd.SpeedBand(low=2.0, high=3.0)
         rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_BENDING_MOMENT], 5, 3)
@@ -678,7 +678,7 @@ class GrowthTest(unittest.TestCase):
         def cycle():
             model = mbd.Model()
             string = model.add_string(start_free=mbd.FREE_X)
-            model.add_drive(part=model.add_pipes(2, string=string), programme=model.add_programme(ramp))
+            model.add_drive(part=model.add_pipes(2, string=string), time_function=model.add_time_function(ramp))
             model.compile()
             with model.sim() as sim:
                 sim.step(1e-3)

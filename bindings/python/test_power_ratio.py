@@ -12,7 +12,7 @@ needs("numpy", "scipy")
 import numpy as np
 
 from drillmbd.probability import engines
-from drillmbd.probability.points import Points
+from drillmbd.probability.sampling import Points
 from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study
 
@@ -35,15 +35,15 @@ length = "2 m"
 outer_diameter = "100 mm"
 inner_diameter = "80 mm"
 damping_time = "1 ms"
-[[programme]]
+[[time_function]]
 name = "motor"
-term = {kind = "harmonic", h1 = 3000, omega = "60 rad/s"}
-[[programme]]
+segment = {kind = "harmonic", h1 = 3000, omega = "60 rad/s"}
+[[time_function]]
 name = "push"
-term = {h0 = 6000}
-[[programme]]
+segment = {h0 = 6000}
+[[time_function]]
 name = "rock"
-term = {h0 = "500 N"}
+segment = {h0 = "500 N"}
 [[bit]]
 name = "bit"
 mass = "20 kg"
@@ -53,26 +53,26 @@ load = "rock"
 name = "mud motor"
 place = {part = "main", pipe = "last", fraction = 1.0}
 force = ["1 N", 0, 0]
-programme = "motor"
+time_function = "motor"
 [[load]]
 name = "feed"
 place = {part = "main"}
 force = ["1 N", 0, 0]
-programme = "push"
+time_function = "push"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "0 rad/s"
+time_function = "0 rad/s"
 [run]
 end = "1.5 s"
 step = "1 ms"
-[output]
+[results]
 interval = "1 ms"
-[[channel]]
+[[output]]
 name = "bit"
 quantity = "velocity-x"
 place = {part = "main", pipe = "last", fraction = 1.0}
-[[channel]]
+[[output]]
 name = "rig"
 quantity = "velocity-x"
 place = {part = "main"}
@@ -99,18 +99,18 @@ name = "advance"
 def power_ratio(look):
     """Power at the rock over that of push and motor, means over the run's second half."""
     late = look.times > 0.5 * look.times[-1]
-    bit, rig = look.channels["bit"][late], look.channels["rig"][late]
+    bit, rig = look.outputs["bit"][late], look.outputs["rig"][late]
     motor = 3000.0 * np.sin(60.0 * look.times[late]) if motor_runs(look) else 0.0
     return float(np.mean(ROCK * bit) / np.mean(PUSH * rig + motor * bit))
 
 
 def motor_runs(look):
-    return look.scene.model.calls[[name for name, _ in look.scene.model.calls].index("add_programme")][1][0].get("h1", 0.0) != 0.0
+    return look.scene.model.calls[[name for name, _ in look.scene.model.calls].index("add_time_function")][1][0].get("h1", 0.0) != 0.0
 
 
 def advance(look):
     """[m] of the rig end, over the run."""
-    return float(np.trapz(look.channels["rig"], look.times))
+    return float(np.trapz(look.outputs["rig"], look.times))
 
 
 def studied(**changes):
@@ -134,7 +134,7 @@ def resistance(factors):
 class RatioTest(unittest.TestCase):
     def test_rigid_bar(self):
         """Without the motor: it advances where the push exceeds friction and rock, by 1/2 (F - R)/m t^2."""
-        found, values = studied(**{"programme[0].term.h1": 0})
+        found, values = studied(**{"time_function[0].segment.h1": 0})
         mass = PIPE / 9.81 * 100.0 + 20.0
 
         def exact(friction):

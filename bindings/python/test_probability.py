@@ -15,7 +15,7 @@ import scipy.stats as stats
 
 from drillmbd import enums, scene
 from drillmbd.probability import limits
-from drillmbd.probability.draw import CannotDraw, Draw, value_of_terms
+from drillmbd.probability.draw import CannotDraw, Draw, value_of_segments
 from drillmbd.probability.fields import Expansion, Markov, kernel
 from drillmbd.probability.marginals import Translation, frozen, nataf, value_correlation
 from drillmbd.probability.sample import DONE, FAILED, Own, SceneSample
@@ -46,15 +46,15 @@ name = "main"
 count = 10
 outer_diameter = "73 mm"
 inner_diameter = "61 mm"
-[[programme]]
+[[time_function]]
 name = "rock"
-term = {h0 = "2 kN"}
-[[programme]]
+segment = {h0 = "2 kN"}
+[[time_function]]
 name = "on"
-term = {h0 = 1}
-[[programme]]
+segment = {h0 = 1}
+[[time_function]]
 name = "turning"
-term = {h0 = 0}
+segment = {h0 = 0}
 [[bit]]
 name = "bit"
 diameter = 0
@@ -62,7 +62,7 @@ load = "rock"
 [[load]]
 place = {part = "main", pipe = "last", fraction = 1.0}
 moment = ["-500 N m", 0, 0]
-programme = "on"
+time_function = "on"
 """ + DRIVES + """[run]
 end = "0.1 s"
 step = "1 ms"
@@ -190,14 +190,14 @@ kernel = "gaussian"
 correlation_length = "5 m"
 [[variability.process]]
 name = "rock load"
-programme = "rock"
+time_function = "rock"
 distribution = "gamma"
 mean = 1
 deviation = 0.2
 correlation_time = "20 ms"
 [[variability.process]]
 name = "pump"
-programme = "turning"
+time_function = "turning"
 how = "added"
 distribution = "normal"
 mean = "0 rpm"
@@ -237,20 +237,20 @@ class DrawTest(unittest.TestCase):
         self.assertEqual([row[2] for row in wall["stations"]], list(values["survey error"]))
         wear = [arguments[1]["outer_diameter"] for arguments in calls["add_pipes"]]
         self.assertEqual(wear, [0.073 * one for one in values["wear"]])
-        rock, _, turning = (calls["add_programme"][i] for i in range(3))
+        rock, _, turning = (calls["add_time_function"][i] for i in range(3))
         self.assertEqual([row[1] for row in rock[0]["table"]], [2000.0 * one for one in values["rock load"]])
         self.assertEqual([row[1] for row in turning[1]["table"]], list(values["pump"]))
 
-    def test_programme_as_the_library_has_it(self):
-        text = RIG.replace('name = "turning"\nterm = {h0 = 0}', '''name = "turning"
-term = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm"}, {kind = "step5", x1 = "90 ms", h1 = "9 rpm"},
+    def test_time_function_as_the_library_has_it(self):
+        text = RIG.replace('name = "turning"\nsegment = {h0 = 0}', '''name = "turning"
+segment = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm"}, {kind = "step5", x1 = "90 ms", h1 = "9 rpm"},
     {kind = "harmonic", h1 = "3 rpm", omega = "900 rpm", phase = "20 deg"}, {table = [["20 ms", 0], ["70 ms", "8 rpm"]]}]''')
         rig = scene.loads(text + failure("rig-torque", limit="1 N m"))
-        terms = [arguments for name, arguments in rig.model.calls if name == "add_programme"][2]
+        terms = [arguments for name, arguments in rig.model.calls if name == "add_time_function"][2]
         with rig.new_sim() as sim:
             for _ in range(10):
                 sim.step(0.01)
-                self.assertAlmostEqual(value_of_terms(terms, sim.time), sim.drive(rig.names["head"]).target, 12)
+                self.assertAlmostEqual(value_of_segments(terms, sim.time), sim.drive(rig.names["head"]).target, 12)
 
     def test_file_to_scene_to_file(self):
         first = scene.loads(ALL)
@@ -261,7 +261,7 @@ term = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm
         self.assertFalse(first.same_as(scene.loads(ALL.replace("slope = 5", "slope = 4"))))
 
     def test_what_varies_twice_is_refused(self):
-        text = ALL + '[[variability.scatter]]\nname = "speed"\nkey = "programme[0].term.h0"\n' \
+        text = ALL + '[[variability.scatter]]\nname = "speed"\nkey = "time_function[0].segment.h0"\n' \
                      'distribution = "uniform"\nlow = "1 kN"\nhigh = "2 kN"\n'
         with self.assertRaisesRegex(CannotDraw, "varies by something else"):
             Draw(scene.loads(text))
@@ -306,7 +306,7 @@ limit = "2 kN m"
         self.assertTrue(first.same_as(scene.loads(scene.saves(first))))
 
     def test_sections(self):
-        """The hole of a sample has the drawn diameters between the corners of its straight lines."""
+        """The hole of a sample has the drawn diameters between the breakpoints of its straight lines."""
         draw = Draw(scene.loads(self.TEXT))
         values = draw.values(np.random.default_rng(1).standard_normal(draw.dimension))
         self.assertEqual([len(values["friction"]), len(values["size"])], [11, 7])
@@ -399,7 +399,7 @@ class LimitTest(unittest.TestCase):
         found, _ = sampled(failure("stress", strength="400 MPa"), changes={"load.moment": [0, 0, 0]})
         self.assertAlmostEqual(found["stress"] / (2000.0 / AREA / 400e6), 1.0, 5)
         torsion = 500.0 * 0.0365 / (2.0 * INERTIA)
-        found, margins = sampled(failure("stress", strength="50 MPa"), changes={"programme[0].term.h0": 0})
+        found, margins = sampled(failure("stress", strength="50 MPa"), changes={"time_function[0].segment.h0": 0})
         self.assertAlmostEqual(found["stress"] / (math.sqrt(3.0) * torsion / 50e6), 1.0, 5)
         self.assertAlmostEqual(margins["stress"], 1.0 - found["stress"], 12)
         found, _ = sampled(failure("helical-buckling"), changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0],
@@ -411,11 +411,11 @@ class LimitTest(unittest.TestCase):
         """A string at rest in a horizontal hole presses most where it begins to lie: the site of 1 m there bears w l/3 and w."""
         found, _ = sampled(failure("wall-pressure", limit="1 MPa", width="20 mm"), changes={
             "environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True, "bit.mass": "1 g",
-            "programme[0].term.h0": 0})
+            "time_function[0].segment.h0": 0})
         self.assertLess(abs(found["wall-pressure"] / ((WEIGHT * LIFTED / 3.0 + WEIGHT) / 0.02) - 1.0), 0.1)
 
     def test_off_bottom(self):
-        text = RIG.replace('term = {h0 = "2 kN"}', 'term = {table = [[0, "2 kN"], ["0.02 s", "2 kN"], ["21 ms", 0], ["61 ms", 0], '
+        text = RIG.replace('segment = {h0 = "2 kN"}', 'segment = {table = [[0, "2 kN"], ["0.02 s", "2 kN"], ["21 ms", 0], ["61 ms", 0], '
                            '["62 ms", "2 kN"]]}').replace('question = "static"', 'look = "1 ms"')
         found, margins = sampled(failure("bit-off-bottom", limit="30 ms"), text)
         self.assertAlmostEqual(found["bit-off-bottom"], 0.040, 12)
@@ -425,8 +425,8 @@ class LimitTest(unittest.TestCase):
 
     def test_spin_of_the_bit(self):
         """A stiff string that turns with 100 rpm + 30 rpm sin: stick-slip severity 0.3."""
-        text = RIG.replace('name = "turning"\nterm = {h0 = 0}', '''name = "turning"
-term = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]''').replace('question = "static"', 'look = "1 ms"')
+        text = RIG.replace('name = "turning"\nsegment = {h0 = 0}', '''name = "turning"
+segment = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]''').replace('question = "static"', 'look = "1 ms"')
         found, _ = sampled(failure("stick-slip") + failure("bit-stuck", limit="1 s"), text,
                            {"load.moment": [0, 0, 0], "bit.mass": "1 g", "string[0].pipes.count": 1, "run.end": "0.2 s"})
         self.assertAlmostEqual(found["stick-slip"], 0.3, 2)
@@ -446,7 +446,7 @@ term = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]
     def test_lateral_acceleration(self):
         """A string that falls: g."""
         text = RIG.replace('name = "main"', 'name = "main"\nstart_free = ["x", "y", "z", "rx", "ry", "rz"]\nfollows_hole = false')
-        text = text[:text.index("[[programme]]")].replace("[hole]\ndiameter = \"94 mm\"\nmu_static = 0\nmu_dynamic = 0", "") \
+        text = text[:text.index("[[time_function]]")].replace("[hole]\ndiameter = \"94 mm\"\nmu_static = 0\nmu_dynamic = 0", "") \
             + '[run]\nend = "0.05 s"\nstep = "1 ms"\n' + text[text.index("[variability]"):].replace('question = "static"', "")
         found, _ = sampled(failure("lateral-acceleration", limit="10 m/s2", from_="10 ms"), text,
                            {"environment.gravity": [0, 0, "-9.81 m/s2"]})
@@ -454,7 +454,7 @@ term = [{h0 = "100 rpm"}, {kind = "harmonic", h1 = "30 rpm", omega = "600 rpm"}]
 
     def test_fatigue(self):
         """Slow push and pull of amplitude F: damage n/(N (S/(F/A))^m)."""
-        text = RIG.replace('term = {h0 = "2 kN"}', 'term = {kind = "harmonic", h1 = "100 kN", omega = "20 rad/s"}') \
+        text = RIG.replace('segment = {h0 = "2 kN"}', 'segment = {kind = "harmonic", h1 = "100 kN", omega = "20 rad/s"}') \
             .replace('question = "static"', 'look = "1 ms"')
         found, _ = sampled(failure("fatigue", curve_stress="100 MPa", slope=4, curve_cycles=1e6), text,
                            {"load.moment": [0, 0, 0], "string[0].pipes.count": 2, "run.end": f"{math.pi / 2.0!r} s"})
@@ -502,7 +502,7 @@ class BadScene(unittest.TestCase):
                 ('["friction", "stiffness"]', '["friction", "stifness"]', "did you mean stiffness?"),
                 ("correlation_length = \"3 m\"", "correlation_length = \"3 s\"", "has the unit 's', must be a length"),
                 ('kernel = "gaussian"', 'kernel = "gauss"', "did you mean gaussian?"),
-                ('programme = "rock"\ndistribution', 'programme = "rok"\ndistribution', "did you mean rock?"),
+                ('time_function = "rock"\ndistribution', 'time_function = "rok"\ndistribution', "did you mean rock?"),
                 ("high = 1\n", "high = 0.9\n", "must be > low = 0.95"),
                 ("mean = 0.98", "mean = 0.94", "must be within low"),
                 ('key = "string[0].pipes.outer_diameter"', 'key = "string[4].pipes.outer_diameter"', "must be what varies along"),

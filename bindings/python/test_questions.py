@@ -23,7 +23,7 @@ from drillmbd.operating import operating, operations_of
 from drillmbd.probability import auto, demands, engines, limits, soft, until
 from drillmbd.probability.draw import CannotDraw
 from drillmbd.probability.estimates import Estimate, counted
-from drillmbd.probability.points import Points, drawn
+from drillmbd.probability.sampling import Points, drawn
 from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study, read_rows
 from drillmbd.scene.failure import KINDS
@@ -38,15 +38,15 @@ diameter = "94 mm"
 mu_static = 0.3
 mu_dynamic = 0.3
 survey = [["0 m", "90 deg", 0], ["60 m", "90 deg", 0]]
-[[programme]]
+[[time_function]]
 name = "rock"
-term = {table = [["0 s", 0], ["1 s", "8 kN"]]}
-[[programme]]
+segment = {table = [["0 s", 0], ["1 s", "8 kN"]]}
+[[time_function]]
 name = "turning"
-term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
-[[programme]]
+segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+[[time_function]]
 name = "feeding"
-term = {kind = "step5", x1 = "1 s", h1 = "10 mm/s"}
+segment = {kind = "step5", x1 = "1 s", h1 = "10 mm/s"}
 [[string]]
 name = "rods"
 [[string.pipes]]
@@ -61,11 +61,11 @@ mass = "1 g"
 diameter = "94 mm"
 [[drive]]
 name = "feed"
-programme = "feeding"
+time_function = "feeding"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 [static]
 lay_on_wall = true
 [run]
@@ -113,7 +113,7 @@ low = "900 kg/m3"
 high = "1100 kg/m3"
 [[variability.process]]
 name = "rock load"
-programme = "rock"
+time_function = "rock"
 distribution = "gamma"
 mean = 1
 deviation = 0.2

@@ -17,7 +17,7 @@ needs("numpy", "tomllib")
 
 import tomllib  # noqa: E402
 
-from drillmbd import answers, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
+from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
 from drillmbd._structs import SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import Usage, status_text  # noqa: E402
@@ -36,9 +36,9 @@ fluid_density = "1000 kg/m3"
 diameter = "94 mm"
 dip = "5 deg"
 azimuth = "90 deg"
-""" + SHORT_STRING.replace('diameter = 0\n', 'diameter = "94 mm"\nload = "2 kN"\n') + """[[programme]]
+""" + SHORT_STRING.replace('diameter = 0\n', 'diameter = "94 mm"\nload = "2 kN"\n') + """[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+segment = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
 """ + DRIVES + """[limits]
 torque = "5 kN m"
 push = "100 kN"
@@ -305,7 +305,7 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual([told(None, 5.0), told(10.0, None), told(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
 
     def study(self, text, **more):
-        made = report.Study(scene.loads(text), answers.Output(None, "x.toml", scene.loads(text), "report", True))
+        made = report.Study(scene.loads(text), results.CommandOutput(None, "x.toml", scene.loads(text), "report", True))
         for name, value in more.items():
             setattr(made, name, value)
         made.ask()
@@ -412,7 +412,7 @@ class VerdictTest(unittest.TestCase):
 
     def test_stopped_run(self):
         """After Ctrl-C nothing that needs the whole run is cleared."""
-        made = report.Study(scene.loads(SCENE), answers.Output(None, "x.toml", scene.loads(SCENE), "report", True))
+        made = report.Study(scene.loads(SCENE), results.CommandOutput(None, "x.toml", scene.loads(SCENE), "report", True))
 
         def stopped(sim):
             if sim.statistics().steps:
@@ -434,17 +434,17 @@ class VerdictTest(unittest.TestCase):
 class OperatingTest(unittest.TestCase):
     def test_largest(self):
         """Steps up and down again, in time; against sums by hand."""
-        up, down = {"kind": enums.TERM_STEP, "x0": 0.0, "x1": 1.0, "h1": 20.0}, {"kind": enums.TERM_STEP5, "x0": 19.0, "x1": 20.0, "h1": -20.0}
+        up, down = {"kind": enums.SEGMENT_STEP, "x0": 0.0, "x1": 1.0, "h1": 20.0}, {"kind": enums.SEGMENT_STEP5, "x0": 19.0, "x1": 20.0, "h1": -20.0}
         back = {**down, "x0": 21.0, "x1": 22.0}
         self.assertEqual(largest_of([up]), 20.0)
         self.assertEqual(largest_of([up, down, back]), 20.0)
         self.assertEqual(largest_of([up, {**down, "h1": -50.0}]), 30.0)
-        self.assertEqual(largest_of([{"kind": enums.TERM_HARMONIC, "h0": 3.0, "h1": 2.0}]), 5.0)
-        self.assertEqual(largest_of([{"h0": -4.0}, {"kind": enums.TERM_HARMONIC, "h1": 2.0}]), 6.0)
+        self.assertEqual(largest_of([{"kind": enums.SEGMENT_HARMONIC, "h0": 3.0, "h1": 2.0}]), 5.0)
+        self.assertEqual(largest_of([{"h0": -4.0}, {"kind": enums.SEGMENT_HARMONIC, "h1": 2.0}]), 6.0)
         self.assertEqual(largest_of([{"table": [(0.0, 0.0), (2.0, 0.0), (4.0, 6.0)]}, {**down, "x0": 1.0, "x1": 3.0, "h1": 5.0}]), 11.0)
         self.assertEqual(largest_of([{"table": [(0.0, 5.0), (10.0, 0.0)]}, {**down, "x0": 2.0, "x1": 9.0, "h1": -5.0}]), 5.0)
         self.assertEqual(largest_of([]), 0.0)
-        self.assertIsNone(largest_of([up, {"kind": enums.TERM_CALLBACK}]))
+        self.assertIsNone(largest_of([up, {"kind": enums.SEGMENT_CALLBACK}]))
 
     def test_shipped_rig(self):
         """It turns by 200 rpm forward, then backward."""
@@ -537,7 +537,7 @@ class PageTest(FolderTest):
         browser = shutil.which("chromium")
         if browser is None:
             self.skipTest("not there: chromium; the page was not looked at")
-        text = SCENE.replace('dip = "5 deg"', 'dip = "-60 deg"').replace("[run]", '[output]\nvtk_interval = "1 s"\n[run]')
+        text = SCENE.replace('dip = "5 deg"', 'dip = "-60 deg"').replace("[run]", '[results]\nvtk_interval = "1 s"\n[run]')
         _, page, _ = self.page("--language", "zh", text=text)
         frame = self.write("frame.html", f"""<html><body><iframe id="phone" src="file://{self.folder}/out/report.html" width="360" height="700"></iframe>
 <script>setInterval(()=>{{const inside=document.getElementById("phone").contentDocument;
@@ -555,7 +555,7 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.assertLessEqual(float(found["widest"]), 360.0)
 
     def test_failing_analysis_says_why_in_the_language(self):
-        study = report.Study(scene.load(self.scene), answers.Output(None, "x.toml", scene.load(self.scene), "report", True))
+        study = report.Study(scene.load(self.scene), results.CommandOutput(None, "x.toml", scene.load(self.scene), "report", True))
         study._speeds = lambda: (_ for _ in ()).throw(ArithmeticError("no solution"))
         study.ask()
         tile = next(one for one in study.tiles if one.title == "Critical speeds")

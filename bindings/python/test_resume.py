@@ -11,16 +11,16 @@ from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
 needs("numpy")
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import questions, run_state  # noqa: E402
+from drillmbd import commands, run_state  # noqa: E402
 from drillmbd._progress import INTERRUPTS  # noqa: E402
 
 SCENE = """title = "stopped run"
 [hole]
 diameter = "94 mm"
 mu_dynamic = 0.3
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step5", x1 = "20 ms", h1 = "120 rpm"}
+segment = {kind = "step5", x1 = "20 ms", h1 = "120 rpm"}
 [[string]]
 name = "main"
 [[string.pipes]]
@@ -33,23 +33,23 @@ eccentricity = "0.5 mm"
 diameter = "94 mm"
 [[drive]]
 name = "feed"
-programme = "0 m/s"
+time_function = "0 m/s"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 [run]
 step = "1 ms"
 end = "0.2 s"
 static = true
-[output]
+[results]
 interval = "2 ms"
 vtk_interval = "0.05 s"
-[[channel]]
+[[output]]
 name = "torque [N m]"
 quantity = "drive-force"
 place = "head"
-[[channel]]
+[[output]]
 name = "middle, turn [rad]"
 quantity = "rotation"
 place = {part = "main", pipe = 2}
@@ -57,7 +57,7 @@ place = {part = "main", pipe = 2}
 curve_stress = "100 MPa"
 slope = 4
 """
-RESULTS = ("channels", "fatigue", "hash", "strings", "static", "energy_error", "verification")
+RESULTS = ("outputs", "fatigue", "hash", "strings", "static", "energy_error", "verification")
 
 
 class ResumeTest(FolderTest):
@@ -66,8 +66,8 @@ class ResumeTest(FolderTest):
 
     def setUp(self):
         super().setUp()
-        for patch in (mock.patch.object(questions, "LOOK", 0.0), mock.patch.object(run_state, "EVERY", 1e9),
-                      mock.patch("drillmbd.answers.Output.picture", lambda *_: None)):
+        for patch in (mock.patch.object(commands, "LOOK", 0.0), mock.patch.object(run_state, "EVERY", 1e9),
+                      mock.patch("drillmbd.results.CommandOutput.picture", lambda *_: None)):
             patch.start()
             self.addCleanup(patch.stop)
 

@@ -15,9 +15,9 @@ diameter = "94 mm"
 survey = [["0 m", "80 deg", "0 deg"], ["20 m", "85 deg", "3 deg"], ["60 m", "95 deg", "0 deg"]]
 mu_static = 0.30
 mu_dynamic = 0.30
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
 [[string]]
 name = "main"
 start_depth = "2 m"
@@ -38,11 +38,11 @@ diameter = "94 mm"
 load = "5 kN"
 [[drive]]
 name = "feed"
-programme = "10 mm/s"
+time_function = "10 mm/s"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 """
 
 

@@ -23,9 +23,9 @@ SCENE = """title = "level hole"
 diameter = "94 mm"
 mu_static = 0.30
 mu_dynamic = 0.30
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
 [[string]]
 name = "main"
 [[string.pipes]]
@@ -46,7 +46,7 @@ end = "6 s"
 frequency_low = "1 Hz"
 frequency_high = "4 Hz"
 points = 31
-[[response.input]]
+[[response.excitation]]
 kind = "eccentricity"
 [[response.output]]
 name = "middle"
@@ -88,14 +88,14 @@ class LinearStateTest(FolderTest):
 
     def test_response_and_speeds_agree(self):
         """The amplitude of one quantity at one frequency is the same number in both."""
-        for change in ({}, {"programme[0].term.h1": "170 rpm"}, {"bit[0].load": "5 kN"}):
+        for change in ({}, {"time_function[0].segment.h1": "170 rpm"}, {"bit[0].load": "5 kN"}):
             scene = scenes.load(self.scene, change)
             _, response = rotating.linear(
                 scene, "response", lambda sim, state: sim.static(**state.static),
-                lambda sim, state: sim.response(state.scene.inputs(), state.scene.outputs("response"), **state.options), self.fail)
+                lambda sim, state: sim.response(state.scene.excitations(), state.scene.response_outputs("response"), **state.options), self.fail)
             state, (bands, severity) = rotating.linear(
                 scene, "speeds", lambda sim, state: sim.static(**state.static),
-                lambda sim, state: sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), [1e-6], **state.options), self.fail)
+                lambda sim, state: sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), [1e-6], **state.options), self.fail)
             numpy.testing.assert_allclose(numpy.array(severity) * 1e-6, abs(response.transfer(output=0)), rtol=1e-9)
             self.assertGreater(state.rotation, 10.0)
 
@@ -105,14 +105,14 @@ class LinearStateTest(FolderTest):
         the wall holds it, and it moves across half as much. Drag damps the start away."""
         scene = scenes.load(self.write("drag.toml", SCENE.replace("[hole]", '[environment]\nlateral_damping = "60 N s/m2"\n[hole]', 1)))
         speed, place = 100.0 * rotating.RPM, station(scene.names["main"], 6)
-        outputs = [mbd.output(place, mbd.Y), mbd.output(place, mbd.Z)]
+        outputs = [mbd.response_output(place, mbd.Y), mbd.response_output(place, mbd.Z)]
         state = rotating.sliding(scene, "response")
         sliding_options = {key: state.options[key] for key in ("spin", "friction", "axes", "equilibrium_tolerance")}
 
         def linear(static, **options):
             with scene.new_sim() as sim:
                 sim.static(**static)
-                found = sim.response(scene.inputs(), outputs, frequencies=[speed / (2.0 * math.pi)], **options)
+                found = sim.response(scene.excitations(), outputs, frequencies=[speed / (2.0 * math.pi)], **options)
                 return numpy.array([abs(found.transfer(output=k)[0]) for k in range(2)])
 
         sliding, rest, held = linear(state.static, **sliding_options), linear({}, friction=0, axes=1), linear({})
@@ -227,7 +227,7 @@ class RigTorqueTest(FolderTest):
         """Nothing is balanced where a speed is prescribed, two drives turn, the string does not turn, or the held string has no state."""
         slip = {"slip_rotation": 10.0}
         speed, torque = scenes.load(self.write("speed.toml", SCENE)), scenes.load(self.scene)
-        two = scenes.load(self.write("two.toml", self.SCENE + '[[drive]]\nkind = "load"\ncomponent = "rx"\nprogramme = "turning"\n'))
+        two = scenes.load(self.write("two.toml", self.SCENE + '[[drive]]\nkind = "load"\ncomponent = "rx"\ntime_function = "turning"\n'))
         for scene, static in ((speed, slip), (two, slip), (torque, {})):
             self.assertEqual(rig_torque.balanced(scene, static), (scene, None))
         with unittest.mock.patch.object(mbd.Sim, "static", side_effect=mbd.Error(mbd.ERR_NO_CONVERGENCE, "no solution")):
@@ -236,8 +236,8 @@ class RigTorqueTest(FolderTest):
 
 class NoResponseTest(FolderTest):
     """An output that only rounding moves has no response, and no all-clear."""
-    SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[programme]]", 'inclination = "0 deg"\n[[programme]]', 1).replace(
-        'eccentricity = "0.5 mm"', "").replace('[[response.input]]\nkind = "eccentricity"', '[[response.input]]\nkind = "drive"\nplace = "head"\n'
+    SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[time_function]]", 'inclination = "0 deg"\n[[time_function]]', 1).replace(
+        'eccentricity = "0.5 mm"', "").replace('[[response.excitation]]\nkind = "eccentricity"', '[[response.excitation]]\nkind = "drive"\nplace = "head"\n'
                                                'amplitude = "1 rpm"').replace("[[speeds.order]]", '[[speeds.order]]\nkind = "drive"\nplace = "head"\n'
                                                                               'amplitude = "1 rpm"')
 
@@ -285,8 +285,8 @@ class NoResponseTest(FolderTest):
 
     def test_bounds(self):
         """Below 1e-9 of a comparable amplitude is rounding, above it is not; an output of another unit is none only if it is 0."""
-        move, turn = mbd.Output(component=mbd.Y), mbd.Output(component=mbd.RX)
-        force = mbd.Output(kind=mbd.OUTPUT_CONTACT)
+        move, turn = mbd.ResponseOutput(component=mbd.Y), mbd.ResponseOutput(component=mbd.RX)
+        force = mbd.ResponseOutput(kind=mbd.RESPONSE_CONTACT)
         self.assertIs(no_response._judged(1e-16, move, [(turn, 1e-3)]), no_response.NO_RESPONSE)
         self.assertIsNone(no_response._judged(1e-11, move, [(turn, 1e-3)]))
         self.assertIsNone(no_response._judged(1e-16, force, [(turn, 1e-3)]))
@@ -307,7 +307,7 @@ class RangeTest(FolderTest):
         self.assertIsNone(summary["speeds_range"])
 
     def test_band_over_range(self):
-        """The band of the range begins where that of its widest hole does, and covers that of each corner."""
+        """The band of the range begins where that of its widest hole does, and covers that of each breakpoint."""
         text = SCENE.replace('threshold = 100', 'threshold = 1000')
         self.scene = self.write("range.toml", text + RANGE)
         out, summary = self.answer("speeds")
@@ -316,8 +316,8 @@ class RangeTest(FolderTest):
         lows = []
         for diameter in ("94 mm", "104 mm"):
             for mu in (0.2, 0.4):
-                corner = self.write("corner.toml", text.replace('"94 mm"', f'"{diameter}"', 1).replace("0.30", str(mu)))
-                self.scene = corner
+                breakpoint = self.write("breakpoint.toml", text.replace('"94 mm"', f'"{diameter}"', 1).replace("0.30", str(mu)))
+                self.scene = breakpoint
                 for band in self.answer("speeds")[1]["speeds"]:
                     lows.append(band["low_rpm"])
                     self.assertTrue(any(low <= band["low_rpm"] + 1e-6 and band["high_rpm"] <= high + 1e-6 for low, high in ranges))
@@ -408,14 +408,14 @@ class FrictionTableTest(FolderTest):
                 ('0.25]]', '0.0]]', "friction_table_mu"),
                 ('["70 mm/s", 0.5]', '["70 mm/s", -0.5]', "friction_table_mu[1]"),
                 (TABLE, 'friction_table = [["0 m/s", 0.5]]\n', "must have 2 to 8 pairs"),
-                ('[[programme]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[programme]]', "mu_static")):
+                ('[[time_function]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[time_function]]', "mu_static")):
             text = self.SCENE.replace(old, new, 1)
             self.assertNotEqual(text, self.SCENE, new)
             self.assertIn(told, self.ask("check", self.write("wrong.toml", text), status=2))
 
     def test_sections_scale_it(self):
         """A section with half the dynamic coefficient has half the static one too."""
-        text = self.SCENE.replace("[[programme]]", '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[programme]]', 1)
+        text = self.SCENE.replace("[[time_function]]", '[[hole.section]]\ndepth = "2 m"\nmu_dynamic = 0.125\n[[time_function]]', 1)
         point = scenes.load(self.write("section.toml", text)).model.hole(5.0)
         self.assertAlmostEqual(point.mu_static, 0.25)
         out = self.ask("torque-drag", self.folder / "section.toml", "-o", self.folder / "td")

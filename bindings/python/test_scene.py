@@ -26,16 +26,16 @@ BUILD = pathlib.Path(os.environ.get("DRILLMBD_BUILD", ROOT / "build" / "release"
 SMALL = """title = "small"
 [hole]
 diameter = "94 mm"
-[[programme]]
+[[time_function]]
 name = "feed"
-term = {kind = "step", x1 = "1 s", h1 = "10 mm/s"}
+segment = {kind = "step", x1 = "1 s", h1 = "10 mm/s"}
 [[string]]
 name = "main"
 [[string.pipes]]
 count = 3
 [[drive]]
 name = "head"
-programme = "feed"
+time_function = "feed"
 [run]
 end = "10 ms"
 step = "1 ms"
@@ -62,16 +62,16 @@ strength = "40 MPa"
 [[hole.section]]
 depth = "25 m"
 mu_dynamic = 0.2
-[[programme]]
+[[time_function]]
 name = "shake"
-term = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}]
-[[programme]]
+segment = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}]
+[[time_function]]
 name = "half"
-term = {h0 = 0.5}
-[[programme]]
+segment = {h0 = 0.5}
+[[time_function]]
 name = "unused"
 unit = "m/s"
-term = {h0 = "1 m/s"}
+segment = {h0 = "1 m/s"}
 [[string]]
 name = "main"
 start_free = ["x", "rx"]
@@ -129,19 +129,19 @@ name = "torque"
 kind = "load"
 part = "hinge"
 component = "rx"
-programme = "3 N m"
+time_function = "3 N m"
 [[drive]]
 name = "feed"
 kind = "control"
 component = "x"
-programme = "10 mm/s"
+time_function = "10 mm/s"
 gain = "1 kN s/m"
 limit_high = "5 kN"
 [[load]]
 name = "weight"
 place = {part = "main", pipe = 3, fraction = 1.0}
 force = [0, 0, "-10 N"]
-programme = "half"
+time_function = "half"
 [[input]]
 name = "feed speed"
 target = "set-point"
@@ -199,11 +199,11 @@ name = "quick"
 quantity = "input-present"
 place = "feed speed"
 level = "15 mm/s"
-[[channel]]
+[[output]]
 name = "asked for"
 quantity = "input-present"
 place = "feed speed"
-[[channel]]
+[[output]]
 name = "pull of the rope"
 quantity = "spring-force"
 place = "rope"
@@ -211,7 +211,7 @@ place = "rope"
 name = "jammed"
 target = "stuck"
 part = "jam"
-[[ring]]
+[[stabiliser]]
 name = "stabiliser"
 string = "main"
 pipe = 3
@@ -219,7 +219,7 @@ fraction = 0.35
 outer_diameter = "90 mm"
 length = "30 cm"
 mass = "7 kg"
-[[ring]]
+[[stabiliser]]
 string = "main"
 pipe = 1
 [compile]
@@ -229,12 +229,12 @@ spectral_radius = 0.9
 [run]
 end = "20 ms"
 step = "1 ms"
-[output]
+[results]
 interval = "2 ms"
 [limits]
 torque = "2 kN m"
 yield_stress = "400 MPa"
-[[channel]]
+[[output]]
 name = "swing"
 quantity = "position-z"
 place = "swing"
@@ -243,11 +243,11 @@ slip_axial = "1 mm/s"
 [response]
 frequency_low = "1 Hz"
 frequency_high = "10 Hz"
-[[response.input]]
+[[response.excitation]]
 kind = "drive"
 place = "torque"
 amplitude = "2 N m"
-[[response.input]]
+[[response.excitation]]
 kind = "setting"
 place = "feed speed"
 amplitude = "3 mm/s"
@@ -305,7 +305,7 @@ origin_a = [0, "1 m", 0]
 [[load]]
 place = "collar"
 force = [0, 0, "-500 N"]
-[[channel]]
+[[output]]
 name = "end"
 quantity = "position-z"
 place = {part = "string-2", fraction = 1.0}
@@ -420,8 +420,8 @@ class SubTest(unittest.TestCase):
             with one.new_sim() as sim:
                 for _ in range(20):
                     sim.step(1e-3)
-                name, place, quantity = one.channels[0]
-                ends.append(sim.channel(quantity, place))
+                name, place, quantity = one.outputs[0]
+                ends.append(sim.output(quantity, place))
         self.assertNotEqual(ends[0], 0.0)
         self.assertAlmostEqual(ends[0] / ends[1], 1.0, 11)
 
@@ -584,13 +584,13 @@ class ShippedTest(unittest.TestCase):
         self.assertEqual(after_run(second), after_run(first))
         self.assertEqual(first.analyses["buckling"]["factor_max"], 1e5)
         self.assertEqual(first.analyses["fatigue"]["curve_stress"], 95e6)
-        self.assertEqual(first.analyses["response"]["input"][0]["amplitude"], 2.0)
+        self.assertEqual(first.analyses["response"]["excitation"][0]["amplitude"], 2.0)
 
     def test_model_without_a_file(self):
         model = mbd.Model()
         model.add_wall()
         string = model.add_pipes(3)
-        model.add_drive(part=string, programme=model.add_programme(mbd.Term(kind=mbd.TERM_STEP, h1=0.1)))
+        model.add_drive(part=string, time_function=model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP, h1=0.1)))
         model.compile()
         again = scene.loads(scene.saves(model))
         with model.sim() as one, again.new_sim() as other:
@@ -626,7 +626,7 @@ name = "head"
 kind = "control"
 part = "rotor"
 component = "rx"
-programme = "60 rpm"
+time_function = "60 rpm"
 gain = "800 N m s"
 delay = "50 ms"
 lag = "0.1 s"
@@ -725,7 +725,7 @@ name = "pdc"
     def test_functions_cannot_be_saved(self):
         model = mbd.Model()
         model.add_pipes(1)
-        model.add_drive(programme=model.add_programme(lambda time: time))
+        model.add_drive(time_function=model.add_time_function(lambda time: time))
         model.compile()
         with self.assertRaisesRegex(scene.CannotSave, "function of Python"):
             scene.saves(model)
@@ -744,7 +744,7 @@ name = "pdc"
         for text in [path.read_text(encoding="utf-8") for path in SCENES] + [SMALL, EVERYTHING]:
             check.validate(tomllib.loads(text))
             check.validate(tomllib.loads(scene.saves(scene.loads(text, folder=ROOT / "examples" / "scenes"))))
-        for bad in ("[hole]\ndiametre = 1", "[hole]\nnormal_law = \"hertz\"", "[[drive]]\nprogramme = 3", "strings = 1"):
+        for bad in ("[hole]\ndiametre = 1", "[hole]\nnormal_law = \"hertz\"", "[[drive]]\ntime_function = 3", "strings = 1"):
             self.assertFalse(check.is_valid(tomllib.loads(bad)), bad)
 
 
@@ -776,9 +776,9 @@ class BadFilesTest(unittest.TestCase):
         self.one('"94 mm"', '"-94 mm"', 3, "hole.diameter", '"-94 mm"', "must", "(in m)")
         self.one('"94 mm"', "94", 3, "hole.diameter", "must have a unit")
         self.one('"94 mm"', '"94 zz"', 3, "hole.diameter", "'zz' is not a known unit")
-        self.one('kind = "step"', 'kind = "stop"', 6, "programme[0].term.kind", "did you mean step?")
-        self.one('h1 = "10 mm/s"', 'h1 = "120 kg"', 6, "programme[0].term.h1", "has the unit 'kg'", "speed")
-        self.one('h1 = "10 mm/s"', 'h1 = "10 rpm"', 6, "programme[0].term.h1", "speed, as \"10 mm/s\"")
+        self.one('kind = "step"', 'kind = "stop"', 6, "time_function[0].segment.kind", "did you mean step?")
+        self.one('h1 = "10 mm/s"', 'h1 = "120 kg"', 6, "time_function[0].segment.h1", "has the unit 'kg'", "speed")
+        self.one('h1 = "10 mm/s"', 'h1 = "10 rpm"', 6, "time_function[0].segment.h1", "speed, as \"10 mm/s\"")
         self.one("count = 3", "count = 0", 10, "string[0].pipes[0].count", "1 .. 2^20")
         self.one("count = 3", 'count = 3\nouter_diameter = "50 mm"', 11, "string[0].pipes[0].outer_diameter", "must")
         self.one('end = "10 ms"', 'end = "-10 ms"', 15, "run.end", "must be > 0 s")
@@ -786,16 +786,16 @@ class BadFilesTest(unittest.TestCase):
         self.one("[run]", "[[bitt]]\nx = 1\n[[bitt]]\n[run]", 14, "bitt", "unknown key", "did you mean bit?")
         self.one("[run]", "[[string.bits]]\nx = 1\n[run]", 14, "string[0].bits", "unknown key")
         self.one("[run]", "[rum]", 14, "rum", "unknown key", "did you mean run?")
-        self.one('name = "main"', 'name = "feed"', 8, "string[0].name", "names a programme already")
+        self.one('name = "main"', 'name = "feed"', 8, "string[0].name", "names a time function already")
         self.one('name = "main"', "name = 3", 8, "string[0].name", "must be a text")
         self.one('title = "small"', "title = 3", 1, "title", "must be a text")
-        self.one('step = "1 ms"', 'step = "1 ms"\n[[channel]]\nplace = "main"', 17, "channel[0]", "must have a quantity")
-        self.one('step = "1 ms"', 'step = "1 ms"\n[[channel]]\nquantity = "spin"\nplace = {part = "main", pipe = 3}', 19,
-                 "channel[0].place.pipe", "0 .. 2")
+        self.one('step = "1 ms"', 'step = "1 ms"\n[[output]]\nplace = "main"', 17, "output[0]", "must have a quantity")
+        self.one('step = "1 ms"', 'step = "1 ms"\n[[output]]\nquantity = "spin"\nplace = {part = "main", pipe = 3}', 19,
+                 "output[0].place.pipe", "0 .. 2")
 
     def test_no_second_fault(self):
-        """A misspelt table or name is one fault; the programme that is not used because of it is none. Alone it is one."""
-        text = ('[[programme]]\nname = "load"\nterm = {h0 = "2 kN"}\n[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
+        """A misspelt table or name is one fault; the time function that is not used because of it is none. Alone it is one."""
+        text = ('[[time_function]]\nname = "load"\nsegment = {h0 = "2 kN"}\n[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
                 '[[bit]]\nload = "load"\n')
         mbd.scene.loads(text)
         for old, new, told in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]), ('load = "load"', 'load = "lead"', ["bit[0].load"]),
@@ -808,11 +808,11 @@ class BadFilesTest(unittest.TestCase):
                 self.assertIn(part, str(caught.exception))
 
     def test_name_that_is_none(self):
-        found = problems(SMALL.replace('programme = "feed"', 'programme = "fed"'))
-        self.assertIn("drive[0].programme", [one.key for one in found])
-        self.assertTrue(any("names no programme; did you mean feed?" in str(one) for one in found))
-        found = [str(one) for one in problems(SMALL.replace('programme = "feed"', 'programme = "nope"'))]  # no drives among the candidates
-        self.assertTrue(any(one.endswith("names no programme; possible are feed") for one in found), found)
+        found = problems(SMALL.replace('time_function = "feed"', 'time_function = "fed"'))
+        self.assertIn("drive[0].time_function", [one.key for one in found])
+        self.assertTrue(any("names no time function; did you mean feed?" in str(one) for one in found))
+        found = [str(one) for one in problems(SMALL.replace('time_function = "feed"', 'time_function = "nope"'))]  # no drives among the candidates
+        self.assertTrue(any(one.endswith("names no time function; possible are feed") for one in found), found)
 
     def test_all_faults_at_once(self):
         text = SMALL.replace('"94 mm"', '"-94 mm"\nrestitution = 3\nmu_dynamics = 0.1').replace('"10 ms"', '"10 kg"')
@@ -831,9 +831,9 @@ class BadFilesTest(unittest.TestCase):
             self.assertIn("is no TOML", str(found[0]))
             self.assertLessEqual(abs(found[0].line - line), 1)
 
-    def test_programme_used_twice(self):
-        found = problems(SMALL + '[[drive]]\ncomponent = "rx"\nprogramme = "feed"\n')
-        self.assertIn("make two programmes", str(found[0]))
+    def test_time_function_used_twice(self):
+        found = problems(SMALL + '[[drive]]\ncomponent = "rx"\ntime_function = "feed"\n')
+        self.assertIn("make two time functions", str(found[0]))
 
     def test_not_a_text_file(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -877,7 +877,7 @@ class BadFilesTest(unittest.TestCase):
         rows = EVERYTHING.splitlines()
         for number, row in enumerate(rows):
             key = row.split("=")[0].strip()
-            if "=" in row and key not in ("title", "term"):
+            if "=" in row and key not in ("title", "segment"):
                 wrong = "\n".join(rows[:number] + [row.replace(key, key + "x", 1)] + rows[number + 1:])
                 told = [one for one in problems(wrong) if "unknown key" in one.text]
                 self.assertEqual([one.line for one in told], [number + 1], row)
@@ -896,7 +896,7 @@ class BadFilesTest(unittest.TestCase):
 
 
 class UnitOfDriveTest(unittest.TestCase):
-    """"N or N m" of a channel goes by the drive that it is about: a torque on a rotary drive was asked for in N."""
+    """"N or N m" of a output goes by the drive that it is about: a torque on a rotary drive was asked for in N."""
     SCENE = """
 [[string]]
 name = "rods"
@@ -905,11 +905,11 @@ count = 2
 [[drive]]
 name = "table"
 component = "rx"
-programme = "0 rpm"
+time_function = "0 rpm"
 [[drive]]
 name = "feed"
 component = "x"
-programme = "0 mm/s"
+time_function = "0 mm/s"
 [[event]]
 name = "torque"
 quantity = "drive-force"

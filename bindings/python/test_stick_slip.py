@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from drillmbd.probability import engines
 from drillmbd.probability.estimates import clopper_pearson, counted
-from drillmbd.probability.points import Points
+from drillmbd.probability.sampling import Points
 from drillmbd.probability.sample import DONE, Result, SceneSample
 from drillmbd.probability.study import Study
 
@@ -44,14 +44,14 @@ name = "bit"
 mass = "50 kg"
 inertia = ["1 kg m2", "1 kg m2"]
 diameter = "0.2 m"
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "20 ms", h1 = "2 rad/s"}
+segment = {kind = "step", x1 = "20 ms", h1 = "2 rad/s"}
 """ + DRIVES + """[run]
 end = "30 s"
 step = "5 ms"
 static = true
-[output]
+[results]
 interval = "20 ms"
 [variability]
 seed = 11
@@ -134,7 +134,7 @@ class StickSlipTest(unittest.TestCase):
         count, shares = 10, {}
         for speed in (1.0, 3.0, 5.0):
             for load in (250, 500):
-                sample = SceneSample(SCENE, changes={"programme[0].term.h1": f"{speed} rad/s", "bit.mass": f"{load / 10.0} kg"})
+                sample = SceneSample(SCENE, changes={"time_function[0].segment.h1": f"{speed} rad/s", "bit.mass": f"{load / 10.0} kg"})
                 points = Points("latin-hypercube", 5, 1, count, 1)
                 found = Study(sample, engines.processes(2)).run(range(count), points.z)
                 self.assertEqual([one.message for one in found if one.message], [])
@@ -159,7 +159,7 @@ class StickSlipTest(unittest.TestCase):
         for stribeck, smoothing, step, bound in ((4.0, 0.005, 2.0, 0.04), (1.0, 0.001, 0.5, 0.025), (0.25, 0.00025, 0.25, 0.018)):
             text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
             sample = SceneSample(text, changes={
-                "programme[0].term.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "output.interval": "10 ms",
+                "time_function[0].segment.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "results.interval": "10 ms",
                 "hole.smoothing_speed": f"{smoothing} mm/s", "run.step": f"{step} ms"})
             found = sample(0, np.zeros(1))
             self.assertEqual(found.message, "")

@@ -20,7 +20,7 @@ import h5py
 import numpy as np
 
 from drillmbd import scene
-from drillmbd.answers import no_formula
+from drillmbd.results import no_formula
 from drillmbd.probability import engines
 from drillmbd.probability.rows import Damaged
 from drillmbd.probability.study import Study, StudyError, StudyFile, read_rows

@@ -244,7 +244,7 @@ class SurveyTest(unittest.TestCase):
 
 class WordsTest(unittest.TestCase):
     def test_the_scene_in_words(self):
-        text = SCENE % ("s.csv", "") + 'damping_time = 0\n[[bit]]\nload = "8 kN"\n[[drive]]\ncomponent = "rx"\nprogramme = "130 rpm"\n[run]\nend = "1 s"\nstep = "2 ms"\n'
+        text = SCENE % ("s.csv", "") + 'damping_time = 0\n[[bit]]\nload = "8 kN"\n[[drive]]\ncomponent = "rx"\ntime_function = "130 rpm"\n[run]\nend = "1 s"\nstep = "2 ms"\n'
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "s.csv").write_text("depth [m],dip [deg],azimuth [deg]\n0,5,350\n100,5,0\n200,4,10\n", encoding="utf-8")
             rig = scene.loads(text, folder=folder)
@@ -280,9 +280,9 @@ class AzimuthTest(unittest.TestCase):
             model.add_wall(diameter=0.094, mu_dynamic=0.3, mu_static=0.3,
                            stations=[(d, math.pi / 2, math.radians(a)) for d, a in ((0, 0), (10, 0), (110, azimuth), (150, azimuth))])
             string = model.add_pipes(40, length=3.0, outer_diameter=0.073, inner_diameter=0.061)
-            turn = model.add_programme(0.0)
-            model.add_drive(component=mbd.X, programme=turn)
-            model.add_drive(component=mbd.RX, programme=turn)
+            turn = model.add_time_function(0.0)
+            model.add_drive(component=mbd.X, time_function=turn)
+            model.add_drive(component=mbd.RX, time_function=turn)
             model.compile()
             sim = model.sim()
             sim.static(**({"slip_rotation": spin, "slip_axial": 1e-6} if spin else {}))

@@ -10,8 +10,8 @@ from shared_tests import FolderTest, needs
 
 needs("numpy", "matplotlib")
 
-from drillmbd import answers, scene, unit_systems  # noqa: E402
-from drillmbd.channels import channel_numbers, channel_unit  # noqa: E402
+from drillmbd import results, scene, unit_systems  # noqa: E402
+from drillmbd.outputs import output_numbers, output_unit  # noqa: E402
 from drillmbd.profile import QUANTITIES, unit_of  # noqa: E402
 from drillmbd.scene.units import factor_and_kind, fits  # noqa: E402
 from drillmbd.unit_systems import TABLE, Units, UnknownUnit  # noqa: E402
@@ -31,16 +31,16 @@ yield_strength = "500 MPa"
 name = "bit"
 load = "8 kN"
 diameter = "94 mm"
-[[programme]]
+[[time_function]]
 name = "turning"
-term = {kind = "step", x1 = "10 ms", h1 = "100 rpm"}
+segment = {kind = "step", x1 = "10 ms", h1 = "100 rpm"}
 [[drive]]
 name = "feed"
-programme = "0 m/s"
+time_function = "0 m/s"
 [[drive]]
 name = "head"
 component = "rx"
-programme = "turning"
+time_function = "turning"
 [run]
 end = "20 ms"
 step = "1 ms"
@@ -50,11 +50,11 @@ torque = "3 kN m"
 push = "50 kN"
 pull = "60 kN"
 yield_stress = "500 MPa"
-[[channel]]
+[[output]]
 name = "torque"
 quantity = "drive-force"
 place = "head"
-[[channel]]
+[[output]]
 name = "speed [rad/s]"
 quantity = "bit-speed"
 place = "main"
@@ -69,7 +69,7 @@ slope = 5
 frequency_low = "1 Hz"
 frequency_high = "30 Hz"
 points = 10
-[[response.input]]
+[[response.excitation]]
 kind = "eccentricity"
 [[response.output]]
 name = "middle"
@@ -122,8 +122,8 @@ class SystemTest(unittest.TestCase):
                 self.assertTrue(fits(unit, si), (unit, si))
 
     def test_all_quantities_of_the_library(self):
-        """Units of channels and profiles have an equivalent, but those that depend on the scene."""
-        found = {unit_of(one) for one in QUANTITIES} | {part for one in channel_numbers() for part in channel_unit(one).split(" or ")}
+        """Units of outputs and profiles have an equivalent, but those that depend on the scene."""
+        found = {unit_of(one) for one in QUANTITIES} | {part for one in output_numbers() for part in output_unit(one).split(" or ")}
         self.assertEqual({one for one in found if one not in TABLE and not one.startswith("unit of the ")}, set())
 
     def test_si_changes_nothing(self):
@@ -154,12 +154,12 @@ class OutputTest(FolderTest):
         super().setUp()
         self.write("log.csv", LOG)
         self.figures = []
-        plain = answers.Output.picture
+        plain = results.CommandOutput.picture
 
         def picture(output, name, draw):
             plain(output, name, lambda plots: self._seen(name, draw(plots)))
-        answers.Output.picture = picture
-        self.addCleanup(setattr, answers.Output, "picture", plain)
+        results.CommandOutput.picture = picture
+        self.addCleanup(setattr, results.CommandOutput, "picture", plain)
 
     def _seen(self, name, figure):
         self.figures.append((name, [(one.get_xlabel(), one.get_ylabel(), [line.get_xydata() for line in one.get_lines()]) for one in figure.axes]))
@@ -202,7 +202,7 @@ class OutputTest(FolderTest):
 
     @staticmethod
     def _numbers(line):
-        """All numbers of a line with the unit behind them; of a range, that of its end; of a channel, that before the colon."""
+        """All numbers of a line with the unit behind them; of a range, that of its end; of a output, that before the colon."""
         line = re.sub(r"\b(30 m|100 ft)\b(?=,| between|$)", lambda one: one[0].replace(" ", "_"), line) if "deg/" in line else line
         names = sorted({one for si, systems in TABLE.items() for one in (si, *systems[0], *systems[1])} - {"", "-", "%"}, key=len, reverse=True)
         units = "|".join(re.escape(one).replace(r"\ ", "[ _]") for one in names)
@@ -219,7 +219,7 @@ class OutputTest(FolderTest):
         self.assertEqual(len(rows[0]), len(rows[1]))
         for number, heads in enumerate(zip(rows[0][0], rows[1][0])):
             units = [(HEAD.findall(one) or ["-"])[-1] for one in heads]
-            if heads[0] in ("torque", "speed [rad/s]"):  # names of channels, as the scene has them
+            if heads[0] in ("torque", "speed [rad/s]"):  # names of outputs, as the scene has them
                 units[0] = "N m" if heads[0] == "torque" else "rad/s"
             pairs = list(zip(*(one.split(" or ") for one in units), strict=True))
             for row, shown in zip(rows[0][1:], rows[1][1:], strict=True):
@@ -231,12 +231,12 @@ class OutputTest(FolderTest):
 
     def compare_figures(self, figures, drawn):
         self.assertEqual([name for name, _ in figures], [name for name, _ in drawn])
-        channel = {"torque": "N m"}  # of the scene: without a unit in SI
+        output = {"torque": "N m"}  # of the scene: without a unit in SI
         for (name, panels), (_, others) in zip(figures, drawn):
             for (x, y, lines), (other_x, other_y, other_lines) in zip(panels, others):
                 labels = ((x or panels[-1][0], other_x or others[-1][0]), (y or panels[0][1], other_y or others[0][1]))  # shared axes have one label
                 for axis, (a, b) in enumerate(labels):
-                    factor = ratio((HEAD.findall(a) or [channel.get(a, "-")])[0], (HEAD.findall(b) or ["-"])[0])
+                    factor = ratio((HEAD.findall(a) or [output.get(a, "-")])[0], (HEAD.findall(b) or ["-"])[0])
                     for line, shown in zip(lines, other_lines, strict=True):
                         values, seen = (one[:, axis] for one in (line, shown))
                         if len(values) == 2 and set(values) <= {0.0, 1.0}:
@@ -302,17 +302,17 @@ class OutputTest(FolderTest):
                                 self.assertAlmostEqual(b, a * ratio(*units), delta=2e-5 * size, msg=(titles, units))
 
     def test_key_of_the_scene(self):
-        self.scene = self.write("rig.toml", SCENE + '[output]\nunits = "field"\n')
+        self.scene = self.write("rig.toml", SCENE + '[results]\nunits = "field"\n')
         self.assertRegex(self.ask("static", self.scene), r"axial force .* lbf, torque up to .* ft-lbf")
         self.assertRegex(self.ask("static", self.scene, "--units", "mine"), r"axial force .* kN, torque up to .* N m")
         self.assertIn('units = "field"', scene.saves(scene.load(self.scene)))
-        self.assertIn("one of si, field, mine", self.ask("keys", "output"))
+        self.assertIn("one of si, field, mine", self.ask("keys", "results"))
 
     def test_wrong_names(self):
         error = self.ask("static", self.scene, "--units", "metric", status=2)
         self.assertRegex(error, "invalid choice: 'metric' .*si.*field.*mine")
-        self.scene = self.write("rig.toml", SCENE + '[output]\nunits = "fields"\n')
-        self.assertIn('output.units = "fields": must be one of the words si, field, mine', self.ask("static", self.scene, status=2))
+        self.scene = self.write("rig.toml", SCENE + '[results]\nunits = "fields"\n')
+        self.assertIn('results.units = "fields": must be one of the words si, field, mine', self.ask("static", self.scene, status=2))
         self.assertEqual(unit_systems.NAMES, ("si", "field", "mine"))
 
     def test_refused_depths_have_the_units_of_the_output(self):

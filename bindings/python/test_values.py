@@ -15,7 +15,7 @@ def string_in_hole():
     model = mbd.Model()
     model.add_wall()
     string = model.add_pipes(5)
-    feed = model.add_drive(programme=model.add_programme(0.01))
+    feed = model.add_drive(time_function=model.add_time_function(0.01))
     model.compile()
     return model, string, feed
 
@@ -91,21 +91,21 @@ class FieldTest(Refusals):
 
     def test_tables(self):
         for table in (5, "ab", {0: 1}, [(0, 1, 2)], [(0, 1), (1,)], [("0", 1)], ([0, 1, 2], [1, 2])):
-            self.assertTrue(self.refused(mbd.Term, table=table).field.startswith("table"))
+            self.assertTrue(self.refused(mbd.Segment, table=table).field.startswith("table"))
         self.assertEqual(self.refused(mbd.Motor, table=[(i, i) for i in range(16)]).part, "Motor")
         self.assertEqual(self.refused(mbd.SpringDef, table=[(0, 1, 2)]).part, "SpringDef")
         for stations in ("abc", [], [(0, 1)], 5):
             self.assertTrue(self.refused(mbd.WallDef, stations=stations).field.startswith("stations"))
 
-    def test_programmes(self):
+    def test_time_functions(self):
         model = mbd.Model()
-        self.tells(("term 0 of a programme", "value", "'1'"), model.add_programme, "1")
-        self.assertEqual(self.refused(mbd.Term, function=3).field, "function")
+        self.tells(("segment 0 of a time function", "value", "'1'"), model.add_time_function, "1")
+        self.assertEqual(self.refused(mbd.Segment, function=3).field, "function")
         self.assertEqual(model.calls, [])
 
     def test_parts_in_fields(self):
         self.assertEqual(mbd.DriveDef(part=None).part, mbd.Id())
-        self.assertEqual(mbd.EventDef(output=(None, "hook_load")).output.quantity, mbd.CHANNEL_HOOK_LOAD)
+        self.assertEqual(mbd.EventDef(output=(None, "hook_load")).output.quantity, mbd.OUTPUT_HOOK_LOAD)
         self.tells(("DriveDef", "part", "'rods'"), mbd.DriveDef, part="rods")
         self.tells(("LoadDef", "place", 3), mbd.LoadDef, place=3)
         self.assertEqual(self.refused(mbd.ForceDef, places="head", function=len).field, "places")
@@ -118,7 +118,7 @@ class FieldTest(Refusals):
         for answer in ("x", None, [0.1], 1j):
             model = mbd.Model()
             model.add_pipes(2)
-            model.add_drive(programme=model.add_programme(lambda time: answer))
+            model.add_drive(time_function=model.add_time_function(lambda time: answer))
             model.compile()
             error = self.refused(model.sim)
             self.assertEqual(error.status, mbd.ERR_CALLBACK)
@@ -153,7 +153,7 @@ class QuestionTest(Refusals):
         self.tells(("joint", "part", "none"), sim.joint, None)
         self.tells(("reaction", "part", "drive 0"), sim.reaction, self.feed)
         self.assertEqual(self.refused(sim.bit, 3).field, "part")
-        self.tells(("contact", "site", 99.0), sim.contact, 99)
+        self.tells(("contact", "number", 99.0), sim.contact, 99)
         self.tells(("drive", "value", "'5'"), sim.set_drive, self.feed, "5")
         self.tells(("hole", "depth", "'5'"), self.model.hole, "5")
         self.assertEqual(self.refused(self.model.hole, NAN).bound, "be finite")  # it told of the compilation
@@ -195,11 +195,11 @@ class QuestionTest(Refusals):
             modes[3]
         self.tells(("modes", "index", 9.0), modes.shape, 9, place)
         self.tells(("shape at string 0", "pipe", 7.0), modes.shape, 0, mbd.station(self.string, 7))
-        shaken, asked = [mbd.Input(place=place, component=mbd.Z)], [mbd.output(place, mbd.Z)]
+        shaken, asked = [mbd.Excitation(place=place, component=mbd.Z)], [mbd.response_output(place, mbd.Z)]
         response = sim.response(shaken, asked, points=3)
         self.tells(("response", "output", 2.0), response.transfer, 0, 2)
-        self.assertEqual(self.refused(sim.response, shaken[0], asked).field, "inputs")
-        self.assertEqual(self.refused(sim.response, asked, asked).field, "inputs[0]")
+        self.assertEqual(self.refused(sim.response, shaken[0], asked).field, "excitations")
+        self.assertEqual(self.refused(sim.response, asked, asked).field, "excitations[0]")
         self.assertEqual(self.refused(sim.response, shaken, asked, frequencies=["5"]).field, "frequencies[0]")
         self.assertEqual(self.refused(sim.speeds, [mbd.Order()], asked, []).field, "limits")
 
@@ -212,16 +212,16 @@ class QuestionTest(Refusals):
         self.assertEqual(self.refused(sim.torque_drag, depths=5.0).field, "depths")
         self.assertEqual(self.refused(sim.torque_drag_profile, 0, -1).field, "stations")
 
-    def test_channels(self):
-        self.assertEqual(self.refused(self.sim.channel, "hookload").advice, "'hook_load'?")
-        for channels in (["hook_load"], [("position_x", self.string)], [(self.string, "position_x", 3)]):
-            self.assertEqual(self.refused(self.sim.recorder, channels, 5).part, "recorder channel 0")
+    def test_outputs(self):
+        self.assertEqual(self.refused(self.sim.output, "hookload").advice, "'hook_load'?")
+        for outputs in (["hook_load"], [("position_x", self.string)], [(self.string, "position_x", 3)]):
+            self.assertEqual(self.refused(self.sim.recorder, outputs, 5).part, "recorder output 0")
         error = self.refused(self.sim.recorder, [(self.string, "drive_force")], 5)
         self.assertIn("place.part must be a drive", error.message)  # at once, not at the first row
         for capacity in (0, -1, 2.5):
             self.assertEqual(self.refused(self.sim.recorder, [(None, "hook_load")], capacity).field, "capacity")
         self.assertEqual(self.refused(self.sim.recorder, [(None, "hook_load")], 5, NAN).field, "interval")
-        self.assertEqual(self.refused(self.sim.window, ["bit_speed"]).part, "window channel 0")
+        self.assertEqual(self.refused(self.sim.window, ["bit_speed"]).part, "window output 0")
 
 
 class TakerTest(Refusals):
@@ -282,7 +282,7 @@ class ClosedTest(Refusals):
         sim.close()
         self.closed("sim", lambda: sim.time, lambda: sim.step(1e-3), lambda: sim.run(1.0), sim.hash, sim.snapshot, sim.static,
                     sim.modes, sim.energy, sim.check, sim.check_text, lambda: sim.pose(string), recorder.take,
-                    lambda: sim.channel("position_x", string))
+                    lambda: sim.output("position_x", string))
         self.assertEqual(len(table), 1)
         self.assertEqual(table[0][1], 0.0)
 

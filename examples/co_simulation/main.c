@@ -97,14 +97,14 @@ typedef struct rig {
     dmb_model *model;
     dmb_sim *sim;
     dmb_id torque;
-    dmb_channel outputs[2]; /* speed of the rig, of the bit */
+    dmb_output outputs[2]; /* speed of the rig, of the bit */
 } rig;
 
 static int32_t describe(rig *r, scene_book *book)
 {
     const dmb_wall_def wall = dmb_wall_def_default();
     const dmb_pipe_def pipe = dmb_pipe_def_default();
-    const dmb_term none = dmb_term_default();
+    const dmb_segment none = dmb_segment_default();
     const dmb_compile_options compile = dmb_compile_options_default();
     dmb_body_def head = dmb_body_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
@@ -120,8 +120,8 @@ static int32_t describe(rig *r, scene_book *book)
     head.inertia[0] = head.inertia[1] = head.inertia[2] = 6.0;
     (void)dmb_model_add_body(r->model, &head, NULL);
     SCENE_NOTE(book, "add_body", head);
-    (void)dmb_model_add_programme(r->model, &none, 1, &drive.programme);
-    SCENE_NOTE(book, "add_programme", none);
+    (void)dmb_model_add_time_function(r->model, &none, 1, &drive.time_function);
+    SCENE_NOTE(book, "add_time_function", none);
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;
     drive.part = string;
@@ -133,7 +133,7 @@ static int32_t describe(rig *r, scene_book *book)
     SCENE_NOTE(book, "compile", compile);
     for (int i = 0; i < 2; ++i) {
         r->outputs[i].place.part = string;
-        r->outputs[i].quantity = i == 0 ? DMB_CHANNEL_ROTARY_SPEED : DMB_CHANNEL_BIT_SPEED;
+        r->outputs[i].quantity = i == 0 ? DMB_OUTPUT_ROTARY_SPEED : DMB_OUTPUT_BIT_SPEED;
         scene_note_output(book, r->outputs[i]);
     }
     scene_note_step(book, 1e-3);
@@ -166,12 +166,12 @@ static int together(const unit *controller, const unit *rig_unit, double time, d
 static int32_t direct(const rig *r, double target, double *integral, double speeds[2])
 {
     double speed = 0.0;
-    (void)dmb_query_channel(r->sim, &r->outputs[0], &speed);
+    (void)dmb_query_output(r->sim, &r->outputs[0], &speed);
     const double error = target - speed, asked = 40.0 * error + *integral, torque = fmin(fmax(asked, -3000.0), 3000.0);
     if (torque == asked) *integral += 25.0 * error * length;
     int32_t status = dmb_sim_set_input(r->sim, r->torque, torque);
     for (int i = 0; i < 2 && status >= 0; ++i) status = dmb_sim_step(r->sim, 1e-3, NULL);
-    for (int i = 0; i < 2 && status >= 0; ++i) status = dmb_query_channel(r->sim, &r->outputs[i], &speeds[i]);
+    for (int i = 0; i < 2 && status >= 0; ++i) status = dmb_query_output(r->sim, &r->outputs[i], &speeds[i]);
     return status;
 }
 

@@ -9,10 +9,10 @@
 
 static dmb_id zero(dmb_model *model)
 {
-    const dmb_term rest = dmb_term_default();
-    dmb_id programme = {0, 0};
-    (void)dmb_model_add_programme(model, &rest, 1, &programme);
-    return programme;
+    const dmb_segment rest = dmb_segment_default();
+    dmb_id time_function = {0, 0};
+    (void)dmb_model_add_time_function(model, &rest, 1, &time_function);
+    return time_function;
 }
 
 /* A speed controller behind valves with a delay and a lag. */
@@ -28,7 +28,7 @@ static dmb_drive_def drive_of(rig *r, const controller *c)
     (void)strcpy(drive.name, c->name);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.component = c->component;
-    drive.programme = zero(r->model);
+    drive.time_function = zero(r->model);
     drive.gain = c->gain;
     drive.integral_gain = c->integral_gain;
     drive.limit_low = c->limit_low;
@@ -146,13 +146,13 @@ static double noise(uint32_t cycle, uint32_t sensor)
 
 int32_t rig_measure(rig *r, readings *seen)
 {
-    const dmb_channel hook_load = {{{0, 0}, 0, 0, 0.0}, DMB_CHANNEL_HOOK_LOAD, 0};
+    const dmb_output hook_load = {{{0, 0}, 0, 0, 0.0}, DMB_OUTPUT_HOOK_LOAD, 0};
     const uint32_t n = r->count++, slot = n % SENSOR_DELAY;
     dmb_drive_state head = dmb_drive_state_default(), carriage = dmb_drive_state_default();
     readings now = {0};
     int32_t status = dmb_query_drive(r->sim, r->head, &head);
     if (status >= 0) status = dmb_query_drive(r->sim, r->carriage, &carriage);
-    if (status >= 0) status = dmb_query_channel(r->sim, &hook_load, &now.hook);
+    if (status >= 0) status = dmb_query_output(r->sim, &hook_load, &now.hook);
     if (status < 0) return status;
     now.pressure = fmax(0.0, head.force * TURN / DISPLACEMENT + 2e5 * noise(n, 0));
     now.speed = head.speed + 0.05 * noise(n, 1);

@@ -12,7 +12,7 @@ import time
 from types import SimpleNamespace
 
 import study
-from drillmbd.probability.points import Points
+from drillmbd.probability.sampling import Points
 
 
 def seconds(engine, workers, samples):

@@ -28,7 +28,7 @@ if "DRILLMBD_LIBRARY" not in os.environ and (HERE.parents[1] / "build/release/li
 import numpy as np  # noqa: E402
 from drillmbd.probability import engines  # noqa: E402
 from drillmbd.probability.estimates import clopper_pearson, counted, sobol_indices  # noqa: E402
-from drillmbd.probability.points import Points  # noqa: E402
+from drillmbd.probability.sampling import Points  # noqa: E402
 from drillmbd.probability.sample import FAILED, SceneSample  # noqa: E402
 from drillmbd.probability.study import Study, StudyFile, read_rows  # noqa: E402
 
@@ -46,17 +46,17 @@ FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250
 
 def changes(form, model, speed, feed, pipes):
     """Of rig.toml."""
-    found = {"run.end": f"{form['end']} s", "string[0].pipes[0].count": pipes, "channel[1].place.pipe": pipes // 2,
+    found = {"run.end": f"{form['end']} s", "string[0].pipes[0].count": pipes, "output[1].place.pipe": pipes // 2,
              "response.output[0].place.pipe": pipes // 2, "speeds.output[0].place.pipe": pipes // 2}
     for i, sign in enumerate((1, -1, -1)):
-        found[f"programme[0].term[{i}].h1"] = f"{sign * feed} mm/s"
-        found[f"programme[1].term[{i}].h1"] = f"{sign * speed} rpm"
+        found[f"time_function[0].segment[{i}].h1"] = f"{sign * feed} mm/s"
+        found[f"time_function[1].segment[{i}].h1"] = f"{sign * speed} rpm"
     if form["end"] < 2.0:
         found["failure[5].from"] = f"{0.5 * form['end']} s"
     if "friction" not in model:
         found.update({"hole.mu_static": 1e-9, "hole.mu_dynamic": 1e-9})
     if "vibration" not in model:
-        found.update({"string[0].pipes[0].eccentricity": "0 mm", "programme[2].term.share": 0})
+        found.update({"string[0].pipes[0].eccentricity": "0 mm", "time_function[2].segment.share": 0})
     return found
 
 

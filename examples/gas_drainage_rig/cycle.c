@@ -23,41 +23,42 @@ const char *rig_stage_name(int stage)
     return stage >= 0 && stage < RIG_STAGES ? names[stage] : "";
 }
 
-/* ---- Programmes ---------------------------------------------------------------------------------------------------
- * Rotation and feed go up in stage 0, down in stage 2, and the other way in stage 4. */
+/* ---- Time functions
+ * --------------------------------------------------------------------------------------------------- Rotation and feed
+ * go up in stage 0, down in stage 2, and the other way in stage 4. */
 
 /* A rise by `height` in the course of one stage: height STEP(t, begin, 0, end, 1). */
-static dmb_term rise(const rig_cycle *cycle, int stage, double height)
+static dmb_segment rise(const rig_cycle *cycle, int stage, double height)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = cycle->time[stage];
     term.x1 = cycle->time[stage + 1];
     term.h1 = height;
     return term;
 }
 
-static int32_t add_there_and_back(dmb_model *model, const rig_cycle *cycle, double speed, dmb_id *programme)
+static int32_t add_there_and_back(dmb_model *model, const rig_cycle *cycle, double speed, dmb_id *time_function)
 {
-    const dmb_term terms[3] = {rise(cycle, 0, speed), rise(cycle, 2, -speed), rise(cycle, 4, -speed)};
-    return dmb_model_add_programme(model, terms, 3, programme);
+    const dmb_segment terms[3] = {rise(cycle, 0, speed), rise(cycle, 2, -speed), rise(cycle, 4, -speed)};
+    return dmb_model_add_time_function(model, terms, 3, time_function);
 }
 
-int32_t rig_add_rotation(dmb_model *model, const rig_cycle *cycle, dmb_id *programme)
+int32_t rig_add_rotation(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function)
 {
-    return add_there_and_back(model, cycle, RADIANS_PER_SECOND(RIG_ROTATION_RPM), programme);
+    return add_there_and_back(model, cycle, RADIANS_PER_SECOND(RIG_ROTATION_RPM), time_function);
 }
 
-int32_t rig_add_feed(dmb_model *model, const rig_cycle *cycle, dmb_id *programme)
+int32_t rig_add_feed(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function)
 {
-    return add_there_and_back(model, cycle, RIG_FEED, programme);
+    return add_there_and_back(model, cycle, RIG_FEED, time_function);
 }
 
 /* The rock pushes while the bit drills, and not any more when it is pulled out. */
-int32_t rig_add_bottom_load(dmb_model *model, const rig_cycle *cycle, dmb_id *programme)
+int32_t rig_add_bottom_load(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function)
 {
-    const dmb_term terms[2] = {rise(cycle, 0, RIG_BOTTOM_LOAD), rise(cycle, 2, -RIG_BOTTOM_LOAD)};
-    return dmb_model_add_programme(model, terms, 2, programme);
+    const dmb_segment terms[2] = {rise(cycle, 0, RIG_BOTTOM_LOAD), rise(cycle, 2, -RIG_BOTTOM_LOAD)};
+    return dmb_model_add_time_function(model, terms, 2, time_function);
 }
 
 /* ---- Excitation ---------------------------------------------------------------------------------------------------
@@ -104,12 +105,12 @@ static int32_t shake(void *context, double time, double out[3])
     return 0;
 }
 
-int32_t rig_add_shake(dmb_model *model, rig_cycle *cycle, dmb_id *programme)
+int32_t rig_add_shake(dmb_model *model, rig_cycle *cycle, dmb_id *time_function)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.callback = shake;
     term.callback_context = cycle;
     term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
-    return dmb_model_add_programme(model, &term, 1, programme);
+    return dmb_model_add_time_function(model, &term, 1, time_function);
 }

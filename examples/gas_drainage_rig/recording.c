@@ -4,31 +4,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void watch(dmb_channel *channel, dmb_place place, int32_t quantity)
+static void watch(dmb_output *output, dmb_place place, int32_t quantity)
 {
-    channel->place = place;
-    channel->quantity = quantity;
-    channel->reserved = 0;
+    output->place = place;
+    output->quantity = quantity;
+    output->reserved = 0;
 }
 
-static void choose_channels(rig_recording *recording, const rig_scene *scene)
+static void choose_outputs(rig_recording *recording, const rig_scene *scene)
 {
-    dmb_channel *next = recording->channels;
+    dmb_output *next = recording->outputs;
     for (int p = 0; p < RIG_PLACES; ++p) {
         const dmb_place place =
             p == RIG_BIT ? dmb_station(scene->bit, 0, 0.0) : dmb_station(scene->string, recording->pipe[p], 1.0);
-        for (int32_t q = DMB_CHANNEL_DISPLACEMENT_X; q <= DMB_CHANNEL_VELOCITY_Z; ++q) watch(next++, place, q);
+        for (int32_t q = DMB_OUTPUT_DISPLACEMENT_X; q <= DMB_OUTPUT_VELOCITY_Z; ++q) watch(next++, place, q);
     }
     const dmb_place last = dmb_station(scene->string, recording->pipe[RIG_LAST], 1.0);
     const dmb_place feed = dmb_station(scene->feed, 0, 0.0), rotation = dmb_station(scene->rotation, 0, 0.0);
-    watch(next++, last, DMB_CHANNEL_KINETIC_ENERGY);
-    watch(next++, feed, DMB_CHANNEL_DRIVE_FORCE);
-    watch(next++, feed, DMB_CHANNEL_DRIVE_SPEED);
-    watch(next++, rotation, DMB_CHANNEL_DRIVE_FORCE);
-    watch(next++, rotation, DMB_CHANNEL_DRIVE_SPEED);
-    watch(next++, last, DMB_CHANNEL_NORMAL_FORCE);
-    watch(next++, dmb_station(scene->bit, 0, 0.0), DMB_CHANNEL_NORMAL_FORCE);
-    watch(next++, last, DMB_CHANNEL_ENERGY_ERROR);
+    watch(next++, last, DMB_OUTPUT_KINETIC_ENERGY);
+    watch(next++, feed, DMB_OUTPUT_DRIVE_FORCE);
+    watch(next++, feed, DMB_OUTPUT_DRIVE_SPEED);
+    watch(next++, rotation, DMB_OUTPUT_DRIVE_FORCE);
+    watch(next++, rotation, DMB_OUTPUT_DRIVE_SPEED);
+    watch(next++, last, DMB_OUTPUT_NORMAL_FORCE);
+    watch(next++, dmb_station(scene->bit, 0, 0.0), DMB_OUTPUT_NORMAL_FORCE);
+    watch(next++, last, DMB_OUTPUT_ENERGY_ERROR);
 }
 
 int32_t rig_recording_open(rig_recording *recording, const rig_options *options, const rig_scene *scene)
@@ -38,10 +38,10 @@ int32_t rig_recording_open(rig_recording *recording, const rig_options *options,
     recording->pipe[RIG_FIRST] = 0;
     recording->pipe[RIG_MIDDLE] = options->pipes > 1 ? options->pipes / 2 - 1 : 0;
     recording->pipe[RIG_LAST] = options->pipes - 1;
-    choose_channels(recording, scene);
+    choose_outputs(recording, scene);
     recording->recorder = dmb_recorder_default();
-    recording->recorder.channels = recording->channels;
-    recording->recorder.channel_count = RIG_COLUMNS - 1;
+    recording->recorder.outputs = recording->outputs;
+    recording->recorder.output_count = RIG_COLUMNS - 1;
     recording->recorder.capacity = (uint64_t)rows;
     recording->recorder.interval = 1.0 / options->rate;
     recording->recorder.table = calloc((size_t)rows, RIG_COLUMNS * sizeof(double));
@@ -49,7 +49,7 @@ int32_t rig_recording_open(rig_recording *recording, const rig_options *options,
     return recording->recorder.table == NULL || recording->wall_force == NULL ? DMB_ERR_NO_MEMORY : DMB_OK;
 }
 
-/* The sum over the wall is no channel of the recorder, so it is asked for whenever a row was written. */
+/* The sum over the wall is no output of the recorder, so it is asked for whenever a row was written. */
 int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim)
 {
     const uint64_t before = recording->recorder.row_count;

@@ -1,4 +1,4 @@
-/* The table that is kept while a variant runs: one row a sample, one column a channel. */
+/* The table that is kept while a variant runs: one row a sample, one column a output. */
 #ifndef RIG_RECORDING_H
 #define RIG_RECORDING_H
 
@@ -25,7 +25,7 @@ enum {
 };
 
 typedef struct rig_recording {
-    dmb_channel channels[RIG_COLUMNS - 1];
+    dmb_output outputs[RIG_COLUMNS - 1];
     dmb_recorder recorder;
     uint32_t pipe[RIG_PIPES]; /* which pipes, from 0 */
     double *wall_force;       /* [N] sum over the wall at each row */

@@ -145,7 +145,7 @@ void rig_report_variant(const rig_options *options, const rig_result *result)
                                           [RIG_VIBRATION] = "contact + friction + vibration"};
     printf("\n---- %s, %s\n", rig_system_name(&result->variant), couples[result->variant.couple]);
     printf("  %u degrees_of_freedom, %u elements, %u places of contact; ", result->info.degrees_of_freedom,
-           result->info.elements, result->info.contact_sites);
+           result->info.elements, result->info.contact_points);
     if (options->dropped)
         printf("starts on the axis of the hole\n");
     else

@@ -79,12 +79,12 @@ static int32_t add_bit(dmb_model *model, rig_options *options, const rig_variant
 static int32_t add_drives(dmb_model *model, rig_options *options, rig_scene *scene)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    int32_t status = rig_add_feed(model, &options->cycle, &drive.programme);
+    int32_t status = rig_add_feed(model, &options->cycle, &drive.time_function);
     drive.part = scene->string;
     drive.component = DMB_X;
     if (status >= 0) status = dmb_model_add_drive(model, &drive, &scene->feed);
     drive.component = DMB_RX;
-    if (status >= 0) status = rig_add_rotation(model, &options->cycle, &drive.programme);
+    if (status >= 0) status = rig_add_rotation(model, &options->cycle, &drive.time_function);
     if (status >= 0) status = rig_add_shake(model, &options->cycle, &drive.excitation);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, &scene->rotation);
 }

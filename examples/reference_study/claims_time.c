@@ -173,9 +173,9 @@ static void decay(tally *t, const study_results *results)
 
 /* ---- Figures 7 to 10: speeds and places -------------------------------------------------------------------------- */
 
-static void programme(tally *t, const study_run *run)
+static void time_function(tally *t, const study_run *run)
 {
-    study_claim(t, "figure 7", "the X speed of pipe 1 follows the programme of six stages");
+    study_claim(t, "figure 7", "the X speed of pipe 1 follows the time function of six stages");
     printf("     here: off it by %.1e mm/s (root mean square over 40 s) of 10 mm/s\n", 1e3 * run->feed_error);
     study_verdict(t, run->feed_error < 1e-3 * RIG_FEED ? CONFIRMED : NOT_CONFIRMED,
                   "start 0 to 1 s, drill to 19 s, stop to 20 s, rest to 21 s, reverse to 22 s, pull out to 40 s");
@@ -217,7 +217,7 @@ static void first_rod(tally *t, const study_results *results)
                stage_names[stage]);
     }
     printf("\n");
-    study_verdict(t, least ? CONFIRMED : NOT_CONFIRMED, "the head guides it");
+    study_verdict(t, least ? CONFIRMED : NOT_CONFIRMED, "the head supports it");
 }
 
 /* Whether a value rises from pipe 1 to 50 to 100: CONFIRMED in both stages, CONFIRMED_IF over the whole cycle. */
@@ -320,7 +320,7 @@ static void all_rows(tally *t, const study_results *results)
     lowered_swing(t, results->runs);
     largest_drilling(t, results->runs);
     decay(t, results);
-    programme(t, results->runs + STUDY_FULL);
+    time_function(t, results->runs + STUDY_FULL);
     directions(t, results);
     first_rod(t, results);
     growth(t, results);
@@ -341,7 +341,7 @@ void study_claim_time(tally *t, const study_results *results)
                                         "in some places it fluctuates less with vibration",
                                         "it is largest while drilling",
                                         "it decays within 10 s and is stable after 15 s",
-                                        "the X speed follows the programme",
+                                        "the X speed follows the time function",
                                         "the Z speed fluctuates most",
                                         "the X speed fluctuates least",
                                         "pipe 1 is affected least",

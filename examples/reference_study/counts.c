@@ -34,11 +34,11 @@ static int32_t join(dmb_model *model, int32_t kind, dmb_place a, dmb_place b, dm
 
 static int32_t add_drive(dmb_model *model, dmb_id pair, int32_t component)
 {
-    const dmb_term still = dmb_term_default();
+    const dmb_segment still = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = pair;
     drive.component = component;
-    const int32_t status = dmb_model_add_programme(model, &still, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(model, &still, 1, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
 }
 

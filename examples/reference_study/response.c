@@ -20,19 +20,19 @@ const double study_case_eccentricity[STUDY_CASES] = {0.5e-3, 1e-3, 2e-3, 0.5e-3,
 
 /* The drives shake by a part of their speeds, the wall rubs around the string by the whole friction of sliding, the
  * eccentric masses turn. */
-static void set_inputs(const study_string *s, const study_scene *scene, dmb_input inputs[INPUTS])
+static void set_inputs(const study_string *s, const study_scene *scene, dmb_excitation inputs[INPUTS])
 {
-    for (int i = 0; i < INPUTS; ++i) inputs[i] = dmb_input_default();
+    for (int i = 0; i < INPUTS; ++i) inputs[i] = dmb_excitation_default();
     for (int i = 0; i < 2; ++i) {
-        inputs[i].kind = DMB_INPUT_DRIVE;
+        inputs[i].kind = DMB_EXCITATION_DRIVE;
         inputs[i].place.part = s->drive[i];
     }
     inputs[0].amplitude = RIG_SHAKE * RIG_FEED;
     inputs[1].amplitude = RIG_SHAKE * STUDY_ROTATION;
-    inputs[2].kind = DMB_INPUT_FRICTION;
+    inputs[2].kind = DMB_EXCITATION_FRICTION;
     inputs[2].component = DMB_RX;
     inputs[2].amplitude = scene->wall.mu_dynamic;
-    inputs[3].kind = DMB_INPUT_ECCENTRICITY;
+    inputs[3].kind = DMB_EXCITATION_ECCENTRICITY;
     inputs[4] = inputs[2];
     inputs[4].component = DMB_X;
 }
@@ -43,8 +43,8 @@ static int part_of(uint32_t input, int cause)
 }
 
 /* Amplitudes along one axis, |sum of amplitude times transfer| over the inputs of each cause. */
-static int32_t take_axis(const dmb_response *response, uint32_t axis, const dmb_input inputs[INPUTS], study_response *r,
-                         double *values, double *sums)
+static int32_t take_axis(const dmb_response *response, uint32_t axis, const dmb_excitation inputs[INPUTS],
+                         study_response *r, double *values, double *sums)
 {
     const size_t values_count = 2 * (size_t)r->points; /* real and imaginary parts */
     for (int cause = 0; cause < STUDY_CAUSES; ++cause) {
@@ -87,7 +87,7 @@ static int32_t make_room(study_response *r, uint32_t points)
     return room ? DMB_OK : DMB_ERR_NO_MEMORY;
 }
 
-static int32_t take(const dmb_response *response, const dmb_input inputs[INPUTS], study_response *r)
+static int32_t take(const dmb_response *response, const dmb_excitation inputs[INPUTS], study_response *r)
 {
     uint32_t shape[3] = {0, 0, 0};
     int32_t status = dmb_response_dimensions(response, shape);
@@ -107,12 +107,12 @@ int32_t study_respond(study_string *s, const study_scene *scene, double low, dou
                       uint32_t refinement, study_response *r)
 {
     dmb_response_options options = dmb_response_options_default();
-    dmb_input inputs[INPUTS];
-    dmb_output outputs[STUDY_AXES];
+    dmb_excitation inputs[INPUTS];
+    dmb_response_output outputs[STUDY_AXES];
     dmb_response *response = NULL;
     set_inputs(s, scene, inputs);
     for (int32_t axis = 0; axis < STUDY_AXES; ++axis) {
-        outputs[axis] = dmb_output_default();
+        outputs[axis] = dmb_response_output_default();
         outputs[axis].place = dmb_station(s->string, scene->pipes - 1, 0.5);
         outputs[axis].component = axis;
     }

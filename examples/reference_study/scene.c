@@ -41,21 +41,21 @@ static int32_t add_pipes(study_string *s, const study_scene *scene)
 static int32_t add_bit(dmb_model *model, const study_scene *scene)
 {
     dmb_bit_def bit = scene->bit;
-    dmb_term load = dmb_term_default();
+    dmb_segment load = dmb_segment_default();
     int32_t status = DMB_OK;
     load.h0 = RIG_BOTTOM_LOAD;
-    if (!scene->alone) status = dmb_model_add_programme(model, &load, 1, &bit.load);
+    if (!scene->alone) status = dmb_model_add_time_function(model, &load, 1, &bit.load);
     return status < 0 ? status : dmb_model_add_bit(model, &bit, NULL);
 }
 
 /* The load that buckling grows: 1 N back along the hole, of which none acts before. */
 static int32_t add_push(study_string *s, const study_scene *scene)
 {
-    const dmb_term none = dmb_term_default(); /* of height 0 */
+    const dmb_segment none = dmb_segment_default(); /* of height 0 */
     dmb_load_def push = dmb_load_def_default();
     push.force[0] = -1.0;
     push.place = dmb_station(s->string, scene->pipes - 1, 1.0);
-    const int32_t status = dmb_model_add_programme(s->model, &none, 1, &push.programme);
+    const int32_t status = dmb_model_add_time_function(s->model, &none, 1, &push.time_function);
     return status < 0 ? status : dmb_model_add_load(s->model, &push, &s->push);
 }
 
@@ -63,9 +63,9 @@ static int32_t add_push(study_string *s, const study_scene *scene)
  * still, so that shaking is what is added. */
 static int32_t add_drives(study_string *s)
 {
-    const dmb_term still = dmb_term_default();
+    const dmb_segment still = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    int32_t status = dmb_model_add_programme(s->model, &still, 1, &drive.programme);
+    int32_t status = dmb_model_add_time_function(s->model, &still, 1, &drive.time_function);
     drive.part = s->string;
     if (status >= 0) status = dmb_model_add_drive(s->model, &drive, s->drive);
     drive.component = DMB_RX;

@@ -219,7 +219,7 @@ typedef struct study_run {
     double swing[STUDY_DRIVEN][STUDY_WINDOWS];  /* [J] root mean square about them */
     double half_turn[STUDY_DRIVEN][STUDY_HALF_TURNS]; /* [J] the same over half a revolution each */
     study_motion motion[STUDY_DRIVEN][RIG_PLACES];
-    double feed_error; /* [m/s] root mean square of the X speed of the first pipe off the programme, whole cycle */
+    double feed_error; /* [m/s] root mean square of the X speed of the first pipe off the time function, whole cycle */
     double wall_swing; /* [-] root mean square of the wall force at the last pipe while drilling about its mean, over
                           that */
 } study_run;

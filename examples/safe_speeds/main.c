@@ -58,17 +58,17 @@ static dmb_order order_of(double order, int32_t kind, dmb_place place, int32_t c
 {
     dmb_order made = dmb_order_default();
     made.order = order;
-    made.input.kind = kind;
-    made.input.place = place;
-    made.input.component = component;
-    made.input.amplitude = amplitude;
+    made.excitation.kind = kind;
+    made.excitation.place = place;
+    made.excitation.component = component;
+    made.excitation.amplitude = amplitude;
     return made;
 }
 
-static dmb_output load_of(dmb_place place, int32_t component)
+static dmb_response_output load_of(dmb_place place, int32_t component)
 {
-    dmb_output made = dmb_output_default();
-    made.kind = DMB_OUTPUT_SECTION_FORCE;
+    dmb_response_output made = dmb_response_output_default();
+    made.kind = DMB_RESPONSE_SECTION_FORCE;
     made.place = place;
     made.component = component;
     return made;
@@ -79,14 +79,14 @@ static int32_t find_bands(depth *d)
     const dmb_place bit = dmb_station(d->scene.bit, 0, 0.0), nowhere = dmb_station((dmb_id){0, 0}, 0, 0.0);
     const dmb_place head = dmb_station(d->scene.string, 0, 0.0);
     const dmb_place last = dmb_station(d->scene.string, d->pipes - 1, 0.0);
-    const dmb_order orders[ORDERS] = {order_of(1.0, DMB_INPUT_ECCENTRICITY, nowhere, DMB_X, 1.0),
-                                      order_of(2.0, DMB_INPUT_FORCE, bit, DMB_Y, 300.0),
-                                      order_of(3.0, DMB_INPUT_BIT_LOAD, bit, DMB_X, 500.0),
-                                      order_of(BLADES, DMB_INPUT_FORCE, bit, DMB_RX, 40.0),
-                                      order_of(BLADES, DMB_INPUT_BIT_LOAD, bit, DMB_X, 500.0),
-                                      order_of(d->given_order, DMB_INPUT_BIT_LOAD, bit, DMB_X, 500.0)};
-    const dmb_output outputs[LIMITS] = {load_of(head, DMB_X), load_of(head, DMB_RX), load_of(last, DMB_Y),
-                                        load_of(last, DMB_RX), load_of(last, DMB_RZ)};
+    const dmb_order orders[ORDERS] = {order_of(1.0, DMB_EXCITATION_ECCENTRICITY, nowhere, DMB_X, 1.0),
+                                      order_of(2.0, DMB_EXCITATION_FORCE, bit, DMB_Y, 300.0),
+                                      order_of(3.0, DMB_EXCITATION_BIT_LOAD, bit, DMB_X, 500.0),
+                                      order_of(BLADES, DMB_EXCITATION_FORCE, bit, DMB_RX, 40.0),
+                                      order_of(BLADES, DMB_EXCITATION_BIT_LOAD, bit, DMB_X, 500.0),
+                                      order_of(d->given_order, DMB_EXCITATION_BIT_LOAD, bit, DMB_X, 500.0)};
+    const dmb_response_output outputs[LIMITS] = {load_of(head, DMB_X), load_of(head, DMB_RX), load_of(last, DMB_Y),
+                                                 load_of(last, DMB_RX), load_of(last, DMB_RZ)};
     dmb_speeds_options options = dmb_speeds_options_default();
     options.points = SPEEDS;
     options.speed_low = LOW_RPM / RPM;

@@ -5,9 +5,9 @@
 /* Head: it feeds and turns, and holds still while the string is looked at. */
 static int32_t add_head(dmb_model *model)
 {
-    const dmb_term still = dmb_term_default();
+    const dmb_segment still = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    int32_t status = dmb_model_add_programme(model, &still, 1, &drive.programme);
+    int32_t status = dmb_model_add_time_function(model, &still, 1, &drive.time_function);
     for (int32_t c = DMB_X; c <= DMB_RX && status >= 0; c += DMB_RX - DMB_X) {
         drive.component = c;
         status = dmb_model_add_drive(model, &drive, NULL);

@@ -10,16 +10,16 @@ enum { PIPES = 2000, STEPS = 20 };
 /* A string in its hole, turned at the rig. */
 static int32_t describe(dmb_model *model)
 {
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_wall_def wall = dmb_wall_def_default();
-    rise.kind = DMB_TERM_STEP;
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = 6.0; /* rad/s */
     drive.component = DMB_RX;
     int32_t status = dmb_model_add_wall(model, &wall, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &pipe, PIPES, NULL);
-    if (status >= 0) status = dmb_model_add_programme(model, &rise, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_time_function(model, &rise, 1, &drive.time_function);
     if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }

@@ -27,7 +27,7 @@ def weightless():
 
 
 def load_tip(model, string, force):
-    model.add_load(place=mbd.station(string, 0, 1.0), force=force, programme=model.add_programme(1.0))
+    model.add_load(place=mbd.station(string, 0, 1.0), force=force, time_function=model.add_time_function(1.0))
 
 
 def angle(pose):
@@ -138,7 +138,7 @@ def lee_path(elements):
                             section_stiffness=stiffness)
         model.add_joint(place_a=mbd.station(post, 0, 1.0), place_b=mbd.station(top, 0, 0.0), match=1)
         place = mbd.station(top, 0, 1.0)
-        push = model.add_load(place=place, force=(0.0, 0.0, -2.0 * e / 120.0 ** 2), programme=model.add_programme(0.0))
+        push = model.add_load(place=place, force=(0.0, 0.0, -2.0 * e / 120.0 ** 2), time_function=model.add_time_function(0.0))
         model.compile()
         with model.sim() as sim:
             def visit(_at, point):
@@ -189,7 +189,7 @@ def spin_up(elements, step, end=20.0):
         string = beam(model, 10.0, elements, (2.8e7, 1e7, 1e7, 1e4, 1.4e4, 1.4e4), free=1 << mbd.RZ, mass=1.2,
                       inertia=(1.2e-3, 6e-4))
         model.add_drive(component=mbd.RZ, part=string,
-                        programme=model.add_programme(mbd.Term(function=spun, provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)))
+                        time_function=model.add_time_function(mbd.Segment(function=spun, provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)))
         model.compile()
         with model.sim(spectral_radius=0.8) as sim:
             root, tip = mbd.station(string, 0, 0.0), mbd.station(string, 0, 1.0)
@@ -232,8 +232,8 @@ def right_angle(elements, step, end=30.0):
                    position=(10.0, 0.0, 0.0), rotation=(0.0, 0.0, 0.5 * PI), end_free=mbd.FREE_ALL)
         elbow = mbd.station(near, 0, 1.0)
         model.add_joint(place_a=elbow, place_b=mbd.station(far, 0, 0.0), match=1)
-        force = model.add_programme(mbd.Term(table=[(0.0, 0.0), (1.0, 50.0), (2.0, 0.0), (1e3, 0.0)]))
-        model.add_load(place=elbow, force=(0.0, 0.0, 1.0), programme=force)
+        force = model.add_time_function(mbd.Segment(table=[(0.0, 0.0), (1.0, 50.0), (2.0, 0.0), (1e3, 0.0)]))
+        model.add_load(place=elbow, force=(0.0, 0.0, 1.0), time_function=force)
         model.compile()
         with model.sim() as sim:
             tip = mbd.station(far, 0, 1.0)

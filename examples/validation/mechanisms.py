@@ -180,7 +180,7 @@ def squeezer(step, end=0.03):
                             axis_a=(0.0, 0.0, 1.0), origin_a=(28e-3, 0.0, 0.0), origin_b=origin)
         model.add_spring(place_a=GROUND, place_b=at["triangle"], offset_a=(*c, 0.0), offset_b=(0.02, -0.018, 0.0),
                          free_length=0.07785, stiffness=4530.0)
-        model.add_drive(kind=mbd.DRIVE_LOAD, part=joints["beta"], component=mbd.RX, programme=model.add_programme(0.033))
+        model.add_drive(kind=mbd.DRIVE_LOAD, part=joints["beta"], component=mbd.RX, time_function=model.add_time_function(0.033))
         model.compile()
         with model.sim() as sim:
             shift = {name: q[name] - sim.joint(joint).position[3] for name, joint in joints.items()}

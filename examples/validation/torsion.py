@@ -26,9 +26,9 @@ def first_periods(depth, collars, scale=1.0, count=3):
             model.add_pipes(1, string=string, kind=mbd.PIPE_AXIAL_TORSIONAL, length=piece * scale, elements=5,
                             outer_diameter=outer, inner_diameter=inner,
                             young_modulus=2.0 * (1.0 + POISSON) * SHEAR_COLLARS)
-        still = model.add_programme(0.0)
+        still = model.add_time_function(0.0)
         for component in (mbd.X, mbd.RX):
-            model.add_drive(component=component, programme=still)
+            model.add_drive(component=component, time_function=still)
         model.compile()
         with model.sim() as sim:
             modes = sim.modes(count=4 * count)

@@ -134,7 +134,7 @@ def suite_sim():
         model.add_pipes(count, length=100.0 * FOOT, outer_diameter=outer * 0.0254, inner_diameter=inner * 0.0254,
                         section_mass=mass * 1.4881639)
     for component in (mbd.X, mbd.RX):
-        model.add_drive(component=component, programme=model.add_programme(0.0))
+        model.add_drive(component=component, time_function=model.add_time_function(0.0))
     model.compile()
     return model.sim()
 

@@ -17,7 +17,7 @@ extern "C" {
  *      bits. */
 
 /* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on
- * without a transient. Programmes that change count with their speed at that time. */
+ * without a transient. Time functions that change count with their speed at that time. */
 enum {
     DMB_STEADY_AUTO = 0, /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
                             about their axis, RIGID else, or where masses are eccentric; AT_REST with
@@ -89,7 +89,7 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the
  * rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit
  * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no
- * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the
+ * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, supports, joints to the
  * ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and
  * some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy ledger
  * starts anew. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it
@@ -294,7 +294,7 @@ typedef struct dmb_check_report {
     uint32_t other_drives;      /* [-] DMB_DRIVE_LOAD and _CONTROL */
     uint32_t loads;             /* [-] */
     uint32_t coordinates;       /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
-    uint32_t held;              /* [-] of them held by guides: start_free, end_free, free_mask */
+    uint32_t held;              /* [-] of them held by supports: start_free, end_free, free_mask */
     uint32_t prescribed;        /* [-] of them moved by motion drives of strings and bodies */
     uint32_t constraint_rows;   /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
     uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */

@@ -72,10 +72,10 @@ typedef struct dmb_motor {
 DMB_SIZED_STRUCT(dmb_motor)
 /* Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over
  * efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part,
- * programme and name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: an
- * input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then
- * (a positive displacement motor; Tiraspolsky). Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is
- * written then.
+ * time function and name stay) and tells w0 [rad/s], the constant value of its time function. Another flow while it
+ * runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor,
+ * stays then (a positive displacement motor; Tiraspolsky). Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE;
+ * nothing is written then.
  */
 DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
 

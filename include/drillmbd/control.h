@@ -10,10 +10,10 @@ extern "C" {
 #endif
 /* clang-format off */
 enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11, 14 of wall and environment, >= 0 */
-    DMB_TARGET_SET_POINT = 0, /* of a drive, in the place of its programme; its excitation goes on */
+    DMB_TARGET_SET_POINT = 0, /* of a drive, in the place of its time function; its excitation goes on */
     DMB_TARGET_GAIN = 1, DMB_TARGET_INTEGRAL_GAIN = 2, /* [N s/m, N m s], [N/m, N m] >= 0 */
     DMB_TARGET_LIMIT_LOW = 3, DMB_TARGET_LIMIT_HIGH = 4, /* [N, N m] the first below the second */
-    DMB_TARGET_LOAD_FACTOR = 5, DMB_TARGET_BIT_LOAD = 6, /* [-] of a load, [N] of a bit, in the place of its programme */
+    DMB_TARGET_LOAD_FACTOR = 5, DMB_TARGET_BIT_LOAD = 6, /* [-] of a load, [N] of a bit, replaces its time function */
     DMB_TARGET_FRICTION = 7, DMB_TARGET_FLUID_DENSITY = 8, /* [-] factor of both coefficients of the wall, [kg/m3] */
     DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */
     DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
@@ -33,7 +33,7 @@ typedef struct dmb_input_def {
     char name[24];     /* required, of its own among the inputs, ends with 0 */
     dmb_id part;       /* drive, load, bit or stuck place; {0, 0} of wall and environment */
     double initial;    /* [unit of the target] at time 0, within the bounds; NaN (default): as described, which for 0, 5
-                          and 6 is the programme, until the input is set */
+                          and 6 is the time function, until the input is set */
     double low, high;  /* [unit of the target] bounds, low <= high; default -1e30 and 1e30: as far as the target goes */
     double rate_limit; /* [unit/s] of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for
                           the set point of a MOTION drive: largest acceleration */
@@ -67,10 +67,10 @@ DMB_API int32_t dmb_sim_set_input(dmb_sim *sim, dmb_id input, double value);
 DMB_API int32_t dmb_sim_set_inputs(dmb_sim *sim, const dmb_id *inputs, const double *values, uint32_t count);
 typedef struct dmb_input_state {
     uint32_t struct_size;
-    int32_t is_set;       /* 0: its programme is in force, since it was not set yet */
-    double value;         /* [unit] what is set; of a programme its value now */
+    int32_t is_set;       /* 0: its time function is in force, since it was not set yet */
+    double value;         /* [unit] what is set; of a time function its value now */
     double present, rate; /* [unit, unit/s] in force now, on the way to `value` */
-    double arrives;       /* [s] time at which it is or was there; 0 of a programme */
+    double arrives;       /* [s] time at which it is or was there; 0 of a time function */
 } dmb_input_state;
 DMB_SIZED_STRUCT(dmb_input_state)
 DMB_API int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state);
@@ -95,12 +95,12 @@ DMB_API int32_t dmb_sim_replay_inputs(dmb_sim *sim, const dmb_input_record *reco
 enum { DMB_EVENT_EITHER = 0, DMB_EVENT_RISING = 1, DMB_EVENT_FALLING = 2, DMB_EVENTS_MAX = 64 };
 typedef struct dmb_event_def {
     uint32_t struct_size;
-    int32_t direction;  /* DMB_EVENT_..., default DMB_EVENT_RISING */
-    char name[24];      /* required, of its own among the events, ends with 0 */
-    dmb_channel output; /* as of a recorder; what the scene does not have dmb_sim_create refuses */
-    double level;       /* [unit of the output] default 0 */
-    double hold;        /* [s] told when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0 */
-    double tolerance;   /* [s] 1e-12 .. 1, default 1e-9; no less than the rounding of time allows */
+    int32_t direction; /* DMB_EVENT_..., default DMB_EVENT_RISING */
+    char name[24];     /* required, of its own among the events, ends with 0 */
+    dmb_output output; /* as of a recorder; what the scene does not have dmb_sim_create refuses */
+    double level;      /* [unit of the output] default 0 */
+    double hold;       /* [s] told when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0 */
+    double tolerance;  /* [s] 1e-12 .. 1, default 1e-9; no less than the rounding of time allows */
 } dmb_event_def;
 DMB_SIZED_STRUCT(dmb_event_def)
 DMB_API int32_t dmb_model_add_event(dmb_model *model, const dmb_event_def *def, dmb_id *event);

@@ -78,10 +78,10 @@ DMB_SIZED_STRUCT(dmb_torque_drag_row)
  * the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the
  * survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures
  * are left out of yield_share. The sim is asked for its model only and does not change.
- * Errors: DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has rings, or below its rig end a
- * joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place described stuck; DMB_ERR_VALUE,
- * _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2
- * m)). */
+ * Errors: DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has stabilisers, or below its rig
+ * end a joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place described stuck;
+ * DMB_ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs +
+ * stations + length / 2 m)). */
 DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *options,
                                          const dmb_operation *operations, uint32_t operation_count,
                                          dmb_torque_drag_row *rows);

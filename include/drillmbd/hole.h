@@ -14,7 +14,7 @@ enum {
 };
 /* A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and
  * every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere.
- * All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the corner
+ * All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint
  * between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its
  * diameter changes, and no energy is made. */
 typedef struct dmb_hole_section {

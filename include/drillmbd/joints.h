@@ -27,7 +27,7 @@ enum {
     DMB_JOINT_SPHERICAL = 5,      /* RX, RY, RZ free */
     DMB_JOINT_PLANAR = 6,         /* Y, Z, RX free: x is the normal of the plane */
     DMB_JOINT_POINT_ON_LINE = 7,  /* X, RX, RY, RZ free: origin of b on the x axis of a */
-    DMB_JOINT_POINT_ON_HOLE = 8,  /* origin of b on the axis of the hole; a must be the ground (guide, centraliser) */
+    DMB_JOINT_POINT_ON_HOLE = 8,  /* origin of b on the axis of the hole; a must be the ground (support, centraliser) */
     DMB_JOINT_DISTANCE = 9,       /* origins `length` apart */
     DMB_JOINT_FREE = 10,          /* holds nothing: carries springs, dampers, stops, friction */
     DMB_JOINT_KNIFE_EDGE = 11,    /* nonholonomic: the origin of b does not move along y of b (no lateral slip) */

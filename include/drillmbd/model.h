@@ -69,7 +69,7 @@ typedef struct dmb_environment_def {
     double inner_density;     /* [kg/m3] inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside */
     double added_mass;  /* [-] of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 +
                            d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud
-                           inside moves, too, tool joints are spread over their pipe, rings have that of what they
+                           inside moves, too, tool joints are spread over their pipe, stabilisers have that of what they
                            displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia */
     double flow_rate;   /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
                            annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
@@ -85,40 +85,40 @@ typedef struct dmb_environment_def {
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
 
-/* ---- Programmes: values over time --------------------------------------------------------------------------------
- * A programme is a sum of terms. Corners of its terms are ends of integration steps, but for bounded-work steps. */
+/* ---- Time functions ----------------------------------------------------------------------------------------------
+ * A time function is a sum of segments. Integration steps end at their breakpoints, except bounded-work steps. */
 enum {
-    DMB_TERM_CONSTANT = 0, /* h0 */
-    DMB_TERM_STEP = 1,     /* h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0) */
-    DMB_TERM_STEP5 = 2,    /* the same with D^3 (10 - 15 D + 6 D^2) */
-    DMB_TERM_HARMONIC = 3, /* h0 + h1 sin(omega t + phase) */
-    DMB_TERM_TABLE = 4,    /* straight lines through (time, value) pairs, constant outside */
-    DMB_TERM_CALLBACK = 5  /* the caller's function */
+    DMB_SEGMENT_CONSTANT = 0, /* h0 */
+    DMB_SEGMENT_STEP = 1,     /* h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0) */
+    DMB_SEGMENT_STEP5 = 2,    /* the same with D^3 (10 - 15 D + 6 D^2) */
+    DMB_SEGMENT_HARMONIC = 3, /* h0 + h1 sin(omega t + phase) */
+    DMB_SEGMENT_TABLE = 4,    /* straight lines through (time, value) pairs, constant outside */
+    DMB_SEGMENT_CALLBACK = 5  /* the caller's function */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0];
  * what `provides` does not announce is built by differences and quadrature. All within
  * +-1e30. Returns 0, or nonzero to stop the step. */
-typedef int32_t (*dmb_programme_fn)(void *context, double time, double out[3]);
+typedef int32_t (*dmb_time_fn)(void *context, double time, double out[3]);
 enum { DMB_PROVIDES_RATE = 1, DMB_PROVIDES_INTEGRAL = 2 };
 
-typedef struct dmb_term {
+typedef struct dmb_segment {
     uint32_t struct_size;
-    int32_t kind;              /* DMB_TERM_..., default DMB_TERM_CONSTANT */
+    int32_t kind;              /* DMB_SEGMENT_..., default DMB_SEGMENT_CONSTANT */
     double x0, x1;             /* [s] start and end of STEP and STEP5, x1 > x0; default 0 and 1 */
-    double h0, h1;             /* [unit of the programme] default 0 and 0 */
+    double h0, h1;             /* [unit of the time function] default 0 and 0 */
     double omega;              /* [rad/s] of HARMONIC; default 0 */
     double phase;              /* [rad] of HARMONIC; default 0 */
     const double *table_time;  /* [s] strictly increasing, shape (table_count); copied */
-    const double *table_value; /* [unit of the programme] shape (table_count); copied */
+    const double *table_value; /* [unit of the time function] shape (table_count); copied */
     uint32_t table_count;      /* [-] 1 .. 2^20 */
     int32_t provides;          /* DMB_PROVIDES_..., of CALLBACK */
-    dmb_programme_fn callback; /* of CALLBACK; pure: same answer for the same time, callable from any thread */
+    dmb_time_fn callback;      /* of CALLBACK; pure: same answer for the same time, callable from any thread */
     void *callback_context;
-} dmb_term;
-DMB_SIZED_STRUCT(dmb_term)
-/* Adds a programme of term_count terms (1 .. 64), each with the same struct_size. */
-DMB_API int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count,
-                                        dmb_id *programme);
+} dmb_segment;
+DMB_SIZED_STRUCT(dmb_segment)
+/* Adds a time function of segment_count segments (1 .. 64), each with the same struct_size. */
+DMB_API int32_t dmb_model_add_time_function(dmb_model *model, const dmb_segment *segments, uint32_t segment_count,
+                                            dmb_id *time_function);
 
 /* ---- Hole wall --------------------------------------------------------------------------------------------------- */
 enum {
@@ -295,8 +295,8 @@ typedef struct dmb_bit_def {
     uint32_t struct_size;
     int32_t rock_law; /* DMB_ROCK_..., default DMB_ROCK_NONE */
     dmb_id string;    /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
-    dmb_id load; /* [N] programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none */
-    double mass; /* [kg] > 0; default 5 */
+    dmb_id load;      /* [N] time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none */
+    double mass;      /* [kg] > 0; default 5 */
     double inertia[2];       /* [kg m2] about the axis and across, at the centre, the first <= twice the second;
                                 0 (default): of a solid cylinder */
     double diameter;         /* [m] gauge that meets the wall, <= hole; 0: no contact; default 0.092 */
@@ -320,23 +320,23 @@ typedef struct dmb_bit_def {
     double walk_angle; /* [rad] from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes
                           a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0 */
     double displaced_volume; /* [m3] likewise of a body */
-    dmb_id ring; /* {0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is
-                    at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter,
-                    length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder
-                    ahead. Weight on bit, torque and other driller's channels are those of the bit alone */
+    dmb_id stabiliser;   /* {0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface
+                      is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia,
+                      diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance
+                      of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit */
     double inner_radius; /* [m] b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit;
                             0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
-    double added_mass[2]; /* [kg] likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default
-                             0, shape (2) */
+    double added_mass[2]; /* [kg] likewise of a body, at the bit's centre; not of a reamer, whose stabiliser has it;
+                             default 0, shape (2) */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);
 
 /* ---- Drives and loads -------------------------------------------------------------------------------------------- */
 enum {
-    DMB_DRIVE_MOTION = 0, /* the speed of the component follows the programme exactly [m/s, rad/s] */
-    DMB_DRIVE_LOAD = 1,   /* the programme is a force or torque on the component [N, N m] */
-    DMB_DRIVE_CONTROL = 2 /* force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the programme */
+    DMB_DRIVE_MOTION = 0, /* the speed of the component follows the time function exactly [m/s, rad/s] */
+    DMB_DRIVE_LOAD = 1,   /* the time function is a force or torque on the component [N, N m] */
+    DMB_DRIVE_CONTROL = 2 /* force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the time function */
 };
 typedef struct dmb_drive_def {
     uint32_t struct_size;
@@ -344,17 +344,17 @@ typedef struct dmb_drive_def {
     dmb_id part;       /* a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string */
     int32_t component; /* DMB_X (feed, default) .. DMB_RZ; must be free there; of a joint: its coordinate */
     int32_t reserved;
-    dmb_id programme;     /* required */
-    dmb_id excitation;    /* programme added to the first (vibration); {0, 0}: none */
+    dmb_id time_function; /* required */
+    dmb_id excitation;    /* time function added to the first (vibration); {0, 0}: none */
     double gain;          /* [N s/m, N m s] kp of CONTROL, >= 0; default 0 */
     double integral_gain; /* [N/m, N m] ki of CONTROL, >= 0; default 0 */
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
     char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
-    /* Actuator of a LOAD or CONTROL drive: its command (programme, or what the controller asks for within the limits)
-     * becomes a force after `delay`, changing by at most `force_rate`, with a `lag`, within the torque-speed curve,
-     * less the drag. All 0 (default): the force is the command. At the start it has come to its command. On a joint
-     * that is open then nothing was commanded, and on one that opens it stays as it is until the joint closes. */
+    /* Actuator of a LOAD or CONTROL drive: its command (time function, or what the controller asks for within the
+     * limits) becomes a force after `delay`, changing by at most `force_rate`, with a `lag`, within the torque-speed
+     * curve, less the drag. All 0 (default): the force is the command. At the start it has come to its command. On a
+     * joint that is open then nothing was commanded, and on one that opens it stays as it is until the joint closes. */
     double delay;      /* [s] from command to force, 0 or 1e-6 .. 1e4 */
     double force_rate; /* [N/s, N m/s] the most its force changes in a second, > 0; 0: it jumps */
     double lag;        /* [s] time constant of the force, 0 or >= 1e-6 */
@@ -387,9 +387,9 @@ typedef struct dmb_load_def {
                          Within a quarter of the pipe's diameter of a node it acts by the element's interpolation */
     double force[3];  /* [N] in `frame`, shape (3) */
     double moment[3]; /* [N m] in `frame`, shape (3) */
-    dmb_id programme; /* [-] factor over time; {0, 0}: 1 */
-    char name[24];    /* for messages and look-up (names.h), ends with 0; default "" */
-    double offset[3]; /* [m] of the point where it acts from the place, in its axes; default 0, shape (3) */
+    dmb_id time_function; /* [-] factor over time; {0, 0}: 1 */
+    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
+    double offset[3];     /* [m] of the point where it acts from the place, in its axes; default 0, shape (3) */
 } dmb_load_def;
 DMB_SIZED_STRUCT(dmb_load_def)
 DMB_API int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load);
@@ -415,7 +415,7 @@ typedef struct dmb_compile_options {
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
- * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall.
+ * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a support keeps off the wall.
  * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first
  * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
@@ -427,7 +427,7 @@ typedef struct dmb_model_info {
     uint32_t rigid_bodies;       /* [-] merged ones count once */
     uint32_t nodes;              /* [-] */
     uint32_t elements;           /* [-] flexible and axial-torsional */
-    uint32_t contact_sites;      /* [-] */
+    uint32_t contact_points;     /* [-] */
     uint32_t degrees_of_freedom; /* [-] free velocity components, prescribed ones not counted */
     uint32_t prescribed;         /* [-] components moved by drives */
     uint32_t structural_joints;  /* [-] fixed joints that cost no unknowns */

@@ -42,7 +42,7 @@ typedef struct dmb_modes_info {
     uint32_t struct_size;
     uint32_t count;       /* [-] modes found, by rising frequency */
     uint32_t rigid;       /* [-] of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor
-                             guides nor any force hold, K d = 0. They are found as such, not as small eigenvalues;
+                             supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues;
                              each is told once, with s = 0 */
     uint32_t coordinates; /* [-] independent coordinates of the linear system */
     int32_t dense;        /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */

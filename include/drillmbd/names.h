@@ -14,9 +14,9 @@ extern "C" {
 enum { DMB_NAME_SIZE = 24 }; /* [byte] of a name and its 0 */
 /* clang-format off */
 enum { /* kinds of parts, as in the upper 8 bits of an id's index */
-    DMB_PART_ANY = 0, DMB_PART_PROGRAMME = 1, DMB_PART_WALL = 2, DMB_PART_STRING = 3, DMB_PART_BODY = 4,
+    DMB_PART_ANY = 0, DMB_PART_TIME_FUNCTION = 1, DMB_PART_WALL = 2, DMB_PART_STRING = 3, DMB_PART_BODY = 4,
     DMB_PART_BIT = 5, DMB_PART_DRIVE = 6, DMB_PART_LOAD = 7, DMB_PART_JOINT = 8, DMB_PART_COUPLING = 9,
-    DMB_PART_CONSTRAINT = 10, DMB_PART_SPRING = 11, DMB_PART_FORCE = 12, DMB_PART_RING = 13, DMB_PART_STUCK = 14,
+    DMB_PART_CONSTRAINT = 10, DMB_PART_SPRING = 11, DMB_PART_FORCE = 12, DMB_PART_STABILISER = 13, DMB_PART_STUCK = 14,
     DMB_PART_INPUT = 20, DMB_PART_EVENT = 21
 };
 /* clang-format on */

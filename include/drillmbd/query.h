@@ -1,6 +1,6 @@
 /* libdrillmbd - ask a sim about its last accepted state. Nothing here changes a sim; every query is O(1) unless it says
- * otherwise (O(log) of stations, sites or described runs where a place has to be looked up), allocates nothing and
- * returns DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE, leaving the answer untouched on
+ * otherwise (O(log) of stations, contact points or described runs where a place has to be looked up), allocates nothing
+ * and returns DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE, leaving the answer untouched on
  * error. Between nodes a flexible pipe is interpolated with its own shape functions. */
 #ifndef DRILLMBD_QUERY_H
 #define DRILLMBD_QUERY_H
@@ -49,11 +49,11 @@ DMB_API int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_secti
 
 typedef struct dmb_contact {
     uint32_t struct_size;
-    int32_t closed; /* 1 when touching */
-    int32_t sticks; /* 1 when the bristle law holds it */
-    uint32_t site;  /* [-] number of the site, 0 .. info.contact_sites - 1 */
-    dmb_id part;    /* string or body the site belongs to */
-    uint32_t pipe;  /* [-] pipe whose far end it is, or that it is on; DMB_NONE for the rig end of the string */
+    int32_t closed;  /* 1 when touching */
+    int32_t sticks;  /* 1 when the bristle law holds it */
+    uint32_t number; /* [-] of the contact point, 0 .. info.contact_points - 1 */
+    dmb_id part;     /* string or body the contact point belongs to */
+    uint32_t pipe;   /* [-] pipe whose far end it is, or that it is on; DMB_NONE for the rig end of the string */
     uint32_t reserved;
     double length;       /* [m] of pipe it stands for */
     double gap;          /* [m] to the wall, < 0 when penetrating */
@@ -66,18 +66,18 @@ typedef struct dmb_contact {
     double along;        /* [N] on the pipe along its axis where the wall's diameter or stiffness changes (hole.h) */
 } dmb_contact;
 DMB_SIZED_STRUCT(dmb_contact)
-/* Contact of one site, counted along the strings (rings before the pipe at their nodes), then the bodies, then points
- * along elements (contact_points), then axial-torsional pipes. */
-DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact);
+/* Contact of contact point `number`, counted along the strings (rings before the pipe at their nodes), then the bodies,
+ * then points along elements (contact_points), then axial-torsional pipes. */
+DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact);
 typedef struct dmb_contact_total {
     uint32_t struct_size;
-    uint32_t closed;     /* [-] sites that touch */
-    double normal_force; /* [N] sum over the sites */
-    double friction[2];  /* [N] sum of the friction components over the sites, shape (2) */
+    uint32_t closed;     /* [-] contact points that touch */
+    double normal_force; /* [N] sum over the contact points */
+    double friction[2];  /* [N] sum of the friction components, shape (2) */
     double deepest;      /* [m] largest penetration, >= 0 */
 } dmb_contact_total;
 DMB_SIZED_STRUCT(dmb_contact_total)
-/* O(number of sites). */
+/* O(number of contact points). */
 DMB_API int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum);
 
 /* [J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body. */
@@ -126,7 +126,7 @@ DMB_API int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum);
 typedef struct dmb_drive_state {
     uint32_t struct_size;
     uint32_t reserved;
-    double target;   /* [unit of the programme] now, excitation included */
+    double target;   /* [unit of the time function] now, excitation included */
     double position; /* [m, rad] of the component since time 0, unwrapped */
     double speed;    /* [m/s, rad/s] */
     double force;    /* [N, N m] that the drive exerts on the part, along the component */
@@ -137,7 +137,7 @@ typedef struct dmb_drive_state {
 } dmb_drive_state;
 DMB_SIZED_STRUCT(dmb_drive_state)
 DMB_API int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state);
-/* [N, N m] force and moment of the guide and the motion drives on the rig end of a string or on a guided body, body
+/* [N, N m] force and moment of the support and the motion drives on the rig end of a string or on a guided body, body
  * frame, shape (6); 0 in components that are free. */
 DMB_API int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
 
@@ -172,7 +172,7 @@ typedef struct dmb_bit_state {
     double depth_of_cut;  /* [m] per revolution, all blades */
     double weight;        /* [N] weight on bit from the rock law, >= 0 */
     double torque;        /* [N m] torque on bit from the rock law, against the rotation */
-    double load;          /* [N] bottom-hole load of the programme */
+    double load;          /* [N] bottom-hole load of the time function */
     double side_force[3]; /* [N] of the rock on the bit across its axis (side_cutting), world frame, shape (3) */
     double side_speed;    /* [m/s] it is cut sideways at, across its axis */
 } dmb_bit_state;
@@ -279,7 +279,7 @@ enum {
     DMB_PROFILE_BENDING_MOMENT = 11,     /* [N m] magnitude; of axial-torsional pipes EI times the hole's curvature */
     DMB_PROFILE_SHEAR_FORCE = 12,        /* [N] magnitude */
     DMB_PROFILE_CURVATURE = 13,          /* [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints */
-    DMB_PROFILE_NORMAL_FORCE = 14,       /* [N/m] of the wall on the string, >= 0; that of the nearest contact site */
+    DMB_PROFILE_NORMAL_FORCE = 14,       /* [N/m] of the wall on the string, >= 0; that of the nearest contact point */
     DMB_PROFILE_FRICTION_AXIAL = 15,     /* [N/m] of the wall on the string along its axis, likewise */
     DMB_PROFILE_FRICTION_AROUND = 16,    /* [N/m] likewise along axis x outward normal */
     DMB_PROFILE_VON_MISES = 17,          /* [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I
@@ -303,7 +303,7 @@ enum {
     DMB_PROFILE_SHEAR_Z = 31,              /* [N] likewise */
     DMB_PROFILE_MOMENT_Y = 32,             /* [N m] bending about y, likewise */
     DMB_PROFILE_MOMENT_Z = 33,             /* [N m] likewise */
-    DMB_PROFILE_GAP = 34,                  /* [m] of the nearest contact site to the wall, < 0 when penetrating; NaN
+    DMB_PROFILE_GAP = 34,                  /* [m] of the nearest contact point to the wall, < 0 when penetrating; NaN
                                               without one */
     DMB_PROFILE_COUNT = 35
 };
@@ -326,61 +326,61 @@ DMB_SIZED_STRUCT(dmb_profile)
  * pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the
  * unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2)
  * times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu,
- * Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints.
- * Errors: DMB_ERR_VALUE (quantity, station off the string, strides that overlap), DMB_ERR_NOT_FINITE, DMB_ERR_ID;
- * nothing is written then. O(station_count). */
+ * Juvkam-Wold 1995); r the clearance of the nearest contact point, w the weight per metre with buoyancy and tool
+ * joints. Errors: DMB_ERR_VALUE (quantity, station off the string, strides that overlap), DMB_ERR_NOT_FINITE,
+ * DMB_ERR_ID; nothing is written then. O(station_count). */
 DMB_API int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile);
 /* Name of a quantity ("axial_force") and its unit in *unit (may be NULL); NULL for a number that is none. */
 DMB_API const char *dmb_profile_name(int32_t quantity, const char **unit);
 
 /* ---- Recorder ----------------------------------------------------------------------------------------------------
- * Chosen channels at a chosen rate into the caller's memory: a table of rows (time, channels...). Take a sample after
+ * Chosen outputs at a chosen rate into the caller's memory: a table of rows (time, outputs...). Take a sample after
  * every step; one is kept when its time has come. */
 enum {
-    DMB_CHANNEL_DISPLACEMENT_X = 0,
-    DMB_CHANNEL_DISPLACEMENT_Y = 1,
-    DMB_CHANNEL_DISPLACEMENT_Z = 2, /* [m] world */
-    DMB_CHANNEL_VELOCITY_X = 3,
-    DMB_CHANNEL_VELOCITY_Y = 4,
-    DMB_CHANNEL_VELOCITY_Z = 5, /* [m/s] world */
-    DMB_CHANNEL_POSITION_X = 6,
-    DMB_CHANNEL_POSITION_Y = 7,
-    DMB_CHANNEL_POSITION_Z = 8,      /* [m] world */
-    DMB_CHANNEL_ROTATION = 9,        /* [rad] unwrapped */
-    DMB_CHANNEL_SPIN = 10,           /* [rad/s] about the pipe's axis */
-    DMB_CHANNEL_AXIAL_FORCE = 11,    /* [N] tension > 0 */
-    DMB_CHANNEL_TORQUE = 12,         /* [N m] */
-    DMB_CHANNEL_BENDING_MOMENT = 13, /* [N m] magnitude */
-    DMB_CHANNEL_KINETIC_ENERGY = 14, /* [J] of the pipe or body */
-    DMB_CHANNEL_NORMAL_FORCE = 15,   /* [N] at the pipe's far end, or of the body */
-    DMB_CHANNEL_DRIVE_FORCE = 16,    /* [N, N m] place.part is a drive */
-    DMB_CHANNEL_DRIVE_SPEED = 17,    /* [m/s, rad/s] place.part is a drive */
-    DMB_CHANNEL_BIT_WEIGHT = 18,     /* [N] place.part is a bit, bottom-hole load included */
-    DMB_CHANNEL_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
-    DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
+    DMB_OUTPUT_DISPLACEMENT_X = 0,
+    DMB_OUTPUT_DISPLACEMENT_Y = 1,
+    DMB_OUTPUT_DISPLACEMENT_Z = 2, /* [m] world */
+    DMB_OUTPUT_VELOCITY_X = 3,
+    DMB_OUTPUT_VELOCITY_Y = 4,
+    DMB_OUTPUT_VELOCITY_Z = 5, /* [m/s] world */
+    DMB_OUTPUT_POSITION_X = 6,
+    DMB_OUTPUT_POSITION_Y = 7,
+    DMB_OUTPUT_POSITION_Z = 8,      /* [m] world */
+    DMB_OUTPUT_ROTATION = 9,        /* [rad] unwrapped */
+    DMB_OUTPUT_SPIN = 10,           /* [rad/s] about the pipe's axis */
+    DMB_OUTPUT_AXIAL_FORCE = 11,    /* [N] tension > 0 */
+    DMB_OUTPUT_TORQUE = 12,         /* [N m] */
+    DMB_OUTPUT_BENDING_MOMENT = 13, /* [N m] magnitude */
+    DMB_OUTPUT_KINETIC_ENERGY = 14, /* [J] of the pipe or body */
+    DMB_OUTPUT_NORMAL_FORCE = 15,   /* [N] at the pipe's far end, or of the body */
+    DMB_OUTPUT_DRIVE_FORCE = 16,    /* [N, N m] place.part is a drive */
+    DMB_OUTPUT_DRIVE_SPEED = 17,    /* [m/s, rad/s] place.part is a drive */
+    DMB_OUTPUT_BIT_WEIGHT = 18,     /* [N] place.part is a bit, bottom-hole load included */
+    DMB_OUTPUT_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
+    DMB_OUTPUT_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
 /* Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a
  * pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells
- * its length and speed (forces.h, as channels); so do dmb_query_motion with the arm, and a body that is fixed there. */
-typedef struct dmb_channel {
+ * its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there. */
+typedef struct dmb_output {
     dmb_place place;  /* where the quantity is one of a place */
-    int32_t quantity; /* DMB_CHANNEL_... */
+    int32_t quantity; /* DMB_OUTPUT_... */
     int32_t reserved; /* 0 */
-} dmb_channel;
+} dmb_output;
 
 typedef struct dmb_window dmb_window; /* output.h */
 typedef struct dmb_recorder {
     uint32_t struct_size;
-    uint32_t channel_count;      /* [-] 1 .. 4096 */
-    const dmb_channel *channels; /* shape (channel_count); the caller's, kept alive by it */
-    double *table;               /* shape (capacity, 1 + channel_count); the caller's */
-    uint64_t capacity;           /* [-] rows of table */
-    uint64_t row_count;          /* [-] rows written; start with 0 */
-    double interval;             /* [s] between samples, 0: every call */
-    const dmb_window *window;    /* of the channels of a window (output.h), fed by the caller before; default NULL */
+    uint32_t output_count;     /* [-] 1 .. 4096 */
+    const dmb_output *outputs; /* shape (output_count); the caller's, kept alive by it */
+    double *table;             /* shape (capacity, 1 + output_count); the caller's */
+    uint64_t capacity;         /* [-] rows of table */
+    uint64_t row_count;        /* [-] rows written; start with 0 */
+    double interval;           /* [s] between samples, 0: every call */
+    const dmb_window *window;  /* of the outputs of a window (output.h), fed by the caller before; default NULL */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)
-/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room. O(channels). */
+/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room. O(outputs). */
 DMB_API int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim);
 /* Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). DMB_ERR_IO on failure: this and
  * all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a

@@ -11,66 +11,64 @@ extern "C" {
 /* ---- What shakes -------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_INPUT_DRIVE = 0, /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
-                            of CONTROL */
-    DMB_INPUT_LOAD = 1,  /* [-] factor of the load place.part */
-    DMB_INPUT_BIT_LOAD = 2,     /* [N] bottom-hole load of the bit place.part */
-    DMB_INPUT_FORCE = 3,        /* [N, N m] `component` of a force or moment at `place`, in `frame` */
-    DMB_INPUT_UNBALANCE = 4,    /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
-                                   DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
-    DMB_INPUT_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held
-                                across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
+    DMB_EXCITATION_DRIVE = 0,     /* time function of the drive place.part [its unit]: speed of MOTION, force of LOAD,
+                                target speed of CONTROL */
+    DMB_EXCITATION_LOAD = 1,      /* [-] factor of the load place.part */
+    DMB_EXCITATION_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
+    DMB_EXCITATION_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
+    DMB_EXCITATION_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
+                                DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
+    DMB_EXCITATION_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are
+                                held across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
                                 factor, turning with the frequency about the axes of their pipes, from y to z, as they
                                 lie in the state at t = 0 */
-    DMB_INPUT_FRICTION = 6, /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
-                               in the state, along the hole (component DMB_X) or around it (DMB_RX) */
-    DMB_INPUT_SETTING = 7 /* the input place.part of control.h [its unit]: a set point, load factor or bit load, as the
-                             drive, load or bit that it moves; limits on its rate do not bind small changes. Others
-                             (gains, limits, friction, mud, stuck) change the scene itself: DMB_ERR_UNSUPPORTED; one
-                             that is still on its way is DMB_ERR_VALUE */
+    DMB_EXCITATION_FRICTION = 6, /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal
+                               force in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_EXCITATION_SETTING = 7   /* the input place.part of control.h [its unit]: a set point, load factor or bit load;
+                               limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the
+                               scene: DMB_ERR_UNSUPPORTED; one that still changes is DMB_ERR_VALUE */
 };
-typedef struct dmb_input {
+typedef struct dmb_excitation {
     uint32_t struct_size;
-    int32_t kind;      /* DMB_INPUT_..., default DMB_INPUT_FORCE */
+    int32_t kind;      /* DMB_EXCITATION_..., default DMB_EXCITATION_FORCE */
     dmb_place place;   /* as the kind says */
     int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
     int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: axes of the place in the state */
     double amplitude;  /* [unit of the kind] in the combined response; default 1 */
     double phase;      /* [rad] in the combined response; default 0 */
-} dmb_input;
-DMB_SIZED_STRUCT(dmb_input)
+} dmb_excitation;
+DMB_SIZED_STRUCT(dmb_excitation)
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 enum {
-    DMB_OUTPUT_DISPLACEMENT = 0,   /* [m, rad] of `place`, components along the axes of `frame` */
-    DMB_OUTPUT_VELOCITY = 1,       /* [m/s, rad/s] its rate */
-    DMB_OUTPUT_ACCELERATION = 2,   /* [m/s2, rad/s2] the rate of that */
-    DMB_OUTPUT_SECTION_FORCE = 3,  /* [N, N m] as dmb_query_section, section frame */
-    DMB_OUTPUT_SECTION_STRAIN = 4, /* [-, rad/m] likewise */
-    DMB_OUTPUT_CONTACT = 5,  /* [N] at contact site number place.pipe: DMB_X, DMB_Y friction, 0 and 1 of dmb_contact
+    DMB_RESPONSE_DISPLACEMENT = 0,   /* [m, rad] of `place`, components along the axes of `frame` */
+    DMB_RESPONSE_VELOCITY = 1,       /* [m/s, rad/s] its rate */
+    DMB_RESPONSE_ACCELERATION = 2,   /* [m/s2, rad/s2] the rate of that */
+    DMB_RESPONSE_SECTION_FORCE = 3,  /* [N, N m] as dmb_query_section, section frame */
+    DMB_RESPONSE_SECTION_STRAIN = 4, /* [-, rad/m] likewise */
+    DMB_RESPONSE_CONTACT = 5,  /* [N] at contact point number place.pipe: DMB_X, DMB_Y friction, 0 and 1 of dmb_contact
                                 (bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
-    DMB_OUTPUT_DRIVE = 6,    /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
-    DMB_OUTPUT_REACTION = 7, /* [N, N m] on the part place.part, as dmb_query_reaction */
-    DMB_OUTPUT_JOINT_POSITION = 8,
-    DMB_OUTPUT_JOINT_SPEED = 9,
-    DMB_OUTPUT_JOINT_ACCELERATION = 10, /* coordinates of the */
-    DMB_OUTPUT_JOINT_REACTION = 11,
-    DMB_OUTPUT_JOINT_ACTION = 12, /* joint place.part, its forces: as dmb_query_joint */
-    DMB_OUTPUT_MULTIPLIER = 13,   /* number `component` of place.part, as dmb_query_multipliers */
-    DMB_OUTPUT_BIT = 14,          /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
-    DMB_OUTPUT_CHANNEL = 15 /* the channel DMB_CHANNEL_... that `component` says, at `place`. In a stepped sine each
-                               but those of a window; in a linear analysis those that change in proportion to a small
-                               motion: not magnitudes, sums over the string, energies (DMB_ERR_UNSUPPORTED) */
-    /* no outputs: energies and works, of second order; sums over contacts, bodies or states, which add up of these */
+    DMB_RESPONSE_DRIVE = 6,    /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
+    DMB_RESPONSE_REACTION = 7, /* [N, N m] on the part place.part, as dmb_query_reaction */
+    DMB_RESPONSE_JOINT_POSITION = 8,
+    DMB_RESPONSE_JOINT_SPEED = 9,         /* coordinates of the joint place.part and */
+    DMB_RESPONSE_JOINT_ACCELERATION = 10, /* its forces: as dmb_query_joint */
+    DMB_RESPONSE_JOINT_REACTION = 11,
+    DMB_RESPONSE_JOINT_ACTION = 12,
+    DMB_RESPONSE_MULTIPLIER = 13, /* number `component` of place.part, as dmb_query_multipliers */
+    DMB_RESPONSE_BIT = 14,        /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
+    DMB_RESPONSE_OUTPUT = 15      /* the output DMB_OUTPUT_... that `component` says, at `place`. In a stepped sine all
+                                    but those of a window; in a linear analysis those that are linear in the motion: no
+                                    magnitudes, sums over the string, energies, works (DMB_ERR_UNSUPPORTED) */
 };
-typedef struct dmb_output {
+typedef struct dmb_response_output {
     uint32_t struct_size;
-    int32_t kind;      /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
+    int32_t kind;      /* DMB_RESPONSE_..., default DMB_RESPONSE_DISPLACEMENT */
     dmb_place place;   /* required where the kind asks for one */
     int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
     int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
-} dmb_output;
-DMB_SIZED_STRUCT(dmb_output)
+} dmb_response_output;
+DMB_SIZED_STRUCT(dmb_response_output)
 
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
 /* Axes of small motions, of the frames of places, and so of frequencies: those of the parts, which turn with them, or
@@ -98,44 +96,45 @@ typedef struct dmb_response_options {
 DMB_SIZED_STRUCT(dmb_response_options)
 
 typedef struct dmb_response dmb_response; /* transfer functions by frequency */
-/* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
- * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
- * Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those
- * that it has in the state, and section forces are told in axes that do not spin. Structural damping there is that of
- * what does not turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against
- * each other, or a string that turns on the wall, which goes round in axes that turn; answers hold along and about the
- * axes of straight parts, not across. Or coefficients that change while parts turn, as of modes. inputs, outputs:
- * shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
+/* Transfer functions from every excitation to every output about the accepted state of a sim, which must be an
+ * equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency. Of a state that
+ * spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the
+ * state, and section forces are told in axes that do not spin. Structural damping there is that of what does not turn.
+ * DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or a
+ * string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of straight
+ * parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
+ * (excitation_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
  * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
  * band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part
  * that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with
  * it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the
  * sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints
- * + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those.
- * One thread; several responses of one sim may not be computed at a time. */
-DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
-                                      uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+ * + excitations)); of joints that share bodies the cube of their coordinates. One thread; several responses of one sim
+ * may not be computed at a time. */
+DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
+                                      const dmb_excitation *excitations, uint32_t excitation_count,
+                                      const dmb_response_output *outputs, uint32_t output_count,
                                       dmb_response **response);
 /* Gives the memory back and sets *response to NULL. NULL-safe. */
 DMB_API void dmb_response_destroy(dmb_response **response);
-/* Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
+/* Numbers of frequencies (those of refinement included), excitations and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
 DMB_API int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3]);
 /* [Hz] ascending, shape (points). DMB_ERR_NULL, _HANDLE. */
 DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *frequencies);
-/* Output per unit of the input at each frequency, real and imaginary part, shape (points, 2). input DMB_COMBINED: the
- * output for all inputs together with their amplitudes and phases. DMB_ERR_NULL, _HANDLE, _VALUE (no such number). */
+/* Output per unit of the excitation at each frequency, real and imaginary part, shape (points, 2). excitation
+ * DMB_COMBINED: the output for all excitations with their amplitudes and phases. DMB_ERR_NULL, _HANDLE, _VALUE. */
 #define DMB_COMBINED UINT32_MAX
-DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values);
+DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t excitation, uint32_t output,
+                                      double *values);
 /* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line,
  * '.' as decimal mark. DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
 
 /* ---- Stepped sine ------------------------------------------------------------------------------------------------
- * Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts
- * that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC
- * programme, a drive's speed), transfer the state (dmb_sim_transfer_state) to go up or down from one to the next. Calls
- * on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the
- * bit. */
+ * Response in time to what the scene's own time functions do at one frequency, where the linear one does not hold:
+ * contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a
+ * HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next.
+ * Calls on different sims share nothing and may run in parallel with the same bits. */
 typedef struct dmb_stepped_sine_options {
     uint32_t struct_size;
     uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
@@ -172,7 +171,7 @@ DMB_SIZED_STRUCT(dmb_stepped_sine_report)
  * _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted
  * state. amplitudes and report are left alone on error. Cost: steps. */
 DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                                          const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                          const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
                                           dmb_stepped_sine_report *report);
 
 /* ---- Safe speeds -------------------------------------------------------------------------------------------------
@@ -181,15 +180,15 @@ DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const 
 typedef struct dmb_order {
     uint32_t struct_size;
     uint32_t reserved;
-    double order;    /* [-] frequency over rotary speed, > 0; default 1 */
-    dmb_input input; /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
+    double order;              /* [-] frequency over rotary speed, > 0; default 1 */
+    dmb_excitation excitation; /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
 } dmb_order;
 DMB_SIZED_STRUCT(dmb_order)
 
 typedef struct dmb_speeds_report {
     uint32_t struct_size;
     uint32_t bands;         /* [-] that were found, those without room included */
-    uint32_t silent_orders; /* [-] orders whose input moves no output at any speed */
+    uint32_t silent_orders; /* [-] orders whose excitation moves no output at any speed */
     int32_t undamped;       /* 1: nothing damps, so that heights at resonances mean nothing */
     int32_t truncated;      /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
     int32_t reserved;
@@ -241,7 +240,7 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as dmb_analysis_response,
  * with nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                                    uint32_t order_count, const dmb_output *outputs, const double *limits,
+                                    uint32_t order_count, const dmb_response_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,
                                     double *severity);
 

@@ -1,9 +1,9 @@
-/* libdrillmbd - sensitivities: how the state and any channel change with chosen parameters, along a run.
+/* libdrillmbd - sensitivities: how the state and any output change with chosen parameters, along a run.
  *
  * A parameter is given by two sims besides the one that runs: the same scene with the parameter a little lower and a
  * little higher, brought to the same time in the same way (created; or settled by dmb_analysis_static). So anything
  * that can be described can be one: a coefficient of friction, a diameter, the energy of the rock, a value of a
- * programme, the survey; of sims of one model, an initial speed or what dmb_sim_set_drive or dmb_sim_set_input set. */
+ * time function, the survey; of sims of one model, an initial speed or the values of dmb_sim_set_drive, _set_input. */
 #ifndef DRILLMBD_SENSITIVITY_H
 #define DRILLMBD_SENSITIVITY_H
 
@@ -33,15 +33,15 @@ DMB_SIZED_STRUCT(dmb_parameter)
  * its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): DMB_ERR_NULL, _HANDLE,
  * _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs
  * that are not numbers, or an input (control.h) is on its way to what is set; _UNSUPPORTED: joints with
- * DMB_METHOD_MULTIPLIERS, actuators with a delay, programmes whose times differ; _TOO_LARGE: clusters that are solved
- * by sparse matrices; _NO_MEMORY. O(count * size of the state). */
+ * DMB_METHOD_MULTIPLIERS, actuators with a delay, time functions whose times differ; _TOO_LARGE: clusters that are
+ * solved by sparse matrices; _NO_MEMORY. O(count * size of the state). */
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
 /* Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe. */
 DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
 
 /* dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it:
- * of each accepted step as it was done, its length, its corners and its kept accelerations included. Between two of
+ * of each accepted step as it was done, its length, its breakpoints and its kept accelerations included. Between two of
  * these calls the sim may be changed by dmb_sim_set_drive only; inputs of control.h stay as they were set when this was
  * made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle
  * or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors
@@ -53,12 +53,12 @@ DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
 DMB_API int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report);
 DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report);
 
-/* Channels and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the
- * channel over that of the parameter], shape (count, parameters). Errors: those of the channels' queries, with a
+/* Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the
+ * output over that of the parameter], shape (count, parameters). Errors: those of the outputs' queries, with a
  * message of the sim; DMB_ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was
  * moved by other calls; nothing is written then. */
-DMB_API int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel *channels, uint32_t count,
-                                         double *values, double *derivatives);
+DMB_API int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *outputs, uint32_t count,
+                                        double *values, double *derivatives);
 /* Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free
  * and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many
  * there are; with both arrays NULL that is all. Errors: _ORDER as above. */

@@ -2,12 +2,12 @@
  * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
  * input or output. A call that fails leaves the last accepted state whole.
  *
- * Callbacks (programmes, constraints, progress, allocator, log) must not change the sim that calls them: from within
- * them dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a step,
- * and during analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state; during
- * calls that overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they return
- * DMB_ERR_ORDER too. Callbacks must return normally: after a longjmp or an exception the sim would stay busy for ever.
- * In lists of errors _X stands for DMB_ERR_X. */
+ * Callbacks (time functions, constraints, progress, allocator, log) must not change the sim that calls them: from
+ * within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a
+ * step, and during analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state;
+ * during calls that overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they
+ * return DMB_ERR_ORDER too. Callbacks must return normally: after a longjmp or an exception the sim would stay busy for
+ * ever. In lists of errors _X stands for DMB_ERR_X. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
 
@@ -31,10 +31,10 @@ typedef void (*dmb_part_fn)(void *work, uint32_t index);
  * any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else,
  * and parts left out, end the step with DMB_ERR_CALLBACK, the sim unchanged. Results have the same bits as without it
  * in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal
- * numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, programmes, constraints
- * stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is
- * still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off
- * with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
+ * numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions,
+ * constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A
+ * part that is still running when it returns, or that runs twice at once, is the caller's error and not always found.
+ * It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
 typedef int32_t (*dmb_parallel_fn)(void *context, uint32_t count, dmb_part_fn part, void *work);
 
 typedef struct dmb_sim_options {
@@ -57,7 +57,7 @@ typedef struct dmb_sim_options {
     uint32_t max_cuts;         /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
     int32_t bounded_work;      /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
                                   with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
-                                  divided at corners; for control loops; default 0 */
+                                  divided at breakpoints; for control loops; default 0 */
     int32_t energy_ledger;     /* 1 (default): keep the energy ledger; 0: it is not computed */
     uint32_t max_steps;        /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
                                   0 (default): no bound */
@@ -78,7 +78,7 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
  * velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints,
- * rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their guides leave
+ * rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their supports leave
  * free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why):
  * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be
  * closed, or only by more than assembly_energy); *sim is NULL then. The
@@ -120,8 +120,8 @@ typedef struct dmb_step_report {
 } dmb_step_report;
 DMB_SIZED_STRUCT(dmb_step_report)
 
-/* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and
- * halved where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE,
+/* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at time function breakpoints,
+ * and halved where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE,
  * _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK,
  * _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert
  * 1993; Bruls, Cardona, Arnold 2012. */
@@ -133,9 +133,9 @@ DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *rep
  * DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.
  */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
-/* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
- * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED
- * for DMB_DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h). */
+/* From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function
+ * again. For DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for
+ * DMB_DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h). */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
@@ -149,11 +149,11 @@ DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 
 /* Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its
- * strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from
- * now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the
- * rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are;
+ * strings, rods added or taken off; where the model describes its strings to begin, and what its time functions say
+ * from now on, may differ. The head lets go, draws back and grips the new rig end: support, drives and bodies fixed to
+ * the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are;
  * added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the
- * wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is;
+ * wall; dmb_analysis_static settles the string, but begins the ledger anew). Supports hold the new rig end where it is;
  * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message tells by how much.
  * Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what
  * pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses

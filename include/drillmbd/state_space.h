@@ -67,15 +67,16 @@ DMB_SIZED_STRUCT(dmb_state_space_info)
 
 typedef struct dmb_state_space dmb_state_space; /* matrices of the linear system about one state */
 /* About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for
- * DMB_STATE_MATRICES). inputs, outputs: as of dmb_analysis_response, 0 .. 1024 each, those of control.h by
- * DMB_INPUT_SETTING; inputs that go with the square of the frequency (unbalance, eccentricity) are refused. Channels
- * are outputs of kind DMB_OUTPUT_CHANNEL. options may be NULL. The state is not changed; sim takes the message and need
- * not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of
+ * DMB_STATE_MATRICES). excitations, outputs: as of dmb_analysis_response, 0 .. 1024 each, those of control.h by
+ * DMB_EXCITATION_SETTING; excitations that go with the square of the frequency (unbalance, eccentricity) are refused.
+ * options may be NULL. The state is not changed; sim takes the message
+ * and need not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of
  * dmb_analysis_response, and so is DMB_NOTE_INCOMPLETE; DMB_ERR_TOO_LARGE above 4096 states (reduce), DMB_ERR_SINGULAR
  * for a mass or a stiffness that is singular (shift). O(coordinates^2) of DMB_STATE_FULL, O(shapes x elements) of
  * DMB_STATE_REDUCED, O(elements) of DMB_STATE_MATRICES. */
-DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
-                                         uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options,
+                                         const dmb_excitation *excitations, uint32_t excitation_count,
+                                         const dmb_response_output *outputs, uint32_t output_count,
                                          dmb_state_space **space);
 /* Sets *space to NULL. NULL-safe. */
 DMB_API void dmb_state_space_destroy(dmb_state_space **space);
@@ -115,8 +116,8 @@ enum {
     DMB_ARRAY_QUATERNION = 3,   /* [-] body to world, scalar first, shape (nodes, 4) */
     DMB_ARRAY_MULTIPLIER = 4,   /* [N, ...] of the rows of DMB_MATRIX_JACOBIAN: residual + J^T multiplier = 0 */
     DMB_ARRAY_RESIDUAL = 5 /* [N, N m] of the equations of motion without forces of constraint, at the present pose,
-                              speeds and accelerations, shape (rows): M v' + ... - f; what guides hold is left in their
-                              rows */
+                              speeds and accelerations, shape (rows): M v' + ... - f; what supports hold is left in
+                              their rows */
 };
 /* values NULL: *count is the length of the array. Else *count on entry is the room (too little is DMB_ERR_VALUE) and on
  * return what was written. The sim takes a message for a failing residual (those of dmb_sim_step). */
@@ -129,7 +130,7 @@ typedef struct dmb_row {
     dmb_id part;       /* string or body that the node belongs to */
     uint32_t pipe;     /* [-] of the string; the one before the node */
     uint32_t node;     /* [-] */
-    int32_t state;     /* DMB_ROW_FREE, held by a guide, or driven by a motion drive */
+    int32_t state;     /* DMB_ROW_FREE, held by a support, or driven by a motion drive */
     int32_t reserved;
 } dmb_row;
 DMB_SIZED_STRUCT(dmb_row)

@@ -8,7 +8,7 @@
 _Static_assert(sizeof(dmb_id) == 8 && offsetof(dmb_id, generation) == 4, "dmb_id is frozen");
 _Static_assert(sizeof(dmb_place) == 24 && offsetof(dmb_place, pipe) == 8 && offsetof(dmb_place, fraction) == 16,
                "dmb_place is frozen");
-_Static_assert(sizeof(dmb_channel) == 32 && offsetof(dmb_channel, quantity) == 24, "dmb_channel is frozen");
+_Static_assert(sizeof(dmb_output) == 32 && offsetof(dmb_output, quantity) == 24, "dmb_output is frozen");
 _Static_assert(sizeof(dmb_input_record) == 24 && offsetof(dmb_input_record, value) == 8 &&
                    offsetof(dmb_input_record, input) == 16 && offsetof(dmb_input_record, call) == 20,
                "dmb_input_record is frozen");

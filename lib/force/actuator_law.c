@@ -103,24 +103,25 @@ static void append(const dmb_delay_line *line, double time, double value)
     line->value[N - 1] = value;
 }
 
-/* Is the newest sample a corner of the polygon that goes on to `value` at `time`? A smooth command bends less between
- * two samples. */
-static int is_corner(const dmb_delay_line *line, double time, double value)
+/* Is the newest sample a breakpoint of the polygon that goes on to `value` at `time`? A smooth command bends less
+ * between two samples. */
+static int is_breakpoint(const dmb_delay_line *line, double time, double value)
 {
     const double *t = line->time, *v = line->value;
     const double straight = v[N - 2] + (value - v[N - 2]) * (t[N - 1] - t[N - 2]) / (time - t[N - 2]);
     return fabs(v[N - 1] - straight) > 0.05 * (fabs(v[N - 1] - v[N - 2]) + fabs(value - v[N - 1]));
 }
 
-/* Samples of jumps and corners are kept while the newest 512 reach back over the delay; at most 257 others come within
- * a delay, so that the whole line always does. */
+/* Samples of jumps and breakpoints are kept while the newest 512 reach back over the delay; at most 257 others come
+ * within a delay, so that the whole line always does. */
 static int has_room(const dmb_delay_line *line, double delay, double time)
 {
     const double oldest = line->time[N - 2 * DMB_DELAY_PARTS];
     return oldest <= time - delay || oldest == line->time[0];
 }
 
-/* A sample that is near its predecessor is replaced by the next one, unless it is the second one of a jump or a corner.
+/* A sample that is near its predecessor is replaced by the next one, unless it is the second one of a jump or a
+ * breakpoint.
  */
 void dmb_delay_push(const dmb_delay_line *line, double delay, double begin, double start, double time, double value)
 {
@@ -132,7 +133,7 @@ void dmb_delay_push(const dmb_delay_line *line, double delay, double begin, doub
             line->value[N - 1] = start;
     }
     const int near = t[N - 1] - t[N - 2] < part && t[N - 1] != t[N - 2];
-    if (near && !(has_room(line, delay, time) && is_corner(line, time, value))) {
+    if (near && !(has_room(line, delay, time) && is_breakpoint(line, time, value))) {
         line->time[N - 1] = time;
         line->value[N - 1] = value;
     } else {

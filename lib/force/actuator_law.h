@@ -107,8 +107,8 @@ double dmb_delay_next_jump(const dmb_delay_line *line, double time);
 /* From now on the command has always been this one. */
 void dmb_delay_fill(const dmb_delay_line *line, double time, double value);
 /* A step has gone from begin, with the command `start` after what was set there, to `time`. Samples nearer than
- * delay/DMB_DELAY_PARTS to their predecessor are replaced by the newest, except jumps and corners: two corners within
- * that time are kept exactly. */
+ * delay/DMB_DELAY_PARTS to their predecessor are replaced by the newest, except jumps and breakpoints: two breakpoints
+ * within that time are kept exactly. */
 void dmb_delay_push(const dmb_delay_line *line, double delay, double begin, double start, double time, double value);
 
 #endif

@@ -1,4 +1,4 @@
-/* A ring against the wall of the hole: the contact site, made once by the compile step, its force and tangent. */
+/* A ring against the wall of the hole: the contact point, made once by the compile step, its force and tangent. */
 #ifndef DMB_FORCE_CONTACT_LAW_H
 #define DMB_FORCE_CONTACT_LAW_H
 

@@ -4,14 +4,14 @@
  * has to rise,
  *     a_p = min(A, sqrt(J (v1 - v0) + a0^2/2)),  lengths |a_p - a0|/J,  (v1 - v0 - |a_p^2 - a0^2| s/(2 J) - a_p^2/(2
  * J)) /a_p,  a_p/J,  s = sign(a_p - a0). Without a limit of the slope: at rate A. Phases end at times that are compared
- * as they are, not as differences, so that a corner is the same number for all who ask. */
+ * as they are, not as differences, so that a breakpoint is the same number for all who ask. */
 #include "force/reference.h"
 
 #include <math.h>
 #include <stddef.h>
 
 enum { PHASES = 3 };
-#define SLIVER 1e-6 /* [-] of the whole way: a phase this short ends at no corner of its own */
+#define SLIVER 1e-6 /* [-] of the whole way: a phase this short ends at no breakpoint of its own */
 
 /* Each phase begins at value and rate, with the slope; the way ends with the last. */
 typedef struct way {
@@ -113,7 +113,7 @@ double dmb_reference_integral(const dmb_reference *reference, double t0, double 
     return sum + reference->target * fmax(0.0, t1 - fmax(t0, w.end[PHASES - 1]));
 }
 
-double dmb_reference_next_corner(const dmb_reference *reference, double t)
+double dmb_reference_next_breakpoint(const dmb_reference *reference, double t)
 {
     way w;
     way_of(reference, &w);

@@ -12,14 +12,14 @@ typedef struct dmb_reference {
     double slope_limit; /* [unit/s2] 0: none */
 } dmb_reference;
 
-/* Value at t and its rate, from the right at corners; rate may be NULL. Before `time`: value, at rest. */
+/* Value at t and its rate, from the right at breakpoints; rate may be NULL. Before `time`: value, at rest. */
 void dmb_reference_value(const dmb_reference *reference, double t, double *value, double *rate);
 /* The rate from the left. */
 double dmb_reference_rate_before(const dmb_reference *reference, double t);
 /* [unit s] Integral from t0 to t1 >= t0, exact to round-off. */
 double dmb_reference_integral(const dmb_reference *reference, double t0, double t1);
-/* [s] Smallest corner later than t; INFINITY if there is none. */
-double dmb_reference_next_corner(const dmb_reference *reference, double t);
+/* [s] Smallest breakpoint later than t; INFINITY if there is none. */
+double dmb_reference_next_breakpoint(const dmb_reference *reference, double t);
 /* [s] Time at which the target is reached. */
 double dmb_reference_arrival(const dmb_reference *reference);
 

@@ -120,7 +120,7 @@ void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *e
     evaluation->sim = sim;
     evaluation->time = end->time;
     evaluation->step = h;
-    evaluation->corner = end->corner;
+    evaluation->breakpoint = end->breakpoint;
     evaluation->inside = end->inside;
     evaluation->mass_factor = (1.0 - c.am) / (h * h * c.beta * (1.0 - c.af));
     evaluation->velocity_factor = c.gamma / (h * c.beta);
@@ -302,7 +302,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     sim->clock->time = attempt->end.time;
     sim->clock->rest = attempt->end.rest;
     sim->clock->step = attempt->end.step;
-    if (attempt->end.corner > 0.0) sim->clock->corner = attempt->end.corner;
+    if (attempt->end.breakpoint > 0.0) sim->clock->breakpoint = attempt->end.breakpoint;
     counters->steps++;
     counters->iterations += attempt->iterations;
     if (attempt->status == DMB_NOTE_WORK_LIMITED) counters->limited++;
@@ -402,7 +402,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
             break;
         }
         dmb_message_set(&sim->message,
-                        "callback of a programme or constraint: it failed or gave a value beyond +-1e30 at time %g",
+                        "callback of a time function or constraint: it failed or gave a value beyond +-1e30 at time %g",
                         attempt->evaluation.time);
         break;
     default:

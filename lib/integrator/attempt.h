@@ -2,7 +2,7 @@
 #ifndef DMB_INTEGRATOR_ATTEMPT_H
 #define DMB_INTEGRATOR_ATTEMPT_H
 
-#include "integrator/corner.h"
+#include "integrator/breakpoint.h"
 #include "integrator/step_motion.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"

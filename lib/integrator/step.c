@@ -7,7 +7,7 @@
 #include "base/value_check.h"
 #include "drillmbd/sim.h"
 #include "integrator/attempt.h"
-#include "integrator/corner.h"
+#include "integrator/breakpoint.h"
 #include "integrator/newton.h"
 #include "math/elementary.h"
 #include "sim/access.h"
@@ -43,19 +43,19 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
     return check.status;
 }
 
-/* 1 if forces, or the rate of a programme, may jump behind the step, so that accelerations may be made anew. *turns:
- * the rate does. DMB_ERR_CALLBACK. */
+/* 1 if forces, or the rate of a time function, may jump behind the step, so that accelerations may be made anew.
+ * *turns: the rate does. DMB_ERR_CALLBACK. */
 static int32_t may_jump(dmb_sim *sim, const dmb_attempt *attempt, int32_t *turns)
 {
     const dmb_scene *scene = sim->scene;
-    *turns = dmb_system_rate_jumps(sim, attempt->end.time, fmax(attempt->end.corner, sim->clock->corner));
+    *turns = dmb_system_rate_jumps(sim, attempt->end.time, fmax(attempt->end.breakpoint, sim->clock->breakpoint));
     if (*turns != 0) return *turns;
     return scene->hole.cuts > 0 || dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
            dmb_actuators_may_jump(scene);
 }
 
-/* Accelerations anew where forces, or the rate of a programme, jump at the time reached; *jumped: they do. */
-static int32_t walk_corner(dmb_sim *sim, int32_t turns, int *jumped)
+/* Accelerations anew where forces, or the rate of a time function, jump at the time reached; *jumped: they do. */
+static int32_t walk_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
     const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
@@ -80,7 +80,7 @@ static int32_t accept(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
         attempt->deferred = status > 0 && sim->scene->has_callback;
         if (status > 0 && !walk->set_aside) dmb_state_back_up(sim);
         dmb_attempt_commit(sim, attempt);
-        status = walk_corner(sim, turns, &jumped);
+        status = walk_breakpoint(sim, turns, &jumped);
         if (status >= 0) {
             if (attempt->deferred && !jumped) dmb_factor_reuse_end(sim, attempt, &sim->now);
             return DMB_OK;
@@ -180,19 +180,20 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
     return DMB_NOTE_STEP_CUT;
 }
 
-/* dmb_sim_step: one step of the asked length, divided at programme corners and where Newton does not converge. */
+/* dmb_sim_step: one step of the asked length, divided at time function breakpoints and where Newton does not converge.
+ */
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 
-/* [s] Longer steps are mistakes; halved on the way to each corner, they would not end either. */
+/* [s] Longer steps are mistakes; halved on the way to each breakpoint, they would not end either. */
 #define DMB_DURATION_MAX 1e18
 
-/* The next substep: not over a corner, nor leaving a sliver before the end. */
+/* The next substep: not over a breakpoint, nor leaving a sliver before the end. */
 static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double cut)
 {
-    if (sim->options.bounded_work) return dmb_step_end_on_corner(dmb_step_end_over_corners(sim, goal));
-    const dmb_step_end end = dmb_step_end_before_corner(sim, goal, cut);
-    if (end.step - cut < 1e-6 * cut) return dmb_step_end_on_corner(end);
+    if (sim->options.bounded_work) return dmb_step_end_on_breakpoint(dmb_step_end_over_breakpoints(sim, goal));
+    const dmb_step_end end = dmb_step_end_before_breakpoint(sim, goal, cut);
+    if (end.step - cut < 1e-6 * cut) return dmb_step_end_on_breakpoint(end);
     return dmb_step_end_after(sim, cut);
 }
 
@@ -219,7 +220,8 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;
             walk->arrived = attempt.end.arrives;
-            *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a corner nearby does not shorten what follows */
+            *cut =
+                *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a breakpoint nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;
         }
@@ -290,11 +292,11 @@ double dmb_advance_first(const dmb_sim *sim)
     return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
 }
 
-/* A step of about h that ends neither beyond `time` nor a corner; without leaving a sliver. */
+/* A step of about h that ends neither beyond `time` nor a breakpoint; without leaving a sliver. */
 static dmb_step_end fit(const dmb_sim *sim, double h, double time)
 {
     const dmb_step_end goal = dmb_step_end_at(sim, time);
-    const dmb_step_end end = dmb_step_end_before_corner(sim, &goal, h);
+    const dmb_step_end end = dmb_step_end_before_breakpoint(sim, &goal, h);
     if (h >= end.step) return end;
     return dmb_step_end_after(sim, h > 0.5 * end.step ? 0.5 * end.step : h);
 }

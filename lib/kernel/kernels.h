@@ -91,7 +91,7 @@ typedef struct dmb_node_force_job {
     double inertia_power, potential, damping_power; /* added to: [W] */
 } dmb_node_force_job;
 
-/* Fields of the contact sites in a configuration: the fields site_... of sim/sim.h. */
+/* Fields of the contact points in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
     double *normal, *depth, *penetration, *impact_speed, *slip, *bristle, *touch;
     uint32_t *segment;

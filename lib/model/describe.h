@@ -10,7 +10,7 @@
 
 DMB_DECLARE_STRUCT(dmb_model_options)
 DMB_DECLARE_STRUCT(dmb_environment_def)
-DMB_DECLARE_STRUCT(dmb_term)
+DMB_DECLARE_STRUCT(dmb_segment)
 DMB_DECLARE_STRUCT(dmb_wall_def)
 DMB_DECLARE_STRUCT(dmb_string_def)
 DMB_DECLARE_STRUCT(dmb_pipe_def)
@@ -24,12 +24,12 @@ DMB_DECLARE_STRUCT(dmb_load_def)
 DMB_DECLARE_STRUCT(dmb_spring_def)
 DMB_DECLARE_STRUCT(dmb_force_def)
 DMB_DECLARE_STRUCT(dmb_stuck_def)
-DMB_DECLARE_STRUCT(dmb_ring_def)
+DMB_DECLARE_STRUCT(dmb_stabiliser_def)
 DMB_DECLARE_STRUCT(dmb_compile_options)
 DMB_DECLARE_STRUCT(dmb_model_info)
 
-/* Frees a programme's copy of terms and tables. */
-void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator);
+/* Frees a time function's copy of terms and tables. */
+void dmb_time_function_release(dmb_time_function *time_function, const dmb_allocator *allocator);
 
 /* Frees a spring's table. */
 void dmb_spring_release(dmb_spring_plan *spring, const dmb_allocator *allocator);
@@ -42,7 +42,7 @@ void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);
 /* Bounds in force: the narrower of the input's own and those of its target. */
 double dmb_input_low(const dmb_input_def *def);
 double dmb_input_high(const dmb_input_def *def);
-/* 1: it stands in the place of a programme, and may be on its way. */
-int dmb_input_is_programme(int32_t target);
+/* 1: it stands in the place of a time function, and may be on its way. */
+int dmb_input_is_time_function(int32_t target);
 
 #endif

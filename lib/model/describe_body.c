@@ -93,8 +93,8 @@ static int32_t check_bit(dmb_model *model, const dmb_bit_def *def)
         &model->message, dmb_part_text(&part, "bit", model->bits.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_part_name(&check, model, DMB_PART_BIT, def->name);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
-    dmb_check_id_or_none(&check, model, "load", def->load, DMB_PART_PROGRAMME, "programme");
-    dmb_check_id_or_none(&check, model, "ring", def->ring, DMB_PART_RING, "ring");
+    dmb_check_id_or_none(&check, model, "load", def->load, DMB_PART_TIME_FUNCTION, "time function");
+    dmb_check_id_or_none(&check, model, "stabiliser", def->stabiliser, DMB_PART_STABILISER, "stabiliser");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
     check_bit_inertia(&check, def);
     check_rock(&check, def);
@@ -117,9 +117,9 @@ int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
     status = dmb_bit_def_read(&read, def);
     const dmb_bit_def given = read;
     if (status >= 0) status = check_bit(model, &read);
-    if (status >= 0 && dmb_id_is_none(read.ring))
+    if (status >= 0 && dmb_id_is_none(read.stabiliser))
         status = dmb_string_is_open(model, "bit", string_of_bit(model, &read));
-    if (!dmb_id_is_none(read.ring)) /* those of the ring */
+    if (!dmb_id_is_none(read.stabiliser)) /* those of the ring */
         read.diameter = read.displaced_volume = read.added_mass[0] = read.added_mass[1] = 0.0;
     if (status >= 0) status = dmb_describe_append(model, &model->bits, &read, sizeof read, DMB_PART_BIT, bit);
     return dmb_describe_end(model, "bit", &given, sizeof given, status);

@@ -68,7 +68,7 @@ double dmb_input_high(const dmb_input_def *def)
     return fmin(def->high, targets[def->target].high);
 }
 
-int dmb_input_is_programme(int32_t target)
+int dmb_input_is_time_function(int32_t target)
 {
     return target == DMB_TARGET_SET_POINT || target == DMB_TARGET_LOAD_FACTOR || target == DMB_TARGET_BIT_LOAD;
 }
@@ -140,7 +140,7 @@ static void check_limits(dmb_check *check, const dmb_model *model, const dmb_inp
     dmb_check_zero_or_within(check, "rate_limit", def->rate_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
     dmb_check_zero_or_within(check, "slope_limit", def->slope_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
     if (check->status < 0) return;
-    if (!dmb_input_is_programme(def->target) && (def->rate_limit > 0.0 || def->slope_limit > 0.0))
+    if (!dmb_input_is_time_function(def->target) && (def->rate_limit > 0.0 || def->slope_limit > 0.0))
         dmb_check_fail(check, DMB_ERR_UNSUPPORTED, def->rate_limit > 0.0 ? "rate_limit" : "slope_limit",
                        def->rate_limit > 0.0 ? def->rate_limit : def->slope_limit,
                        "0: only set points, load factors and bit loads have limits");

@@ -7,7 +7,7 @@ DMB_DEFINE_INIT(dmb_model_options, 32, {.log = NULL})
 
 DMB_DEFINE_INIT(dmb_environment_def, 64, {.gravity = {0.0, 0.0, -9.81}, .inner_density = -1.0, .flow_exponent = 1.0})
 
-DMB_DEFINE_INIT(dmb_term, 96, {.kind = DMB_TERM_CONSTANT, .x1 = 1.0})
+DMB_DEFINE_INIT(dmb_segment, 96, {.kind = DMB_SEGMENT_CONSTANT, .x1 = 1.0})
 
 DMB_DEFINE_INIT(dmb_wall_def, 184, {
     .direction = {1.0, 0.0, 0.0},

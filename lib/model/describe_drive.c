@@ -7,82 +7,83 @@
 #include "model/field_check.h"
 #include "model/model.h"
 
-enum { TERMS_MAX = 64, TABLE_MAX = 1 << 20 };
+enum { SEGMENTS_MAX = 64, TABLE_MAX = 1 << 20 };
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static void check_ramp(dmb_check *check, const dmb_term *term)
+static void check_ramp(dmb_check *check, const dmb_segment *segment)
 {
-    dmb_check_above_field(check, "x1", term->x1, "x0", term->x0);
-    if (term->x1 - term->x0 < DMB_TIME_MIN) dmb_check_fail(check, DMB_ERR_VALUE, "x1", term->x1, "> x0 by 1e-12 s");
+    dmb_check_above_field(check, "x1", segment->x1, "x0", segment->x0);
+    if (segment->x1 - segment->x0 < DMB_TIME_MIN)
+        dmb_check_fail(check, DMB_ERR_VALUE, "x1", segment->x1, "> x0 by 1e-12 s");
 }
 
 /* Times increase, and no line between two points is so steep that its slope overflows. */
-static void check_table(dmb_check *check, const dmb_term *term)
+static void check_table(dmb_check *check, const dmb_segment *segment)
 {
-    const double *x = term->table_time, *y = term->table_value;
-    dmb_check_count(check, "table_count", term->table_count, 1, TABLE_MAX);
+    const double *x = segment->table_time, *y = segment->table_value;
+    dmb_check_count(check, "table_count", segment->table_count, 1, TABLE_MAX);
     dmb_check_pointer(check, "table_time", x);
     dmb_check_pointer(check, "table_value", y);
     if (check->status < 0) return;
-    dmb_check_each_within(check, "table_time", x, term->table_count, -DMB_TIME_MAX, DMB_TIME_MAX);
-    dmb_check_each_within(check, "table_value", y, term->table_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_increasing(check, "table_time", x, term->table_count, 1);
-    for (uint32_t i = 1; i < term->table_count && check->status == DMB_OK; ++i) {
+    dmb_check_each_within(check, "table_time", x, segment->table_count, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_each_within(check, "table_value", y, segment->table_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_increasing(check, "table_time", x, segment->table_count, 1);
+    for (uint32_t i = 1; i < segment->table_count && check->status == DMB_OK; ++i) {
         if (x[i] - x[i - 1] >= DMB_TIME_MIN) continue;
         dmb_check_fail(check, DMB_ERR_VALUE, "table_time", x[i], "> the time before by 1e-12 s");
     }
 }
 
-static void check_callback(dmb_check *check, const dmb_term *term)
+static void check_callback(dmb_check *check, const dmb_segment *segment)
 {
-    dmb_check_mask(check, "provides", term->provides, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL);
-    if (term->callback != NULL || check->status < 0) return;
+    dmb_check_mask(check, "provides", segment->provides, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL);
+    if (segment->callback != NULL || check->status < 0) return;
     check->status = DMB_ERR_NULL;
     dmb_message_set(check->message, "%s %u: callback is NULL", check->part, check->index);
 }
 
-static void check_term(dmb_check *check, const dmb_term *term)
+static void check_segment(dmb_check *check, const dmb_segment *segment)
 {
-    dmb_check_choice(check, "kind", term->kind, DMB_TERM_CONSTANT, DMB_TERM_CALLBACK);
-    dmb_check_within(check, "x0", term->x0, -DMB_TIME_MAX, DMB_TIME_MAX);
-    dmb_check_within(check, "x1", term->x1, -DMB_TIME_MAX, DMB_TIME_MAX);
-    dmb_check_within(check, "h0", term->h0, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(check, "h1", term->h1, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(check, "omega", term->omega, -DMB_SPEED_MAX, DMB_SPEED_MAX);
-    dmb_check_within(check, "phase", term->phase, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
+    dmb_check_choice(check, "kind", segment->kind, DMB_SEGMENT_CONSTANT, DMB_SEGMENT_CALLBACK);
+    dmb_check_within(check, "x0", segment->x0, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_within(check, "x1", segment->x1, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_within(check, "h0", segment->h0, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_within(check, "h1", segment->h1, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_within(check, "omega", segment->omega, -DMB_SPEED_MAX, DMB_SPEED_MAX);
+    dmb_check_within(check, "phase", segment->phase, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
     if (check->status < 0) return;
-    if (term->kind == DMB_TERM_STEP || term->kind == DMB_TERM_STEP5) check_ramp(check, term);
-    if (term->kind == DMB_TERM_TABLE) check_table(check, term);
-    if (term->kind == DMB_TERM_CALLBACK) check_callback(check, term);
+    if (segment->kind == DMB_SEGMENT_STEP || segment->kind == DMB_SEGMENT_STEP5) check_ramp(check, segment);
+    if (segment->kind == DMB_SEGMENT_TABLE) check_table(check, segment);
+    if (segment->kind == DMB_SEGMENT_CALLBACK) check_callback(check, segment);
 }
 
 /* ---- The caller's array ------------------------------------------------------------------------------------------ */
 
 /* Term i of the caller's array, whose items are as far apart as the first one says. All say the same. */
-static int32_t read_term(const dmb_term *terms, uint32_t i, uint32_t stride, dmb_term *out)
+static int32_t read_segment(const dmb_segment *segments, uint32_t i, uint32_t stride, dmb_segment *out)
 {
-    const unsigned char *item = (const unsigned char *)terms + (size_t)i * stride;
+    const unsigned char *item = (const unsigned char *)segments + (size_t)i * stride;
     uint32_t size;
     memcpy(&size, item, sizeof size);
-    *out = dmb_term_default();
-    return size == stride ? dmb_term_read(out, item) : DMB_ERR_STRUCT_SIZE;
+    *out = dmb_segment_default();
+    return size == stride ? dmb_segment_read(out, item) : DMB_ERR_STRUCT_SIZE;
 }
 
-/* Checks every term and counts the numbers of its tables (both columns). */
-static int32_t check_terms(dmb_model *model, const dmb_term *terms, uint32_t count, size_t *numbers)
+/* Checks every segment and counts the numbers of its tables (both columns). */
+static int32_t check_segments(dmb_model *model, const dmb_segment *segments, uint32_t count, size_t *numbers)
 {
     dmb_message part;
-    dmb_message_set(&part, "programme %u, term", model->programmes.count);
+    dmb_message_set(&part, "time function %u, segment", model->time_functions.count);
     *numbers = 0;
     for (uint32_t i = 0; i < count; ++i) {
         dmb_check check = dmb_check_of(&model->message, part.text, i);
-        dmb_term term;
-        int32_t status = read_term(terms, i, terms->struct_size, &term);
+        dmb_segment segment;
+        int32_t status = read_segment(segments, i, segments->struct_size, &segment);
         if (status < 0) return status;
-        check_term(&check, &term);
+        check_segment(&check, &segment);
         if (check.status < 0) return check.status;
-        if (term.kind == DMB_TERM_TABLE) *numbers += 2 * (size_t)term.table_count; /* at most 64 x 2^21 */
+        if (segment.kind == DMB_SEGMENT_TABLE) *numbers += 2 * (size_t)segment.table_count; /* at most 64 x 2^21 */
     }
     return DMB_OK;
 }
@@ -91,7 +92,7 @@ static int32_t check_terms(dmb_model *model, const dmb_term *terms, uint32_t cou
 
 static size_t block_size(uint32_t count, size_t numbers)
 {
-    return count * sizeof(dmb_term) + numbers * sizeof(double); /* below 2^31 */
+    return count * sizeof(dmb_segment) + numbers * sizeof(double); /* below 2^31 */
 }
 
 static double *copy_numbers(const double *from, uint32_t count, double *to)
@@ -100,71 +101,75 @@ static double *copy_numbers(const double *from, uint32_t count, double *to)
     return to + count;
 }
 
-/* Fields that a term does not use are cleared, so that no pointer of the caller is kept but the callback's context. */
-static void forget_unused(dmb_term *term)
+/* Fields that a segment does not use are cleared, so that no pointer of the caller is kept but the callback's context.
+ */
+static void forget_unused(dmb_segment *segment)
 {
-    if (term->kind != DMB_TERM_TABLE) {
-        term->table_time = term->table_value = NULL;
-        term->table_count = 0;
+    if (segment->kind != DMB_SEGMENT_TABLE) {
+        segment->table_time = segment->table_value = NULL;
+        segment->table_count = 0;
     }
-    if (term->kind != DMB_TERM_CALLBACK) {
-        term->callback = NULL;
-        term->callback_context = NULL;
+    if (segment->kind != DMB_SEGMENT_CALLBACK) {
+        segment->callback = NULL;
+        segment->callback_context = NULL;
     }
 }
 
-static void copy_terms(const dmb_term *terms, uint32_t count, dmb_term *copy)
+static void copy_segments(const dmb_segment *segments, uint32_t count, dmb_segment *copy)
 {
     double *numbers = (double *)(void *)(copy + count);
     for (uint32_t i = 0; i < count; ++i) {
-        dmb_term *term = copy + i;
-        (void)read_term(terms, i, terms->struct_size, term);
-        forget_unused(term);
-        if (term->kind != DMB_TERM_TABLE) continue;
-        double *values = copy_numbers(term->table_time, term->table_count, numbers);
-        term->table_time = numbers;
-        numbers = copy_numbers(term->table_value, term->table_count, values);
-        term->table_value = values;
+        dmb_segment *segment = copy + i;
+        (void)read_segment(segments, i, segments->struct_size, segment);
+        forget_unused(segment);
+        if (segment->kind != DMB_SEGMENT_TABLE) continue;
+        double *values = copy_numbers(segment->table_time, segment->table_count, numbers);
+        segment->table_time = numbers;
+        numbers = copy_numbers(segment->table_value, segment->table_count, values);
+        segment->table_value = values;
     }
 }
 
-void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator)
+void dmb_time_function_release(dmb_time_function *time_function, const dmb_allocator *allocator)
 {
     void *block;
     size_t numbers = 0;
-    for (uint32_t i = 0; i < programme->count; ++i) numbers += 2 * (size_t)programme->terms[i].table_count;
-    memcpy(&block, &programme->terms, sizeof block); /* the model owns what others may only read */
-    dmb_release(allocator, block, block_size(programme->count, numbers));
-    programme->terms = NULL;
-    programme->count = 0;
+    for (uint32_t i = 0; i < time_function->count; ++i) numbers += 2 * (size_t)time_function->segments[i].table_count;
+    memcpy(&block, &time_function->segments, sizeof block); /* the model owns what others may only read */
+    dmb_release(allocator, block, block_size(time_function->count, numbers));
+    time_function->segments = NULL;
+    time_function->count = 0;
 }
 
-static int32_t append_programme(dmb_model *model, const dmb_term *terms, uint32_t count, size_t numbers, dmb_id *id)
+static int32_t append_time_function(dmb_model *model, const dmb_segment *segments, uint32_t count, size_t numbers,
+                                    dmb_id *id)
 {
-    dmb_programme programme = {NULL, count};
+    dmb_time_function time_function = {NULL, count};
     int32_t status;
-    dmb_term *copy = dmb_allocate(&model->allocator, block_size(count, numbers));
+    dmb_segment *copy = dmb_allocate(&model->allocator, block_size(count, numbers));
     if (copy == NULL) return DMB_ERR_NO_MEMORY;
-    copy_terms(terms, count, copy);
-    programme.terms = copy;
-    status = dmb_describe_append(model, &model->programmes, &programme, sizeof programme, DMB_PART_PROGRAMME, id);
-    if (status < 0) dmb_programme_release(&programme, &model->allocator);
+    copy_segments(segments, count, copy);
+    time_function.segments = copy;
+    status = dmb_describe_append(model, &model->time_functions, &time_function, sizeof time_function,
+                                 DMB_PART_TIME_FUNCTION, id);
+    if (status < 0) dmb_time_function_release(&time_function, &model->allocator);
     return status;
 }
 
-int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count, dmb_id *programme)
+int32_t dmb_model_add_time_function(dmb_model *model, const dmb_segment *segments, uint32_t segment_count,
+                                    dmb_id *time_function)
 {
-    dmb_term first = dmb_term_default();
-    const dmb_described given = {"programme", &first, sizeof first, term_count};
-    int32_t status = dmb_describe_open(model, "programme", terms);
+    dmb_segment first = dmb_segment_default();
+    const dmb_described given = {"time function", &first, sizeof first, segment_count};
+    int32_t status = dmb_describe_open(model, "time function", segments);
     size_t numbers;
     if (status < 0) return status;
-    if (term_count > 0) (void)read_term(terms, 0, terms->struct_size, &first);
-    dmb_check check = dmb_check_of(&model->message, "programme", model->programmes.count);
-    dmb_check_count(&check, "term_count", term_count, 1, TERMS_MAX);
+    if (segment_count > 0) (void)read_segment(segments, 0, segments->struct_size, &first);
+    dmb_check check = dmb_check_of(&model->message, "time function", model->time_functions.count);
+    dmb_check_count(&check, "segment_count", segment_count, 1, SEGMENTS_MAX);
     status = check.status;
-    if (status >= 0) status = check_terms(model, terms, term_count, &numbers);
-    if (status >= 0) status = append_programme(model, terms, term_count, numbers, programme);
+    if (status >= 0) status = check_segments(model, segments, segment_count, &numbers);
+    if (status >= 0) status = append_time_function(model, segments, segment_count, numbers, time_function);
     return dmb_describe_part(model, &given, status);
 }
 
@@ -290,8 +295,8 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
     dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
     check_driven_part(&check, model, def);
-    dmb_check_id(&check, model, "programme", def->programme, DMB_PART_PROGRAMME, "programme");
-    dmb_check_id_or_none(&check, model, "excitation", def->excitation, DMB_PART_PROGRAMME, "programme");
+    dmb_check_id(&check, model, "time_function", def->time_function, DMB_PART_TIME_FUNCTION, "time function");
+    dmb_check_id_or_none(&check, model, "excitation", def->excitation, DMB_PART_TIME_FUNCTION, "time function");
     dmb_check_within(&check, "gain", def->gain, 0.0, DMB_FORCE_MAX);
     dmb_check_within(&check, "integral_gain", def->integral_gain, 0.0, DMB_FORCE_MAX);
     dmb_check_within(&check, "limit_low", def->limit_low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
@@ -327,7 +332,7 @@ static int32_t check_load(dmb_model *model, const dmb_load_def *def)
     dmb_check_each_within(&check, "offset", def->offset, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
     dmb_check_each_within(&check, "force", def->force, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_each_within(&check, "moment", def->moment, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_id_or_none(&check, model, "programme", def->programme, DMB_PART_PROGRAMME, "programme");
+    dmb_check_id_or_none(&check, model, "time_function", def->time_function, DMB_PART_TIME_FUNCTION, "time function");
     return check.status;
 }
 

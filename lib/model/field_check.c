@@ -81,7 +81,7 @@ void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field
 {
     const bool on_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != DMB_NONE ||
                          dmb_model_part_index(model, place->part, DMB_PART_BIT) != DMB_NONE ||
-                         dmb_model_part_index(model, place->part, DMB_PART_RING) != DMB_NONE;
+                         dmb_model_part_index(model, place->part, DMB_PART_STABILISER) != DMB_NONE;
     dmb_message part, pipe, fraction;
     dmb_message_set(&part, "%s.part", field);
     dmb_message_set(&pipe, "%s.pipe", field);

@@ -41,7 +41,7 @@
 #define DMB_RATIO_MIN 1e-12 /* [-, m/rad, rad/m] of coupled coordinates */
 #define DMB_RATIO_MAX 1e12
 #define DMB_STOP_MAX 1e30  /* [m, rad] of stops; as far away as that there is none */
-#define DMB_FORCE_MAX 1e30 /* [N, N m, unit of a programme] */
+#define DMB_FORCE_MAX 1e30 /* [N, N m, unit of a time function] */
 
 /* [rad] largest unstressed bend of one element, as of DMB_BEAM_ROTATION_MAX */
 #define DMB_REST_ROTATION_MAX 2.5

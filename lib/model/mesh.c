@@ -307,7 +307,7 @@ static void tell(dmb_model *model, const dmb_scene *scene)
                         scene->constraint_count, scene->cluster_count);
     }
     dmb_message_set(
-        &model->message, "compiled: %u nodes, %u elements, %u contact sites, %s%u degrees_of_freedom, %zu bytes",
+        &model->message, "compiled: %u nodes, %u elements, %u contact points, %s%u degrees_of_freedom, %zu bytes",
         scene->node_count, scene->element_count, scene->site_count, joints.text, scene->free_count, scene->bytes);
     dmb_log_text(&log, DMB_LOG_INFO, model->message.text);
 }

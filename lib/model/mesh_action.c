@@ -7,9 +7,9 @@
 #include "model/field_check.h"
 #include "model/mesh.h"
 
-static uint32_t programme_of(const dmb_mesh *mesh, dmb_id id)
+static uint32_t time_function_of(const dmb_mesh *mesh, dmb_id id)
 {
-    return dmb_model_part_index(mesh->model, id, DMB_PART_PROGRAMME); /* DMB_NONE for none */
+    return dmb_model_part_index(mesh->model, id, DMB_PART_TIME_FUNCTION); /* DMB_NONE for none */
 }
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
@@ -98,8 +98,8 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .row = DMB_NONE,
                              .kind = def->kind,
                              .component = def->component,
-                             .programme = programme_of(mesh, def->programme),
-                             .excitation = excited ? programme_of(mesh, def->excitation) : DMB_NONE,
+                             .time_function = time_function_of(mesh, def->time_function),
+                             .excitation = excited ? time_function_of(mesh, def->excitation) : DMB_NONE,
                              .joint = joint,
                              .constraint = DMB_NONE,
                              .actuator = has_actuator(def) ? (uint32_t)mesh->actuators.count : DMB_NONE,
@@ -143,7 +143,8 @@ static int32_t place_load(dmb_mesh *mesh, uint32_t i, const dmb_load_def *def, d
 static int32_t add_load(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_load_def *def = DMB_LIST_AT(const dmb_load_def, mesh->model->loads, i);
-    dmb_scene_load load = {.frame = def->frame, .programme = programme_of(mesh, def->programme), .point = DMB_NONE};
+    dmb_scene_load load = {
+        .frame = def->frame, .time_function = time_function_of(mesh, def->time_function), .point = DMB_NONE};
     for (int k = 0; k < 3; ++k) {
         load.force[k] = def->force[k];
         load.moment[k] = def->moment[k];
@@ -193,9 +194,9 @@ static void take_face(const dmb_mesh *mesh, const dmb_bit_def *def, dmb_scene_bi
 {
     bit->face = bit->length = def->length;
     if (!bit->reamer) return;
-    const uint32_t ring = dmb_model_part_index(mesh->model, def->ring, DMB_PART_RING);
+    const uint32_t ring = dmb_model_part_index(mesh->model, def->stabiliser, DMB_PART_STABILISER);
     bit->face = 0.0;
-    bit->length = 0.5 * DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring)->length;
+    bit->length = 0.5 * DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, ring)->length;
 }
 
 static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
@@ -205,10 +206,10 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     dmb_scene_bit bit = {.law = rock_law_of(def, (mesh->features & DMB_FEATURE_ROCK) != 0),
                          .bottom = def->bottom,
                          .node = map->node,
-                         .load = programme_of(mesh, def->load),
+                         .load = time_function_of(mesh, def->load),
                          .history_first = mesh->history_count,
                          .arm = map->arm,
-                         .reamer = !dmb_id_is_none(def->ring)};
+                         .reamer = !dmb_id_is_none(def->stabiliser)};
     take_face(mesh, def, &bit);
     if (bit.law.kind == DMB_ROCK_REGENERATIVE) bit.history_capacity = def->history;
     if (bit.history_capacity > UINT32_MAX - mesh->history_count) return DMB_ERR_TOO_LARGE;

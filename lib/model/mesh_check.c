@@ -34,7 +34,8 @@ static int32_t check_belonging(const dmb_model *model, dmb_message *message)
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
-        if (dmb_id_is_none(bit->ring)) status = check_string_there(model, message, "bit", i, bit->name, bit->string);
+        if (dmb_id_is_none(bit->stabiliser))
+            status = check_string_there(model, message, "bit", i, bit->name, bit->string);
     }
     for (uint32_t i = 0; i < model->drives.count && status >= 0; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
@@ -51,7 +52,7 @@ static int32_t check_one_bit_a_string(const dmb_mesh *mesh, dmb_message *message
     int32_t status = dmb_vector_append(&taken, &model->allocator, NULL, model->strings.count);
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
-        if (!dmb_id_is_none(bit->ring)) continue;
+        if (!dmb_id_is_none(bit->stabiliser)) continue;
         const uint32_t string = dmb_mesh_string_of(mesh, bit->string);
         uint32_t *holder = DMB_VECTOR_AT(uint32_t, &taken, string);
         if (*holder != 0) {
@@ -177,8 +178,8 @@ static int32_t check_diameters(const dmb_model *model, dmb_message *message)
         if (status < 0) return status;
     }
     for (uint32_t i = 0; i < model->rings.count; ++i) {
-        status = check_fits(model, message, DMB_PART_RING, i, "outer_diameter",
-                            DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter);
+        status = check_fits(model, message, DMB_PART_STABILISER, i, "outer_diameter",
+                            DMB_LIST_AT(const dmb_stabiliser_def, model->rings, i)->outer_diameter);
         if (status < 0) return status;
     }
     return DMB_OK;

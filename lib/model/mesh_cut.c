@@ -24,7 +24,9 @@ double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring)
     double widest = 0.0;
     for (uint32_t i = 0; i < mesh->model->bits.count; i++) {
         const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
-        if (dmb_id_is_none(def->ring) || dmb_model_part_index(mesh->model, def->ring, DMB_PART_RING) != ring) continue;
+        if (dmb_id_is_none(def->stabiliser) ||
+            dmb_model_part_index(mesh->model, def->stabiliser, DMB_PART_STABILISER) != ring)
+            continue;
         widest = fmax(widest, dmb_mesh_bit_cuts(mesh, i));
     }
     return widest;

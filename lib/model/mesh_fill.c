@@ -286,7 +286,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->constraints, scene->constraints);
     copy_items(&mesh->clusters, scene->clusters);
     copy_items(&mesh->cluster_nodes, scene->cluster_nodes);
-    scene->programmes = mesh->model->programmes.items; /* frozen with the model, which outlives the scene */
+    scene->time_functions = mesh->model->time_functions.items; /* frozen with the model, which outlives the scene */
     for (uint32_t s = 0; s < scene->string_count; ++s) scene->length += scene->strings[s].length;
 }
 
@@ -334,10 +334,10 @@ static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage 
 
 /* ---- Sites near nodes -------------------------------------------------------------------------------------------- */
 
-static int take_near(uint32_t *near_site, uint32_t from, uint32_t to)
+static int take_near(uint32_t *near_contact, uint32_t from, uint32_t to)
 {
-    if (near_site[to] != DMB_NONE || near_site[from] == DMB_NONE) return 0;
-    near_site[to] = near_site[from];
+    if (near_contact[to] != DMB_NONE || near_contact[from] == DMB_NONE) return 0;
+    near_contact[to] = near_contact[from];
     return 1;
 }
 
@@ -345,9 +345,9 @@ static int take_near(uint32_t *near_site, uint32_t from, uint32_t to)
 static void spread_along(dmb_scene *scene)
 {
     for (uint32_t i = scene->node_count; i-- > 1;)
-        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_site, i, i - 1);
+        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_contact, i, i - 1);
     for (uint32_t i = 1; i < scene->node_count; ++i)
-        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_site, i - 1, i);
+        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_contact, i - 1, i);
 }
 
 static int spread_across(dmb_scene *scene)
@@ -356,17 +356,17 @@ static int spread_across(dmb_scene *scene)
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         const uint32_t a = scene->joints[j].a.node, b = scene->joints[j].b.node;
         if (a == DMB_NONE) continue;
-        more |= take_near(scene->near_site, a, b);
-        more |= take_near(scene->near_site, b, a);
+        more |= take_near(scene->near_contact, a, b);
+        more |= take_near(scene->near_contact, b, a);
     }
     return more;
 }
 
 static void fill_near_sites(dmb_scene *scene)
 {
-    if (scene->near_site == NULL) return;
-    for (uint32_t i = 0; i < scene->node_count; ++i) scene->near_site[i] = DMB_NONE;
-    for (uint32_t s = scene->site_count; s-- > 0;) scene->near_site[scene->sites[s].node] = s;
+    if (scene->near_contact == NULL) return;
+    for (uint32_t i = 0; i < scene->node_count; ++i) scene->near_contact[i] = DMB_NONE;
+    for (uint32_t s = scene->site_count; s-- > 0;) scene->near_contact[scene->sites[s].node] = s;
     do spread_along(scene);
     while (spread_across(scene));
 }

@@ -117,10 +117,10 @@ static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
 
 static int32_t has_callback(const dmb_mesh *mesh)
 {
-    for (uint32_t i = 0; i < mesh->model->programmes.count; ++i) {
-        const dmb_programme *programme = (const dmb_programme *)mesh->model->programmes.items + i;
-        for (uint32_t k = 0; k < programme->count; ++k)
-            if (programme->terms[k].kind == DMB_TERM_CALLBACK) return 1;
+    for (uint32_t i = 0; i < mesh->model->time_functions.count; ++i) {
+        const dmb_time_function *time_function = (const dmb_time_function *)mesh->model->time_functions.items + i;
+        for (uint32_t k = 0; k < time_function->count; ++k)
+            if (time_function->segments[k].kind == DMB_SEGMENT_CALLBACK) return 1;
     }
     return mesh->forces.count > 0 || mesh->callbacks.count > 0;
 }
@@ -151,7 +151,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->spring_count = (uint32_t)mesh->springs.count;
     scene->unilateral_count = count_unilaterals(mesh);
     scene->spring_point_count = (uint32_t)mesh->spring_points.count;
-    scene->programme_count = mesh->model->programmes.count;
+    scene->time_function_count = mesh->model->time_functions.count;
     scene->has_callback = has_callback(mesh);
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
@@ -216,7 +216,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
     to->sites = DMB_ARENA_ARRAY(arena, dmb_site, counts->site_count);
     to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
-    if (hole->stations > 0) to->near_site = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
+    if (hole->stations > 0) to->near_contact = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
     if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
     if (counts->actuator_count > 0) to->actuators = DMB_ARENA_ARRAY(arena, dmb_actuator_law, counts->actuator_count);

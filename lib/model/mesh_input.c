@@ -32,7 +32,8 @@ static int32_t check_density(const dmb_mesh *mesh, const dmb_input_def *def)
     for (uint32_t i = 0; i < model->bits.count; ++i)
         if (any(DMB_LIST_AT(const dmb_bit_def, model->bits, i)->added_mass)) why = "the added_mass of bits is 0";
     for (uint32_t i = 0; i < model->rings.count; ++i)
-        if (any(DMB_LIST_AT(const dmb_ring_def, model->rings, i)->added_mass)) why = "the added_mass of rings is 0";
+        if (any(DMB_LIST_AT(const dmb_stabiliser_def, model->rings, i)->added_mass))
+            why = "the added_mass of rings is 0";
     if (model->environment.flow_rate > 0.0) why = "flow_rate is 0";
     for (uint32_t i = 0; i < model->inputs.count; ++i)
         if (DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target == DMB_TARGET_FLOW_RATE)

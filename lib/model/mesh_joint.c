@@ -62,7 +62,7 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
     const dmb_model *model = mesh->model;
     const uint32_t string = dmb_model_part_index(model, place->part, DMB_PART_STRING);
     const uint32_t bit = dmb_model_part_index(model, place->part, DMB_PART_BIT);
-    const uint32_t ring = dmb_model_part_index(model, place->part, DMB_PART_RING);
+    const uint32_t ring = dmb_model_part_index(model, place->part, DMB_PART_STABILISER);
     uint32_t body = dmb_model_part_index(model, place->part, DMB_PART_BODY);
     if (bit != DMB_NONE) body = model->bodies.count + bit;
     if (ring != DMB_NONE) body = model->bodies.count + model->bits.count + ring;

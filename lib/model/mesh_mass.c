@@ -278,7 +278,7 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
 static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *map, double pipe_diameter)
 {
     const dmb_environment_def *e = &mesh->model->environment;
-    const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
+    const dmb_stabiliser_def *def = DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, ring);
     const double hole = mesh->model->wall.diameter;
     dmb_added_mass part = {.along = 0.0};
     dmb_message text;
@@ -286,7 +286,7 @@ static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *m
         dmb_message_set(&mesh->model->message,
                         "%s: outer_diameter = %g m, must be < %g m, the wall's diameter, with added_mass = -1 of the "
                         "environment; give the ring an added_mass across",
-                        dmb_model_part_text(mesh->model, DMB_PART_RING, ring, &text), def->outer_diameter, hole);
+                        dmb_model_part_text(mesh->model, DMB_PART_STABILISER, ring, &text), def->outer_diameter, hole);
         return DMB_ERR_GEOMETRY;
     }
     dmb_ring_mud(def, pipe_diameter, e, hole, map->arm, &part);
@@ -299,7 +299,7 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
     const uint32_t first = mesh->model->bodies.count + mesh->model->bits.count;
     for (uint32_t i = 0; i < rings.count; ++i) {
         const uint32_t ring = rings.first[i].ring;
-        const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
+        const dmb_stabiliser_def *def = DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, ring);
         const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, first + ring);
         const double buoyancy = 1.0 - mesh->model->environment.fluid_density / def->density;
         dmb_rigid_part part;
@@ -362,7 +362,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
     dmb_rigid_part part;
     dmb_added_mass mud = {.along = 0.0};
-    if (!dmb_id_is_none(def->ring)) return DMB_OK;
+    if (!dmb_id_is_none(def->stabiliser)) return DMB_OK;
     dmb_given_mud(def->added_mass, map->arm + 0.5 * def->length, &mud);
     const int32_t status = add_mud(mesh, map->node, &mud);
     if (status < 0) return status;

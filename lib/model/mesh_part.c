@@ -237,7 +237,7 @@ static void mesh_elastic_run(string_walk *walk, uint32_t run_index)
 
 /* ---- Rigid pipes ------------------------------------------------------------------------------------------------- */
 
-/* True if the guide or a drive at the rig end acts on components that differ along the body's axis. */
+/* True if the support or a drive at the rig end acts on components that differ along the body's axis. */
 static bool start_is_pinned(const string_walk *walk)
 {
     const dmb_model *model = walk->mesh->model;
@@ -256,7 +256,7 @@ static bool end_is_pinned(const string_walk *walk)
     return !dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->end_free);
 }
 
-/* The place of the node of a stretch of rigid pipes. A guide acts at the node, so a body with a pinned end has it
+/* The place of the node of a stretch of rigid pipes. A support acts at the node, so a body with a pinned end has it
  * there; otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
 static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *near)
 {
@@ -396,11 +396,11 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
 }
 
 /* A bit's reference point is the string's end; its centre is half its length beyond. Reamers are put on their rings
- * when those have their places (mesh_ring). */
+ * when those have their places (mesh_stabiliser). */
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
     const dmb_string_map *string =
-        dmb_mesh_string_at(mesh, dmb_id_is_none(def->ring) ? dmb_mesh_string_of(mesh, def->string) : 0);
+        dmb_mesh_string_at(mesh, dmb_id_is_none(def->stabiliser) ? dmb_mesh_string_of(mesh, def->string) : 0);
     dmb_body_map map = {string->end_node, DMB_NONE, string->end_arm, 0, 0, ""};
     memcpy(map.name, def->name, sizeof map.name);
     return map;

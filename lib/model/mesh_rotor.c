@@ -326,7 +326,7 @@ static void read_clamps(const dmb_mesh *mesh)
 }
 
 /* The axis of a body whose reference point is held goes through that point. */
-static void compare_guide(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
+static void compare_support(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
 {
     const dmb_scene_frame point = {.M = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}};
     if (dmb_mesh_node_at(mesh, rotor->rotor.node)->free == DMB_FREE_ALL) return;
@@ -341,7 +341,7 @@ int32_t dmb_mesh_rotors(dmb_mesh *mesh)
     if (status < 0) return status;
     read_joints(mesh, OFFER);
     for (size_t i = 0; i < mesh->rotors.count; ++i) offer_inertia(mesh, rotor_at(mesh, i));
-    for (size_t i = 0; i < mesh->rotors.count; ++i) compare_guide(mesh, rotor_at(mesh, i));
+    for (size_t i = 0; i < mesh->rotors.count; ++i) compare_support(mesh, rotor_at(mesh, i));
     read_joints(mesh, COMPARE);
     read_callbacks(mesh);
     read_clamps(mesh);

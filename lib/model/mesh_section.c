@@ -281,8 +281,8 @@ int32_t dmb_mesh_fits(dmb_mesh *mesh)
     }
     for (uint32_t i = 0; i < model->rings.count; i++) {
         const double depth = depth_of(mesh, model->bodies.count + model->bits.count + i);
-        status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_RING, i, &part), "outer_diameter",
-                                DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter, depth,
+        status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_STABILISER, i, &part), "outer_diameter",
+                                DMB_LIST_AT(const dmb_stabiliser_def, model->rings, i)->outer_diameter, depth,
                                 dmb_mesh_ring_cuts(mesh, i));
         if (status < 0) return status;
     }

@@ -1,4 +1,4 @@
-/* The axis of the hole, and contact sites along it. */
+/* The axis of the hole, and contact points along it. */
 #include "force/hole.h"
 #include "math/quadrature.h"
 #include "model/field_check.h"
@@ -90,7 +90,8 @@ static int32_t push_path_site(const site_walk *walk)
     return dmb_vector_append(&walk->mesh->path_sites, &walk->mesh->model->allocator, &site, 1);
 }
 
-static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length, dmb_id part)
+static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length,
+                              dmb_id part)
 {
     dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
@@ -111,14 +112,14 @@ static int32_t pass_rings(site_walk *walk)
     for (; walk->ring < mesh->rings.count && status >= 0; walk->ring++) {
         const dmb_ring_map *ring = DMB_VECTOR_AT(const dmb_ring_map, &mesh->rings, walk->ring);
         const uint32_t index = ring->body - mesh->model->bodies.count - mesh->model->bits.count;
-        const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, index);
+        const dmb_stabiliser_def *def = DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, index);
         const uint32_t node = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, ring->body)->node;
         if (ring->string != walk->string || node > walk->node) break;
         if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_PATH)
             walk->diameter = fmax(walk->diameter, def->outer_diameter);
         else
-            status = add_ring(walk->mesh, ring->body, def->outer_diameter, 0.0, def->length,
-                              dmb_model_id(mesh->model, DMB_PART_RING, index));
+            status = add_stabiliser(walk->mesh, ring->body, def->outer_diameter, 0.0, def->length,
+                                    dmb_model_id(mesh->model, DMB_PART_STABILISER, index));
     }
     return status;
 }
@@ -211,19 +212,19 @@ static int32_t pass_string(dmb_mesh *mesh, uint32_t string, uint32_t *ring)
 
 /* ---- Bodies and bits --------------------------------------------------------------------------------------------- */
 
-static int32_t add_rings(dmb_mesh *mesh)
+static int32_t add_stabilisers(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i) {
         const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
-        status =
-            add_ring(mesh, i, def->contact_diameter, 0.0, def->contact_length, dmb_model_id(model, DMB_PART_BODY, i));
+        status = add_stabiliser(mesh, i, def->contact_diameter, 0.0, def->contact_length,
+                                dmb_model_id(model, DMB_PART_BODY, i));
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
         const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
-        status = add_ring(mesh, model->bodies.count + i, def->diameter, 0.5 * def->length, def->length,
-                          dmb_model_id(model, DMB_PART_BIT, i));
+        status = add_stabiliser(mesh, model->bodies.count + i, def->diameter, 0.5 * def->length, def->length,
+                                dmb_model_id(model, DMB_PART_BIT, i));
     }
     return status;
 }
@@ -272,7 +273,7 @@ int32_t dmb_mesh_sites(dmb_mesh *mesh)
     int32_t status = dmb_mesh_fits(mesh);
     if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return status;
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s, &ring);
-    if (status >= 0) status = add_rings(mesh);
+    if (status >= 0) status = add_stabilisers(mesh);
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = add_string_inside(mesh, s);
     return status;
 }

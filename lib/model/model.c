@@ -48,13 +48,13 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
 static void release_parts(dmb_model *model)
 {
     const dmb_allocator *allocator = &model->allocator;
-    for (uint32_t i = 0; i < model->programmes.count; ++i) {
-        dmb_programme_release(DMB_LIST_AT(dmb_programme, model->programmes, i), allocator);
+    for (uint32_t i = 0; i < model->time_functions.count; ++i) {
+        dmb_time_function_release(DMB_LIST_AT(dmb_time_function, model->time_functions, i), allocator);
     }
     dmb_wall_release(&model->wall, allocator);
     dmb_list_release(&model->sections, allocator, sizeof(dmb_hole_section));
-    dmb_list_release(&model->programmes, allocator, sizeof(dmb_programme));
-    dmb_list_release(&model->names, allocator, sizeof(dmb_programme_name));
+    dmb_list_release(&model->time_functions, allocator, sizeof(dmb_time_function));
+    dmb_list_release(&model->names, allocator, sizeof(dmb_time_function_name));
     dmb_list_release(&model->strings, allocator, sizeof(dmb_string_plan));
     dmb_list_release(&model->runs, allocator, sizeof(dmb_pipe_run));
     dmb_list_release(&model->bodies, allocator, sizeof(dmb_body_def));
@@ -70,7 +70,7 @@ static void release_parts(dmb_model *model)
     }
     dmb_list_release(&model->forces, allocator, sizeof(dmb_force_def));
     dmb_list_release(&model->stuck, allocator, sizeof(dmb_stuck_def));
-    dmb_list_release(&model->rings, allocator, sizeof(dmb_ring_def));
+    dmb_list_release(&model->rings, allocator, sizeof(dmb_stabiliser_def));
     dmb_list_release(&model->springs, allocator, sizeof(dmb_spring_plan));
     dmb_list_release(&model->events, allocator, sizeof(dmb_event_def));
     if (model->scene == NULL) return;
@@ -143,7 +143,7 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
 uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
 {
     switch (kind) {
-    case DMB_PART_PROGRAMME: return model->programmes.count;
+    case DMB_PART_TIME_FUNCTION: return model->time_functions.count;
     case DMB_PART_WALL: return model->wall_count;
     case DMB_PART_STRING: return model->strings.count;
     case DMB_PART_BODY: return model->bodies.count;
@@ -158,7 +158,7 @@ uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
     case DMB_PART_EVENT: return model->events.count;
     case DMB_PART_FORCE: return model->forces.count;
     case DMB_PART_STUCK: return model->stuck.count;
-    case DMB_PART_RING: return model->rings.count;
+    case DMB_PART_STABILISER: return model->rings.count;
     default: return 0;
     }
 }

@@ -15,7 +15,7 @@
 #include "drillmbd/model.h"
 #include "drillmbd/names.h"
 #include "drillmbd/ring.h"
-#include "force/programme.h"
+#include "force/time_function.h"
 #include "model/scene.h"
 
 /* ---- Parts that were refused ------------------------------------------------------------------------------------- */
@@ -26,7 +26,7 @@ enum { DMB_REFUSED_KEPT = 8, DMB_REFUSED_BYTES = 768 };
 typedef struct dmb_refusal {
     const char *part; /* the kind: "body", "pipes", ... */
     int32_t status;
-    uint32_t count; /* of pipes or terms, 1 of other parts */
+    uint32_t count; /* of pipes or segments, 1 of other parts */
     size_t size;    /* [byte] of the definition; 0: it could not be read, or there is one such part a model */
     dmb_message message;
     unsigned char definition[DMB_REFUSED_BYTES]; /* as it was read */
@@ -115,8 +115,8 @@ struct dmb_model {
     dmb_wall_def wall;            /* survey points to the model's own copy */
     uint32_t wall_count;          /* 0 or 1 */
     dmb_list sections;            /* dmb_hole_section, in the order of their depths */
-    dmb_list programmes;          /* dmb_programme, terms and tables are the model's own copies */
-    dmb_list names;               /* dmb_programme_name, of programmes that were given one */
+    dmb_list time_functions;      /* dmb_time_function, segments and tables are the model's own copies */
+    dmb_list names;               /* dmb_time_function_name, of time functions that were given one */
     dmb_list strings;             /* dmb_string_plan */
     dmb_list runs;                /* dmb_pipe_run, in the order they were added */
     dmb_list bodies;              /* dmb_body_def */
@@ -131,7 +131,7 @@ struct dmb_model {
     dmb_list events;              /* dmb_event_def */
     dmb_list forces;              /* dmb_force_def */
     dmb_list stuck;               /* dmb_stuck_def */
-    dmb_list rings;               /* dmb_ring_def */
+    dmb_list rings;               /* dmb_stabiliser_def */
     dmb_refusals refused;         /* parts that were refused and not added since */
     dmb_scene *scene;             /* NULL until compiled, then never changed */
     uint32_t sparse_nodes;        /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
@@ -189,12 +189,12 @@ const char *dmb_create_message(const dmb_model *model);
 
 /* ---- Names of parts ---------------------------------------------------------------------------------------------- */
 
-/* A programme is an array of terms, which has no room for one. */
-typedef struct dmb_programme_name {
-    uint32_t programme;
+/* A time function is an array of segments, which has no room for one. */
+typedef struct dmb_time_function_name {
+    uint32_t time_function;
     uint32_t reserved;
     char name[DMB_NAME_SIZE];
-} dmb_programme_name;
+} dmb_time_function_name;
 
 /* Fails the check where `name`, the field of that length, is no text or another part of the kind has it. */
 void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name);

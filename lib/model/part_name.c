@@ -26,7 +26,7 @@ typedef struct name_place {
 enum { KINDS = DMB_PART_EVENT + 1 };
 
 static const name_place places[KINDS] = {
-    [DMB_PART_PROGRAMME] = {"programme", 0, 0, 0},
+    [DMB_PART_TIME_FUNCTION] = {"time function", 0, 0, 0},
     [DMB_PART_WALL] = {"wall", 0, 0, 0},
     [DMB_PART_STRING] = PLAN("string", strings, dmb_string_plan),
     [DMB_PART_BODY] = PLACE("body", bodies, dmb_body_def),
@@ -38,16 +38,16 @@ static const name_place places[KINDS] = {
     [DMB_PART_CONSTRAINT] = PLACE("constraint", constraints, dmb_constraint_def),
     [DMB_PART_SPRING] = PLAN("spring", springs, dmb_spring_plan),
     [DMB_PART_FORCE] = PLACE("force", forces, dmb_force_def),
-    [DMB_PART_RING] = PLACE("ring", rings, dmb_ring_def),
+    [DMB_PART_STABILISER] = PLACE("stabiliser", rings, dmb_stabiliser_def),
     [DMB_PART_STUCK] = PLACE("stuck", stuck, dmb_stuck_def),
     [DMB_PART_INPUT] = PLACE("input", inputs, dmb_input_def),
     [DMB_PART_EVENT] = PLACE("event", events, dmb_event_def),
 };
 
-static uint32_t name_of_programme(const dmb_model *model, uint32_t index)
+static uint32_t name_of_time_function(const dmb_model *model, uint32_t index)
 {
     for (uint32_t i = 0; i < model->names.count; ++i)
-        if (DMB_LIST_AT(const dmb_programme_name, model->names, i)->programme == index) return i;
+        if (DMB_LIST_AT(const dmb_time_function_name, model->names, i)->time_function == index) return i;
     return DMB_NONE;
 }
 
@@ -56,9 +56,9 @@ static const char *name_of(const dmb_model *model, uint32_t kind, uint32_t index
 {
     const name_place *place = places + kind;
     if (kind == DMB_PART_WALL) return model->wall.name;
-    if (kind == DMB_PART_PROGRAMME) {
-        const uint32_t i = name_of_programme(model, index);
-        return i == DMB_NONE ? "" : DMB_LIST_AT(const dmb_programme_name, model->names, i)->name;
+    if (kind == DMB_PART_TIME_FUNCTION) {
+        const uint32_t i = name_of_time_function(model, index);
+        return i == DMB_NONE ? "" : DMB_LIST_AT(const dmb_time_function_name, model->names, i)->name;
     }
     const dmb_list *list = (const dmb_list *)(const void *)((const char *)model + place->list);
     return (const char *)list->items + index * place->item + place->name;
@@ -153,8 +153,8 @@ static int32_t take_id(const dmb_model *model, dmb_id id, uint32_t *kind, uint32
 
 static int32_t put_name(dmb_model *model, uint32_t kind, uint32_t index, const char name[DMB_NAME_SIZE])
 {
-    if (kind == DMB_PART_PROGRAMME && name_of_programme(model, index) == DMB_NONE) {
-        dmb_programme_name item = {index, 0, ""};
+    if (kind == DMB_PART_TIME_FUNCTION && name_of_time_function(model, index) == DMB_NONE) {
+        dmb_time_function_name item = {index, 0, ""};
         memcpy(item.name, name, sizeof item.name);
         return dmb_list_append(&model->names, &model->allocator, &item, sizeof item);
     }

@@ -31,7 +31,7 @@ typedef struct wide_field {
     }
 
 static const wide_field wide_fields[] = {
-    FIELDS("programme", dmb_term, table_time, table_count),
+    FIELDS("time function", dmb_segment, table_time, table_count),
     NAME("string", dmb_string_def),
     FIELD("string", dmb_string_def, offset),
     FIELD("string", dmb_string_def, position),
@@ -93,8 +93,8 @@ static const wide_field wide_fields[] = {
     FIELD("spring", dmb_spring_def, offset_a),
     FIELD("spring", dmb_spring_def, offset_b),
     FIELDS("spring", dmb_spring_def, table_elongation, table_kind),
-    NAME("ring", dmb_ring_def),
-    FIELD("ring", dmb_ring_def, inertia),
+    NAME("stabiliser", dmb_stabiliser_def),
+    FIELD("stabiliser", dmb_stabiliser_def, inertia),
     NAME("event", dmb_event_def),
     FIELD("event", dmb_event_def, output),
 };

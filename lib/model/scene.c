@@ -49,7 +49,8 @@ void dmb_scene_set_flow(dmb_scene *scene, double rate)
     dmb_scene_fill_pulls(scene);
 }
 
-/* ---- Rings that a guide keeps off the wall ----------------------------------------------------------------------- */
+/* ---- Rings that a support keeps off the wall -----------------------------------------------------------------------
+ */
 
 static const double same_point = 1e-9; /* [m] */
 
@@ -63,10 +64,10 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
            fabs(x[2]) <= same_point;
 }
 
-/* Name of the guide or joint that holds the ring: "its guide", a joint by name, or NULL. */
+/* Name of the support or joint that holds the ring: "its support", a joint by name, or NULL. */
 static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_message *text)
 {
-    if (body->held_ring) return "the guide (free_mask; start_free or end_free of its string)";
+    if (body->held_ring) return "the support (free_mask; start_free or end_free of its string)";
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         const dmb_scene_joint *joint = &scene->joints[j];
         if (is_on_axis(scene, body, joint)) return dmb_part_text(text, "joint", j, joint->name, sizeof joint->name);
@@ -86,7 +87,7 @@ uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
         dmb_part_text(&part,
                       i < bodies  ? "body"
                       : i < rings ? "bit"
-                                  : "ring",
+                                  : "stabiliser",
                       i - first, scene->bodies[i].name, sizeof scene->bodies[i].name);
         if (i >= rings) {
             dmb_message_set(text, "%s: it never touches the wall, %s holds it sideways: free it there, or move it",

@@ -23,8 +23,8 @@
 #include "force/hole.h"
 #include "force/mud_flow.h"
 #include "force/normal_law.h"
-#include "force/programme.h"
 #include "force/spring_law.h"
+#include "force/time_function.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 #include "model/scene_constraint.h"
@@ -54,7 +54,7 @@ typedef struct dmb_scene_drive {
     uint32_t row;        /* global row of the component; DMB_NONE: none */
     int32_t kind;        /* DMB_DRIVE_... */
     int32_t component;   /* body-frame component 0 .. 5 */
-    uint32_t programme;
+    uint32_t time_function;
     uint32_t excitation; /* DMB_NONE: none, or left out */
     uint32_t joint;      /* whose coordinate `component` it drives; DMB_NONE: none */
     uint32_t constraint; /* of a MOTION drive on a joint; DMB_NONE: none */
@@ -68,8 +68,8 @@ typedef struct dmb_scene_load {
     double arm; /* [m] along body x from the node */
     uint32_t node;
     int32_t frame;
-    uint32_t programme; /* DMB_NONE: factor 1 */
-    uint32_t point;     /* in load_points, where it acts; DMB_NONE: at the arm from the node */
+    uint32_t time_function; /* DMB_NONE: factor 1 */
+    uint32_t point;         /* in load_points, where it acts; DMB_NONE: at the arm from the node */
     char name[24];
 } dmb_scene_load;
 
@@ -77,7 +77,7 @@ typedef struct dmb_scene_bit {
     dmb_bit_rock_law law; /* kind DMB_ROCK_NONE when left out */
     double bottom;        /* [m] stand-off at time 0 */
     uint32_t node;
-    uint32_t load;             /* programme of the bottom-hole load; DMB_NONE: none */
+    uint32_t load;             /* time function of the bottom-hole load; DMB_NONE: none */
     uint32_t history_first;    /* start of its samples in the history arrays */
     uint32_t history_capacity; /* 0 unless regenerative */
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
@@ -100,7 +100,7 @@ typedef struct dmb_scene_input {
 
 /* An output that crosses a level (run/events). */
 typedef struct dmb_scene_event {
-    dmb_channel output;
+    dmb_output output;
     double level, hold, tolerance;
     int32_t direction; /* DMB_EVENT_... */
     uint32_t reserved;
@@ -130,9 +130,9 @@ typedef struct dmb_string_map {
 
 typedef struct dmb_body_map {
     uint32_t node;
-    uint32_t site;      /* its contact site; DMB_NONE: none */
+    uint32_t site;      /* its contact point; DMB_NONE: none */
     double arm;         /* [m] along body x from the node to its reference point */
-    uint32_t held_ring; /* 1: it would have a contact site if its node moved sideways */
+    uint32_t held_ring; /* 1: it would have a contact point if its node moved sideways */
     uint32_t reserved;
     char name[24];
 } dmb_body_map;
@@ -238,7 +238,7 @@ typedef struct dmb_scene {
     uint32_t added_mass_count, added_reserved;
     uint32_t inside_count;   /* of the sites the last ones, inside elements */
     uint32_t sites_in_order; /* of the sites on nodes the first ones, in the order of these */
-    uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
+    uint32_t site_count, path_site_count, drive_count, load_count, bit_count, time_function_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */
     uint32_t free_count, prescribed_count, held_count;
@@ -267,7 +267,7 @@ typedef struct dmb_scene {
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
-    int32_t has_flow_input, has_callback;         /* 1: a programme, force or constraint is the caller's function */
+    int32_t has_flow_input, has_callback;         /* 1: a time function, force or constraint is the caller's function */
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
@@ -312,8 +312,8 @@ typedef struct dmb_scene {
     dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
     dmb_site *sites;
     dmb_path_site *path_sites;
-    uint32_t *near_site;     /* contact site on a node, or the nearest along its chain and across joints, that its depth
-                                is known from; DMB_NONE: none; shape (node), of a curved hole */
+    uint32_t *near_contact; /* contact point on a node, or the nearest along its chain and across joints, that its depth
+                            is known from; DMB_NONE: none; shape (node), of a curved hole */
     dmb_scene_point *inside; /* sections of the sites inside elements, element by element, shape (inside_count) */
 
     /* actions */
@@ -322,7 +322,7 @@ typedef struct dmb_scene {
     dmb_gain_table *gain_tables; /* by drive */
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
-    dmb_programme *programmes; /* the model's own; of a sim with inputs, theirs behind them */
+    dmb_time_function *time_functions; /* the model's own; of a sim with inputs, theirs behind them */
     dmb_scene_input *inputs;
     dmb_scene_point *load_points;
     dmb_scene_spring *springs;
@@ -452,7 +452,7 @@ int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator);
  * joint. Tarjan, A note on finding the bridges of a graph, 1974. Linear. DMB_OK, DMB_ERR_NO_MEMORY. */
 int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator, uint32_t *beyond);
 
-/* Rings that were described to meet the wall and cannot: a guide holds them sideways. */
+/* Rings that were described to meet the wall and cannot: a support holds them sideways. */
 
 /* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
  * DMB_NONE: none. */

@@ -69,7 +69,7 @@ static void cylinder(double outer, double inner, double length, const double giv
     part->inertia[1] = given_or(given[1], 0.5 * about + part->mass * length * length / 12.0);
 }
 
-void dmb_ring_body_of(const dmb_ring_def *def, double pipe_diameter, dmb_rigid_part *part)
+void dmb_ring_body_of(const dmb_stabiliser_def *def, double pipe_diameter, dmb_rigid_part *part)
 {
     const double volume = dmb_ring_area(def->outer_diameter, pipe_diameter) * def->length;
     part->mass = given_or(def->mass, def->density * volume);
@@ -164,8 +164,8 @@ void dmb_rigid_pipe_mud(const dmb_pipe_def *def, const dmb_environment_def *e, d
     add_slices(dmb_mud_inertia(def, &mud, e->added_mass, hole) * length, x, length, sum);
 }
 
-void dmb_ring_mud(const dmb_ring_def *def, double pipe_diameter, const dmb_environment_def *e, double hole, double x,
-                  dmb_added_mass *sum)
+void dmb_ring_mud(const dmb_stabiliser_def *def, double pipe_diameter, const dmb_environment_def *e, double hole,
+                  double x, dmb_added_mass *sum)
 {
     const double added = e->added_mass;
     double across = def->added_mass[1];

@@ -38,7 +38,7 @@ void dmb_pipe_diameters(const dmb_pipe_def *def, int in_tool_joint, double diame
 void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part);
 void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part);
 /* A ring on a pipe (or tool joint) of that outer diameter [m]. */
-void dmb_ring_body_of(const dmb_ring_def *def, double pipe_diameter, dmb_rigid_part *part);
+void dmb_ring_body_of(const dmb_stabiliser_def *def, double pipe_diameter, dmb_rigid_part *part);
 /* The bit: a solid cylinder unless inertias are given. */
 void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part);
 
@@ -62,8 +62,8 @@ double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added
  * the node, hole [m]: diameter, for added_mass < 0. */
 void dmb_rigid_pipe_mud(const dmb_pipe_def *def, const dmb_environment_def *e, double hole, double x,
                         dmb_added_mass *sum);
-void dmb_ring_mud(const dmb_ring_def *def, double pipe_diameter, const dmb_environment_def *e, double hole, double x,
-                  dmb_added_mass *sum);
+void dmb_ring_mud(const dmb_stabiliser_def *def, double pipe_diameter, const dmb_environment_def *e, double hole,
+                  double x, dmb_added_mass *sum);
 void dmb_given_mud(const double mass[2], double x, dmb_added_mass *sum);
 /* [kg/m] sideways more in the mass of an element. */
 void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_type *type);

@@ -23,12 +23,12 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
 {
     static const char *const kinds[] = {
         "part",
-        [DMB_PART_PROGRAMME] = "programme",
+        [DMB_PART_TIME_FUNCTION] = "time_function",
         [DMB_PART_WALL] = "wall",
         [DMB_PART_STRING] = "string",
         [DMB_PART_BODY] = "body",
         [DMB_PART_BIT] = "bit",
-        [DMB_PART_RING] = "ring",
+        [DMB_PART_STABILISER] = "stabiliser",
         [DMB_PART_DRIVE] = "drive",
         [DMB_PART_LOAD] = "load",
         [DMB_PART_JOINT] = "joint",
@@ -50,13 +50,13 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
 }
 
 /* Of an unknown quantity all that its place says. */
-static void put_place(dmb_text_file *file, const dmb_channel_entry *entry, const dmb_place *place)
+static void put_place(dmb_text_file *file, const dmb_output_entry *entry, const dmb_place *place)
 {
     const int32_t kind = entry != NULL ? entry->place : DMB_AT_PLACE;
     const int named = place->part.index != 0;
     if (kind == DMB_AT_SCENE || (kind == DMB_AT_STRING && !named)) return;
-    if (kind == DMB_AT_SITE || kind == DMB_AT_WINDOW)
-        put_numbered(file, kind == DMB_AT_SITE ? "site" : "watch", place->pipe);
+    if (kind == DMB_AT_CONTACT || kind == DMB_AT_WINDOW)
+        put_numbered(file, kind == DMB_AT_CONTACT ? "contact" : "watch", place->pipe);
     else
         put_part(file, place, kind == DMB_AT_STRING);
 }
@@ -64,12 +64,12 @@ static void put_place(dmb_text_file *file, const dmb_channel_entry *entry, const
 static void put_header(dmb_text_file *file, const dmb_recorder *r)
 {
     dmb_text_put(file, "time [s]");
-    for (uint32_t i = 0; i < r->channel_count; ++i) {
-        const dmb_channel *channel = &r->channels[i];
-        const dmb_channel_entry *name = dmb_channel_name_of(channel->quantity);
+    for (uint32_t i = 0; i < r->output_count; ++i) {
+        const dmb_output *output = &r->outputs[i];
+        const dmb_output_entry *name = dmb_output_name_of(output->quantity);
         dmb_text_put(file, ",");
         dmb_text_put(file, name != NULL ? name->name : "unknown");
-        put_place(file, name, &channel->place);
+        put_place(file, name, &output->place);
         dmb_text_put(file, " [");
         dmb_text_put(file, name != NULL ? name->unit : "-");
         dmb_text_put(file, "]");
@@ -81,7 +81,7 @@ static void put_rows(dmb_text_file *file, const dmb_recorder *r)
 {
     const double *value = r->table;
     for (uint64_t row = 0; row < r->row_count; ++row) {
-        for (uint32_t i = 0; i <= r->channel_count; ++i) {
+        for (uint32_t i = 0; i <= r->output_count; ++i) {
             if (i > 0) dmb_text_put(file, ",");
             dmb_text_put_number(file, *value++);
         }
@@ -119,9 +119,9 @@ static void put_name(dmb_text_file *file, const char *what, const char *unit, ui
 static void put_response_header(dmb_text_file *file, const dmb_response *response)
 {
     dmb_text_put(file, "frequency [Hz]");
-    for (uint32_t i = 0; i <= response->inputs; i++)
+    for (uint32_t i = 0; i <= response->excitations; i++)
         for (uint32_t k = 0; k < response->outputs; k++) {
-            const uint32_t input = i < response->inputs ? i : DMB_COMBINED;
+            const uint32_t input = i < response->excitations ? i : DMB_COMBINED;
             dmb_text_put(file, ",");
             put_name(file, "amplitude", "", input, k);
             dmb_text_put(file, ",");
@@ -141,7 +141,7 @@ static void put_value(dmb_text_file *file, const double value[2])
 static void put_row(dmb_text_file *file, const dmb_response *response, uint32_t point)
 {
     dmb_text_put_number(file, response->frequency[point]);
-    for (uint32_t i = 0; i < response->inputs; i++)
+    for (uint32_t i = 0; i < response->excitations; i++)
         for (uint32_t k = 0; k < response->outputs; k++)
             put_value(file, dmb_response_value(response, point, i) + 2 * (size_t)k);
     for (uint32_t k = 0; k < response->outputs; k++) {

@@ -22,10 +22,10 @@ int dmb_table_fits(uint64_t row_count, uint64_t capacity, uint64_t width);
 
 /* ---- Windows ----------------------------------------------------------------------------------------------------- */
 
-/* A number of a window, as a channel of a recorder. */
+/* A number of a window, as a output of a recorder. */
 
-/* The value of a channel DMB_CHANNEL_WINDOW_MINIMUM .. _WINDOW_LOW_SHARE. Errors: those of dmb_window_get. */
-int32_t dmb_window_value(const dmb_window *window, const dmb_channel *channel, double *value);
+/* The value of a output DMB_OUTPUT_WINDOW_MINIMUM .. _WINDOW_LOW_SHARE. Errors: those of dmb_window_get. */
+int32_t dmb_window_value(const dmb_window *window, const dmb_output *output, double *value);
 
 /* ---- Cycles of fatigue ------------------------------------------------------------------------------------------- */
 

@@ -193,9 +193,9 @@ static void put_depths(dmb_text_file *file, const tube *t, double spacing)
 static void put_quad(dmb_text_file *file, uint64_t ring, uint32_t k, uint32_t around)
 {
     const uint64_t first = ring * around, second = first + around, next = (k + 1) % around;
-    const uint64_t corner[4] = {first + k, first + next, second + next, second + k};
+    const uint64_t breakpoint[4] = {first + k, first + next, second + next, second + k};
     for (int i = 0; i < 4; i++) {
-        dmb_text_put_count(file, corner[i]);
+        dmb_text_put_count(file, breakpoint[i]);
         dmb_text_put(file, i < 3 ? " " : "\n");
     }
 }

@@ -1,5 +1,5 @@
-/* Least, greatest and mean of channels over a moving window. Time since the first sample is divided into slots of
- * length/slots; a slot that the window has left is written anew, so memory does not grow. Between samples a channel is
+/* Least, greatest and mean of outputs over a moving window. Time since the first sample is divided into slots of
+ * length/slots; a slot that the window has left is written anew, so memory does not grow. Between samples a output is
  * a straight line: over an interval h from a to b the integral is h (a + b)/2, and of its square h (a a + a b + b b)/3.
  * An interval belongs to the slot that its end is in. */
 #include "output/output.h"
@@ -16,11 +16,11 @@
 DMB_DEFINE_INIT(dmb_window_options, 24, {.slots = 100})
 DMB_DEFINE_INIT(dmb_window_result, 72, {.samples = 0})
 
-enum { CHANNELS_MAX = 4096, SLOTS_MIN = 2, SLOTS_MAX = 65536 };
+enum { OUTPUTS_MAX = 4096, SLOTS_MIN = 2, SLOTS_MAX = 65536 };
 /* More slots since the first sample than this are not counted in whole numbers. */
 #define SLOT_NUMBER_MAX 9e15
 
-/* One channel in one slot. */
+/* One output in one slot. */
 typedef struct slot_sum {
     double minimum, maximum;
     double integral, square; /* [unit s], [unit2 s] */
@@ -35,7 +35,7 @@ typedef struct slot {
 } slot;
 
 typedef struct watched {
-    dmb_channel channel;
+    dmb_output output;
     double level;
     double last; /* value of the last sample */
     double next; /* of the one that is being taken */
@@ -43,89 +43,89 @@ typedef struct watched {
 
 struct dmb_window {
     uint32_t magic;
-    uint32_t channel_count;
+    uint32_t output_count;
     size_t bytes; /* of this block, all else in it */
     dmb_allocator allocator;
     uint32_t slot_count; /* 1 without a length */
     int32_t taken;       /* 1: there is a sample */
     double length;       /* [s] */
     double first, last;  /* [s] times of samples */
-    watched *channels;   /* shape (channel_count) */
+    watched *outputs;    /* shape (output_count) */
     slot *slots;         /* shape (slot_count) */
-    slot_sum *sums;      /* shape (slot_count, channel_count) */
+    slot_sum *sums;      /* shape (slot_count, output_count) */
 };
 
 /* ---- Creation ---------------------------------------------------------------------------------------------------- */
 
-static int32_t check_options(dmb_sim *sim, const dmb_window_options *options, uint32_t channel_count)
+static int32_t check_options(dmb_sim *sim, const dmb_window_options *options, uint32_t output_count)
 {
     dmb_check check = dmb_check_of(&sim->message, "window", DMB_NONE);
-    dmb_check_count(&check, "channel_count", channel_count, 1, CHANNELS_MAX);
+    dmb_check_count(&check, "output_count", output_count, 1, OUTPUTS_MAX);
     dmb_check_count(&check, "slots", options->slots, SLOTS_MIN, SLOTS_MAX);
     dmb_check_within(&check, "length", options->length, 0.0, 1e15);
-    for (uint32_t i = 0; options->levels != NULL && i < channel_count && check.status >= 0; i++)
+    for (uint32_t i = 0; options->levels != NULL && i < output_count && check.status >= 0; i++)
         dmb_check_at_least(&check, "levels", options->levels[i], 0.0);
     return check.status;
 }
 
 /* Structs first, each a multiple of 8 bytes. */
-static void lay_out(dmb_window *w, const dmb_window_options *options, const dmb_channel *channels)
+static void lay_out(dmb_window *w, const dmb_window_options *options, const dmb_output *outputs)
 {
-    w->channels = (watched *)(void *)(w + 1);
-    w->slots = (slot *)(void *)(w->channels + w->channel_count);
+    w->outputs = (watched *)(void *)(w + 1);
+    w->slots = (slot *)(void *)(w->outputs + w->output_count);
     w->sums = (slot_sum *)(void *)(w->slots + w->slot_count);
-    for (uint32_t i = 0; i < w->channel_count; i++) {
-        w->channels[i].channel = channels[i];
-        w->channels[i].level = options->levels != NULL ? options->levels[i] : 0.0;
+    for (uint32_t i = 0; i < w->output_count; i++) {
+        w->outputs[i].output = outputs[i];
+        w->outputs[i].level = options->levels != NULL ? options->levels[i] : 0.0;
     }
     for (uint32_t k = 0; k < w->slot_count; k++) w->slots[k].number = -1.0;
 }
 
-static size_t bytes_of(uint32_t channels, uint32_t slots)
+static size_t bytes_of(uint32_t outputs, uint32_t slots)
 {
-    return sizeof(dmb_window) + channels * sizeof(watched) + slots * sizeof(slot) +
-           (size_t)slots * channels * sizeof(slot_sum);
+    return sizeof(dmb_window) + outputs * sizeof(watched) + slots * sizeof(slot) +
+           (size_t)slots * outputs * sizeof(slot_sum);
 }
 
-static int32_t make(dmb_sim *sim, const dmb_window_options *options, const dmb_channel *channels,
-                    uint32_t channel_count, dmb_window **out)
+static int32_t make(dmb_sim *sim, const dmb_window_options *options, const dmb_output *outputs, uint32_t output_count,
+                    dmb_window **out)
 {
     const uint32_t slots = options->length > 0.0 ? options->slots : 1;
-    const size_t bytes = bytes_of(channel_count, slots);
+    const size_t bytes = bytes_of(output_count, slots);
     dmb_window *made = dmb_allocate(&sim->allocator, bytes);
     if (made == NULL) {
-        dmb_message_set(&sim->message, "window: no memory for %u channels and %u slots; ask for fewer", channel_count,
+        dmb_message_set(&sim->message, "window: no memory for %u outputs and %u slots; ask for fewer", output_count,
                         slots);
         return DMB_ERR_NO_MEMORY;
     }
     made->magic = DMB_HANDLE_WINDOW;
     made->bytes = bytes;
     made->allocator = sim->allocator;
-    made->channel_count = channel_count;
+    made->output_count = output_count;
     made->slot_count = slots;
     made->length = options->length;
-    lay_out(made, options, channels);
+    lay_out(made, options, outputs);
     *out = made;
     return DMB_OK;
 }
 
-int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const dmb_channel *channels,
-                          uint32_t channel_count, dmb_window **window)
+int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const dmb_output *outputs,
+                          uint32_t output_count, dmb_window **window)
 {
     dmb_window_options options = dmb_window_options_defaults;
     if (window == NULL) return DMB_ERR_NULL;
     *window = NULL;
-    if (sim == NULL || channels == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || outputs == NULL) return DMB_ERR_NULL;
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     if (given != NULL) status = dmb_window_options_read(&options, given);
     if (status < 0) dmb_message_set(&sim->message, "window: struct_size of the options is not one this library knows");
-    if (status >= 0) status = check_options(sim, &options, channel_count);
+    if (status >= 0) status = check_options(sim, &options, output_count);
     status = dmb_sim_leave(sim, status);
-    if (status >= 0) status = dmb_channel_check(sim, channels, channel_count);
+    if (status >= 0) status = dmb_output_check(sim, outputs, output_count);
     if (status < 0) return status;
     status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
-    return status < 0 ? status : dmb_sim_leave(sim, make(sim, &options, channels, channel_count, window));
+    return status < 0 ? status : dmb_sim_leave(sim, make(sim, &options, outputs, output_count, window));
 }
 
 void dmb_window_destroy(dmb_window **window)
@@ -163,7 +163,7 @@ static slot *open_slot(dmb_window *w, double number)
     const uint32_t place = (uint32_t)fmod(number, w->slot_count);
     slot *at = w->slots + place;
     if (at->number == number) return at;
-    memset(w->sums + (size_t)place * w->channel_count, 0, w->channel_count * sizeof(slot_sum));
+    memset(w->sums + (size_t)place * w->output_count, 0, w->output_count * sizeof(slot_sum));
     at->number = number;
     at->samples = 0;
     at->time = 0.0;
@@ -180,13 +180,13 @@ static void add_sample(watched *c, double step, int is_first, slot_sum *sum)
     if (fabs(b) <= c->level) sum->low += step;
 }
 
-/* All channels are asked before the first is counted, so that a sim without one of them changes nothing. */
+/* All outputs are asked before the first is counted, so that a sim without one of them changes nothing. */
 static int32_t ask_all(dmb_window *w, const dmb_sim *sim)
 {
-    for (uint32_t i = 0; i < w->channel_count; i++) {
-        const int32_t status = dmb_channel_value(sim, &w->channels[i].channel, &w->channels[i].next);
+    for (uint32_t i = 0; i < w->output_count; i++) {
+        const int32_t status = dmb_output_value(sim, &w->outputs[i].output, &w->outputs[i].next);
         if (status < 0) return status;
-        if (!isfinite(w->channels[i].next)) return DMB_ERR_NOT_FINITE;
+        if (!isfinite(w->outputs[i].next)) return DMB_ERR_NOT_FINITE;
     }
     return DMB_OK;
 }
@@ -205,9 +205,9 @@ int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
     if (!window->taken) window->first = window->last = time;
     const double step = time - window->last;
     slot *at = open_slot(window, slot_number(window, time));
-    slot_sum *sums = window->sums + (size_t)(at - window->slots) * window->channel_count;
-    for (uint32_t i = 0; i < window->channel_count; i++) {
-        watched *c = window->channels + i;
+    slot_sum *sums = window->sums + (size_t)(at - window->slots) * window->output_count;
+    for (uint32_t i = 0; i < window->output_count; i++) {
+        watched *c = window->outputs + i;
         if (!window->taken) c->last = c->next;
         add_sample(c, step, at->samples == 0, sums + i);
         c->last = c->next;
@@ -230,14 +230,14 @@ static void set_means(const slot_sum *total, double last, dmb_window_result *r)
     r->low_share = r->time > 0.0 ? total->low / r->time : 0.0;
 }
 
-static dmb_window_result result_of(const dmb_window *w, uint32_t channel)
+static dmb_window_result result_of(const dmb_window *w, uint32_t output)
 {
     const double nan = (double)NAN, now = slot_number(w, w->last);
     dmb_window_result r = {.minimum = nan, .maximum = nan, .mean = nan, .rms = nan, .index = nan, .low_share = nan};
     slot_sum total = {0};
     for (uint32_t k = 0; k < w->slot_count; k++) {
         const slot *at = w->slots + k;
-        const slot_sum *sum = w->sums + (size_t)k * w->channel_count + channel;
+        const slot_sum *sum = w->sums + (size_t)k * w->output_count + output;
         if (at->number < 0.0 || at->number <= now - w->slot_count) continue;
         r.minimum = r.samples == 0 ? sum->minimum : fmin(r.minimum, sum->minimum);
         r.maximum = r.samples == 0 ? sum->maximum : fmax(r.maximum, sum->maximum);
@@ -247,32 +247,32 @@ static dmb_window_result result_of(const dmb_window *w, uint32_t channel)
         total.square += sum->square;
         total.low += sum->low;
     }
-    if (r.samples > 0) set_means(&total, w->channels[channel].last, &r);
+    if (r.samples > 0) set_means(&total, w->outputs[output].last, &r);
     return r;
 }
 
-static int32_t check_ask(const dmb_window *window, uint32_t channel)
+static int32_t check_ask(const dmb_window *window, uint32_t output)
 {
     if (window == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
-    return channel < window->channel_count ? DMB_OK : DMB_ERR_VALUE;
+    return output < window->output_count ? DMB_OK : DMB_ERR_VALUE;
 }
 
-int32_t dmb_window_get(const dmb_window *window, uint32_t channel, dmb_window_result *result)
+int32_t dmb_window_get(const dmb_window *window, uint32_t output, dmb_window_result *result)
 {
-    const int32_t status = check_ask(window, channel);
+    const int32_t status = check_ask(window, output);
     if (result == NULL) return DMB_ERR_NULL;
     if (status < 0) return status;
-    const dmb_window_result answer = result_of(window, channel);
+    const dmb_window_result answer = result_of(window, output);
     return dmb_window_result_write(result, &answer);
 }
 
-int32_t dmb_window_value(const dmb_window *window, const dmb_channel *channel, double *value)
+int32_t dmb_window_value(const dmb_window *window, const dmb_output *output, double *value)
 {
-    const int32_t status = check_ask(window, channel->place.pipe);
+    const int32_t status = check_ask(window, output->place.pipe);
     if (status < 0) return status;
-    const dmb_window_result r = result_of(window, channel->place.pipe);
+    const dmb_window_result r = result_of(window, output->place.pipe);
     const double values[] = {r.minimum, r.maximum, r.mean, r.rms, r.index, r.low_share};
-    *value = values[channel->quantity - DMB_CHANNEL_WINDOW_MINIMUM];
+    *value = values[output->quantity - DMB_OUTPUT_WINDOW_MINIMUM];
     return DMB_OK;
 }

@@ -43,7 +43,7 @@ void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *for
 static void describe(const dmb_scene *scene, uint32_t site, dmb_contact *contact)
 {
     const uint32_t full = scene->site_count;
-    contact->site = site;
+    contact->number = site;
     contact->part = site < full ? scene->sites[site].part : scene->path_sites[site - full].part;
     contact->pipe = site < full ? scene->sites[site].pipe : scene->path_sites[site - full].pipe;
     contact->length = site < full ? scene->sites[site].length : scene->path_sites[site - full].length;

@@ -102,13 +102,13 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
 static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
 {
     dmb_rigid_part part;
-    if (!dmb_id_is_none(def->ring)) return; /* it is the ring's */
+    if (!dmb_id_is_none(def->stabiliser)) return; /* it is the ring's */
     dmb_bit_body_of(def, &part);
     add_part(share, &part, arm + 0.5 * def->length, NULL);
 }
 
 /* [m] outer diameter of the pipe or tool joint that a ring sits on. */
-static double diameter_under(const dmb_model *model, const dmb_ring_def *def)
+static double diameter_under(const dmb_model *model, const dmb_stabiliser_def *def)
 {
     const uint32_t named = dmb_model_part_index(model, def->string, DMB_PART_STRING);
     const dmb_pipe_def *pipe = &dmb_pipe_run_of(model, named == DMB_NONE ? 0 : named, def->pipe)->def;
@@ -119,7 +119,7 @@ static double diameter_under(const dmb_model *model, const dmb_ring_def *def)
 
 static void ring_share(const dmb_model *model, uint32_t ring, double arm, dmb_rigid_mass *share)
 {
-    const dmb_ring_def *def = (const dmb_ring_def *)model->rings.items + ring;
+    const dmb_stabiliser_def *def = (const dmb_stabiliser_def *)model->rings.items + ring;
     dmb_rigid_part part;
     dmb_ring_body_of(def, diameter_under(model, def), &part);
     add_part(share, &part, arm, NULL);
@@ -161,7 +161,7 @@ static double body_mud_energy(const dmb_sim *sim, uint32_t body)
         const dmb_bit_def *def = (const dmb_bit_def *)model->bits.items + (body - bodies);
         dmb_given_mud(def->added_mass, map->arm + 0.5 * def->length, &part);
     } else {
-        const dmb_ring_def *def = (const dmb_ring_def *)model->rings.items + (body - rings);
+        const dmb_stabiliser_def *def = (const dmb_stabiliser_def *)model->rings.items + (body - rings);
         dmb_ring_mud(def, diameter_under(model, def), &model->environment, model->wall.diameter, map->arm, &part);
     }
     return dmb_added_mass_kinetic_energy(sim->scene, &sim->now, &part);
@@ -194,7 +194,7 @@ int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, i
     const dmb_bit_def *bits = model->bits.items;
     const int is_bit = body >= model->bodies.count;
     if (body >= model->bodies.count + model->bits.count) return 0; /* a ring */
-    if (is_bit && !dmb_id_is_none(bits[body - model->bodies.count].ring)) return 0;
+    if (is_bit && !dmb_id_is_none(bits[body - model->bodies.count].stabiliser)) return 0;
     const dmb_id id = is_bit ? bits[body - model->bodies.count].string : bodies[body].string;
     const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
     return (is_bit ? DMB_ATTACH_END : bodies[body].attach) == attach && (named == DMB_NONE ? 0 : named) == string;

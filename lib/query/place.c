@@ -1,4 +1,5 @@
-/* Places of the user in the mesh: rigid with a node or inside an element; pipes, bodies and contact sites by number. */
+/* Places of the user in the mesh: rigid with a node or inside an element; pipes, bodies and contact points by number.
+ */
 #include "query/query.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id)
         if (index != DMB_NONE) index += sim->model->bodies.count;
     }
     if (index == DMB_NONE && sim->scene->ring_count > 0) {
-        index = dmb_model_part_index(sim->model, id, DMB_PART_RING);
+        index = dmb_model_part_index(sim->model, id, DMB_PART_STABILISER);
         if (index != DMB_NONE) index += sim->model->bodies.count + sim->model->bits.count;
     }
     return index < sim->scene->body_count ? index : DMB_NONE;
@@ -147,7 +148,7 @@ static site_owner owner_of(const dmb_scene *scene, uint32_t site)
 
 static int32_t is_on_string(dmb_id part)
 {
-    return (part.index >> 24 == DMB_PART_STRING) | (part.index >> 24 == DMB_PART_RING);
+    return (part.index >> 24 == DMB_PART_STRING) | (part.index >> 24 == DMB_PART_STABILISER);
 }
 
 /* First site in first .. end that is not on a string, or whose node is at least `node`: sites of strings and of rings

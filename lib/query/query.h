@@ -1,4 +1,4 @@
-/* Inner side of the queries: places, motion, section, masses, reactions, channels and profiles of an accepted state, as
+/* Inner side of the queries: places, motion, section, masses, reactions, outputs and profiles of an accepted state, as
  * analyses and output take them. */
 #ifndef DMB_QUERY_QUERY_H
 #define DMB_QUERY_QUERY_H
@@ -228,12 +228,12 @@ uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint);
 /* Largest violation of an equation of position that joint j holds. */
 double dmb_joint_violation(const dmb_sim *sim, uint32_t j);
 
-/* ---- Channels ---------------------------------------------------------------------------------------------------- */
+/* ---- Outputs ---------------------------------------------------------------------------------------------------- */
 
-/* Channels: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
- * dmb_channel_value is the one owner of their values. */
+/* Outputs: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
+ * dmb_output_value is the one owner of their values. */
 
-/* Kinds of places that channels take. */
+/* Kinds of places that outputs take. */
 enum {
     DMB_AT_PLACE = 0,   /* any place on a string, body or bit */
     DMB_AT_SECTION = 1, /* a place on a flexible or axial-torsional pipe */
@@ -244,31 +244,31 @@ enum {
     DMB_AT_DRIVE = 6,
     DMB_AT_JOINT = 7,
     DMB_AT_CONSTRAINT = 8, /* a joint, coupling, constraint or joint drive */
-    DMB_AT_SITE = 9,       /* place.pipe alone, a contact site */
+    DMB_AT_CONTACT = 9,    /* place.pipe alone, a contact point */
     DMB_AT_SCENE = 10,     /* ignored */
-    DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched channel */
+    DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched output */
     DMB_AT_STUCK = 12,     /* place.part alone */
     DMB_AT_SPRING = 13,
     DMB_AT_INPUT = 14
 };
 
-typedef struct dmb_channel_entry {
+typedef struct dmb_output_entry {
     const char *name;
     const char *unit;
     int32_t quantity;
     int32_t place; /* DMB_AT_... */
-} dmb_channel_entry;
+} dmb_output_entry;
 
 /* NULL for an unknown quantity. */
-const dmb_channel_entry *dmb_channel_name_of(int32_t quantity);
+const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 
-/* The present value. Errors: those of dmb_query_channel. */
-int32_t dmb_channel_value(const dmb_sim *sim, const dmb_channel *channel, double *value);
+/* The present value. Errors: those of dmb_query_output. */
+int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *value);
 
-/* Those of a driller, DMB_CHANNEL_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
-int32_t dmb_driller_value(const dmb_sim *sim, const dmb_channel *channel, double *value);
-/* The string that such a channel means: the id and its number, the model's first for {0, 0}. DMB_ERR_ID. */
-int32_t dmb_channel_string(const dmb_sim *sim, const dmb_channel *channel, dmb_id *string, uint32_t *index);
+/* Those of a driller, DMB_OUTPUT_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
+int32_t dmb_driller_value(const dmb_sim *sim, const dmb_output *output, double *value);
+/* The string that such a output means: the id and its number, the model's first for {0, 0}. DMB_ERR_ID. */
+int32_t dmb_output_string(const dmb_sim *sim, const dmb_output *output, dmb_id *string, uint32_t *index);
 
 /* ---- Profiles ---------------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* Motion, forces and reactions of the parts between bodies: joints, guides, drives, springs. */
+/* Motion, forces and reactions of the parts between bodies: joints, supports, drives, springs. */
 #include "query/query.h"
 
 #include <math.h>

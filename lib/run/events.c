@@ -40,7 +40,7 @@ static int32_t ask(dmb_sim *sim, gaps *found)
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
         const dmb_scene_event *event = sim->scene->events + i;
         double value = 0.0;
-        const int32_t status = dmb_channel_value(sim, &event->output, &value);
+        const int32_t status = dmb_output_value(sim, &event->output, &value);
         if (status < 0 || !isfinite(value)) {
             dmb_message_set(&sim->message,
                             "event %u (%s): its output cannot be asked: %s; see to its quantity and place", i,
@@ -153,7 +153,7 @@ static dmb_step_end whole_step(const hunt *h, const dmb_clock *reached)
     dmb_step_end end = dmb_step_end_at(h->sim, reached->time);
     end.step = reached->step;
     end.rest = reached->rest;
-    end.corner = reached->corner != h->sim->clock->corner ? reached->corner : 0.0;
+    end.breakpoint = reached->breakpoint != h->sim->clock->breakpoint ? reached->breakpoint : 0.0;
     return end;
 }
 

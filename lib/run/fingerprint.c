@@ -6,11 +6,12 @@
 
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
 {
-    const uint32_t counts[] = {
-        s->node_count,      s->row_count,   s->element_count,  s->type_count,     s->rigid_mass_count, s->site_count,
-        s->path_site_count, s->drive_count, s->load_count,     s->bit_count,      s->programme_count,  s->string_count,
-        s->pipe_count,      s->body_count,  s->history_count,  s->free_count,     s->prescribed_count, s->chain_count,
-        s->batch_count,     s->joint_count, s->coupling_count, s->callback_count, s->constraint_count};
+    const uint32_t counts[] = {s->node_count,       s->row_count,      s->element_count,       s->type_count,
+                               s->rigid_mass_count, s->site_count,     s->path_site_count,     s->drive_count,
+                               s->load_count,       s->bit_count,      s->time_function_count, s->string_count,
+                               s->pipe_count,       s->body_count,     s->history_count,       s->free_count,
+                               s->prescribed_count, s->chain_count,    s->batch_count,         s->joint_count,
+                               s->coupling_count,   s->callback_count, s->constraint_count};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) h = dmb_fnv_word(h, counts[i]);
     h = dmb_fnv_word(h, (uint32_t)s->features);
     h = DMB_NUMBERS(h, s->gravity);
@@ -117,22 +118,22 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-static uint64_t add_term(uint64_t h, const dmb_term *t)
+static uint64_t add_segment(uint64_t h, const dmb_segment *t)
 {
     const double numbers[] = {t->x0, t->x1, t->h0, t->h1, t->omega, t->phase};
-    const size_t table = t->kind == DMB_TERM_TABLE ? t->table_count : 0;
+    const size_t table = t->kind == DMB_SEGMENT_TABLE ? t->table_count : 0;
     h = dmb_fnv_word(h, (uint32_t)t->kind);
     h = DMB_NUMBERS(h, numbers);
     h = dmb_fnv_numbers(h, t->table_time, table);
     return dmb_fnv_numbers(h, t->table_value, table);
 }
 
-static uint64_t add_programmes(uint64_t h, const dmb_scene *s)
+static uint64_t add_time_functions(uint64_t h, const dmb_scene *s)
 {
-    for (uint32_t i = 0; i < s->programme_count; ++i) {
-        const dmb_programme *programme = &s->programmes[i];
-        h = dmb_fnv_word(h, programme->count);
-        for (uint32_t k = 0; k < programme->count; ++k) h = add_term(h, &programme->terms[k]);
+    for (uint32_t i = 0; i < s->time_function_count; ++i) {
+        const dmb_time_function *time_function = &s->time_functions[i];
+        h = dmb_fnv_word(h, time_function->count);
+        for (uint32_t k = 0; k < time_function->count; ++k) h = add_segment(h, &time_function->segments[k]);
     }
     return h;
 }
@@ -146,7 +147,7 @@ static uint64_t add_drives(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, drive->joint);
         h = dmb_fnv_word(h, (uint32_t)drive->component);
         h = dmb_fnv_word(h, (uint32_t)drive->kind);
-        h = dmb_fnv_word(h, drive->programme);
+        h = dmb_fnv_word(h, drive->time_function);
         h = dmb_fnv_word(h, drive->excitation);
         h = DMB_NUMBERS(h, numbers);
     }
@@ -178,7 +179,7 @@ static uint64_t add_loads(uint64_t h, const dmb_scene *s)
         const dmb_scene_load *load = &s->loads[i];
         h = dmb_fnv_word(h, load->node);
         h = dmb_fnv_word(h, (uint32_t)load->frame);
-        h = dmb_fnv_word(h, load->programme);
+        h = dmb_fnv_word(h, load->time_function);
         h = dmb_fnv_number(h, load->arm);
         h = DMB_NUMBERS(h, load->force);
         h = DMB_NUMBERS(h, load->moment);
@@ -380,7 +381,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_nodes(h, scene);
     h = add_elements(h, scene);
     h = add_wall(h, scene);
-    h = add_programmes(h, scene);
+    h = add_time_functions(h, scene);
     h = add_drives(h, scene);
     h = add_loads(h, scene);
     h = add_bits(h, scene);

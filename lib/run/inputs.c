@@ -1,4 +1,5 @@
-/* Inputs that the caller sets between steps: a constant in the place of a drive's programme, the state of a joint. */
+/* Inputs that the caller sets between steps: a constant in the place of a drive's time function, the state of a joint.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -63,12 +64,12 @@ static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
     if (refuse_input(sim, index) < 0) return DMB_ERR_UNSUPPORTED;
     if (isinf(value)) {
         dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
-                          "finite, or NaN for the programme");
+                          "finite, or NaN for the time function");
         return DMB_ERR_NOT_FINITE;
     }
     if (fabs(value) > DMB_FORCE_MAX) { /* as what is described: beyond it work and power overflow */
         dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
-                          "from -1e30 to 1e30, or NaN for the programme");
+                          "from -1e30 to 1e30, or NaN for the time function");
         return DMB_ERR_VALUE;
     }
     return jump_to(sim, index, isnan(value) ? (double)NAN : value); /* one NaN, so that equal states hash alike */
@@ -228,7 +229,7 @@ static int32_t aim(dmb_sim *sim, uint32_t i, double value)
     sim->input_value[i] = value;
     if (status < 0)
         dmb_message_set(&sim->message,
-                        "input (%s): the callback of the programme it takes over failed or gave a value "
+                        "input (%s): the callback of the time function it takes over failed or gave a value "
                         "beyond +-1e30 at time %g",
                         input->name, sim->clock->time);
     return status;
@@ -255,7 +256,7 @@ static int32_t assign(dmb_sim *sim, const settings *given, int32_t *changed, int
         if (value == sim->input_value[i]) continue;
         status = aim(sim, i, value);
         *changed = 1;
-        if (!dmb_input_is_programme(input_at(sim, i)->target)) *forget = 1;
+        if (!dmb_input_is_time_function(input_at(sim, i)->target)) *forget = 1;
     }
     return status;
 }

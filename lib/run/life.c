@@ -119,7 +119,7 @@ static void give_back(dmb_sim *sim)
     dmb_model_release(model);
 }
 
-/* The drives follow their programmes until dmb_sim_set_drive says otherwise. */
+/* The drives follow their time functions until dmb_sim_set_drive says otherwise. */
 static void release_drives(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
@@ -265,7 +265,7 @@ static void fill_info(const dmb_scene *scene, dmb_model_info *info)
     info->rigid_bodies = scene->rigid_count;
     info->nodes = scene->node_count;
     info->elements = scene->element_count;
-    info->contact_sites = scene->site_count + scene->path_site_count;
+    info->contact_points = scene->site_count + scene->path_site_count;
     info->degrees_of_freedom = scene->free_count;
     info->prescribed = scene->prescribed_count;
     info->structural_joints = scene->structural_joint_count;

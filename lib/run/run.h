@@ -26,8 +26,8 @@ int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, 
 /* Checks how the fields of `now` and the memory fit together, once each of them has passed. The sim takes the message.
  * DMB_OK or DMB_ERR_VALUE. O(size of the state). run/snapshot_relations */
 int32_t dmb_snapshot_relations(dmb_sim *sim);
-/* 1: something that is held stands elsewhere than its guide leaves it, as described. O(held rows). */
-int dmb_is_off_guides(const dmb_sim *sim);
+/* 1: something that is held stands elsewhere than its support leaves it, as described. O(held rows). */
+int dmb_is_off_supports(const dmb_sim *sim);
 
 /* ---- Fingerprints ------------------------------------------------------------------------------------------------ */
 
@@ -77,7 +77,7 @@ static inline uint64_t dmb_fnv_numbers(uint64_t hash, const double *values, size
 /* Fingerprint that a snapshot must fit: the numbers of the compiled scene and of the options, without addresses and
  * stamps, so that the same description compiled in another process has the same fingerprint. */
 
-/* O(number of nodes and elements). Callbacks of programmes count as equal. */
+/* O(number of nodes and elements). Callbacks of time functions count as equal. */
 uint64_t dmb_scene_fingerprint(const dmb_scene *scene);
 uint64_t dmb_options_fingerprint(const dmb_sim_options *options);
 

@@ -84,7 +84,7 @@ static int32_t check_set_inputs(const probe *p)
         const double value = number_at(p, i);
         const int described = isnan(input->initial) != 0;
         if (input->target == DMB_TARGET_STUCK && value > 0.0 && value < 1.0) return refuse(p, i, value, "0 or 1");
-        if (isnan(value) && described && dmb_input_is_programme(input->target)) continue;
+        if (isnan(value) && described && dmb_input_is_time_function(input->target)) continue;
         /* what is described may lie outside the bounds of what is set */
         if (value >= input->low && value <= input->high) continue;
         if (described && value == dmb_described_setting(p->sim, i)) continue;

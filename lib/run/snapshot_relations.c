@@ -8,7 +8,7 @@
  * - Hints where a search begins, and what is found by it: segments and depths of sites, joints and bits.
  * - Contacts: penetration, speeds, bristles and whether they stick. A contact that is told closed and is open by its
  *   pose has no force; the step finds all of them from the pose.
- * - Guides of a state that is told to be carried from another model, where they may stand anywhere: any state of this
+ * - Supports of a state that is told to be carried from another model, where they may stand anywhere: any state of this
  *   model's that a transfer might have led to.
  * - Poses, speeds and offsets that do not fit the joints: the step projects them or is refused. Nor do multipliers and
  *   turns have to fit: the former are solved for, of the latter whole revolutions are kept.
@@ -31,7 +31,7 @@
 
 #define DMB_REST_ROUNDING 1e-9   /* [-] of the largest speed, that is none */
 #define DMB_RADIUS_ROUNDING 1e-9 /* [-] of a radius, that is none */
-#define DMB_TIME_LEEWAY 1e-5     /* [-] of the time: a corner that a step nearly reached counts as reached */
+#define DMB_TIME_LEEWAY 1e-5     /* [-] of the time: a breakpoint that a step nearly reached counts as reached */
 
 static int32_t refuse(dmb_sim *sim, const char *field, size_t item, double value, const char *bound)
 {
@@ -121,7 +121,7 @@ static int32_t check_at_rest(dmb_sim *sim, const char *field, const double *rows
     return DMB_OK;
 }
 
-/* A number that the guide of a node does not leave free, against the described pose. */
+/* A number that the support of a node does not leave free, against the described pose. */
 typedef struct misfit {
     const char *field;
     size_t item;
@@ -137,7 +137,7 @@ static int differs(misfit *found, const char *field, size_t item, double value, 
 
 /* Free components are closed under motion, so the others stay 0 in the axes of the described pose: of the way, and of
  * the rotation all or all but one. */
-static int is_off_guide(const dmb_sim *sim, uint32_t node, misfit *found)
+static int is_off_support(const dmb_sim *sim, uint32_t node, misfit *found)
 {
     const dmb_scene *scene = sim->scene;
     const uint8_t *open = scene->free_row + scene->layout.row[node];
@@ -158,27 +158,27 @@ static int is_off_guide(const dmb_sim *sim, uint32_t node, misfit *found)
     return 0;
 }
 
-static int any_off_guide(const dmb_sim *sim, misfit *found)
+static int any_off_support(const dmb_sim *sim, misfit *found)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->held_count; i++)
-        if (is_off_guide(sim, scene->held_node[i], found)) return 1;
+        if (is_off_support(sim, scene->held_node[i], found)) return 1;
     return 0;
 }
 
-int dmb_is_off_guides(const dmb_sim *sim)
+int dmb_is_off_supports(const dmb_sim *sim)
 {
     misfit unused;
-    return any_off_guide(sim, &unused);
+    return any_off_support(sim, &unused);
 }
 
-/* Guides stand where they are described, but where a state transfer has taken them along. */
-static int32_t check_guides(dmb_sim *sim)
+/* Supports stand where they are described, but where a state transfer has taken them along. */
+static int32_t check_supports(dmb_sim *sim)
 {
     misfit found;
     if (sim->counters->carried > 1)
         return refuse(sim, "counters", offsetof(dmb_counters, carried) / 8, (double)sim->counters->carried, "0 or 1");
-    if (sim->counters->carried || !any_off_guide(sim, &found)) return DMB_OK;
+    if (sim->counters->carried || !any_off_support(sim, &found)) return DMB_OK;
     return refuse(sim, found.field, found.item, found.value, "0 in the axes of its described pose, since it is held");
 }
 
@@ -187,7 +187,7 @@ static int32_t check_held(dmb_sim *sim)
     int32_t status = check_at_rest(sim, "velocity", sim->now.velocity);
     if (status >= 0) status = check_at_rest(sim, "acceleration", sim->now.acceleration);
     if (status >= 0) status = check_at_rest(sim, "pseudo_acceleration", sim->now.pseudo_acceleration);
-    return status < 0 ? status : check_guides(sim);
+    return status < 0 ? status : check_supports(sim);
 }
 
 /* ---- Times ------------------------------------------------------------------------------------------------------- */
@@ -198,8 +198,8 @@ static int32_t check_clock(dmb_sim *sim)
     const dmb_sim_options *options = &sim->options;
     if (!(fabs(clock->rest) <= 8.0 * DBL_EPSILON * clock->time))
         return refuse(sim, "clock", 1, clock->rest, "at most the rounding of its time");
-    if (!(clock->corner >= 0.0 && clock->corner <= (1.0 + DMB_TIME_LEEWAY) * clock->time))
-        return refuse(sim, "clock", 2, clock->corner, "from 0 to its time");
+    if (!(clock->breakpoint >= 0.0 && clock->breakpoint <= (1.0 + DMB_TIME_LEEWAY) * clock->time))
+        return refuse(sim, "clock", 2, clock->breakpoint, "from 0 to its time");
     if (!(clock->step <= (1.0 + DMB_TIME_LEEWAY) * clock->time))
         return refuse(sim, "clock", 3, clock->step, "at most its time");
     if (clock->next_step != 0.0 && !(clock->next_step >= options->step_min && clock->next_step <= options->step_max))
@@ -246,7 +246,7 @@ static int32_t check_drives(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->drive_count; i++)
         if (scene->drives[i].kind == DMB_DRIVE_MOTION && !isnan(sim->drive_input[i]))
             return refuse(sim, "drive_input", i, sim->drive_input[i],
-                          "NaN, since a motion drive follows its programme");
+                          "NaN, since a motion drive follows its time function");
     for (uint32_t i = 0; i < scene->input_count; i++) {
         const uint32_t drive = scene->inputs[i].index;
         if (scene->inputs[i].target == DMB_TARGET_SET_POINT && !isnan(sim->drive_input[drive]))

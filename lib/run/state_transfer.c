@@ -253,7 +253,7 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     int32_t status = transfer_hole(sim, from);
     if (status >= 0) status = dmb_state_transfer_nodes(sim, from);
     if (status < 0) return status;
-    sim->counters->carried = dmb_is_off_guides(sim) != 0;
+    sim->counters->carried = dmb_is_off_supports(sim) != 0;
     status = transfer_stuck(sim, from);
     if (status < 0) return status;
     dmb_state_transfer_sites(sim, from, DMB_TRANSFER_ALL);

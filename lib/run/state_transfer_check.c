@@ -41,7 +41,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"loads", a->load_count, b->load_count},
                   {"inputs", a->input_count, b->input_count},
                   {"events", a->event_count, b->event_count},
-                  {"programmes", a->programme_count, b->programme_count},
+                  {"time_functions", a->time_function_count, b->time_function_count},
                   {"walls", a->has_hole != 0, b->has_hole != 0},
                   {"joints", a->joint_count, b->joint_count},
                   {"couplings", a->coupling_count, b->coupling_count},
@@ -92,7 +92,7 @@ static int32_t check_bits(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
         const dmb_scene_bit *to = sim->scene->bits + k, *old = from->scene->bits + k;
         if (part_of(def[k].string) != part_of(old_def[k].string)) return other(sim, "bit", k, "string");
-        if (part_of(def[k].ring) != part_of(old_def[k].ring)) return other(sim, "bit", k, "ring");
+        if (part_of(def[k].stabiliser) != part_of(old_def[k].stabiliser)) return other(sim, "bit", k, "stabiliser");
         if (to->law.kind != old->law.kind) return other(sim, "bit", k, "rock_law");
         if (to->law.blades != old->law.blades) return other(sim, "bit", k, "blades");
         if (to->history_capacity != old->history_capacity) return other(sim, "bit", k, "history");

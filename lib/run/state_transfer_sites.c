@@ -95,8 +95,8 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
         if (old == DMB_NONE) continue;
         while (k < dmb_node_sites(was) &&
                (was->sites[k].node < old ||
-                (was->sites[k].node == old &&
-                 (was->sites[k].offset < offset - DMB_SAME_PLACE || was->sites[k].part.index >> 24 == DMB_PART_RING))))
+                (was->sites[k].node == old && (was->sites[k].offset < offset - DMB_SAME_PLACE ||
+                                               was->sites[k].part.index >> 24 == DMB_PART_STABILISER))))
             k++;
         if (k < dmb_node_sites(was) && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
             dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != DMB_NONE)

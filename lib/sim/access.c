@@ -53,10 +53,11 @@ int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
     if (status == DMB_ERR_CALLBACK && sim->message.text[0] == '\0')
-        dmb_message_set(&sim->message,
-                        "sim: the callback of a programme, force or constraint failed or gave a value beyond +-1e30 on "
-                        "the way from time %g",
-                        sim->clock->time);
+        dmb_message_set(
+            &sim->message,
+            "sim: the callback of a time function, force or constraint failed or gave a value beyond +-1e30 on "
+            "the way from time %g",
+            sim->clock->time);
     if (status >= 0 || !sim->progress->cancelled) return status;
     dmb_message_set(&sim->message,
                     "sim: the caller's progress function ended the call at time %g, %g %% of it done; make "
@@ -211,7 +212,7 @@ DMB_DEFINE_INIT(dmb_bit_state, 56, {.on_bottom = 0})
 
 DMB_DEFINE_INIT(dmb_statistics, 72, {.steps = 0})
 
-DMB_DEFINE_INIT(dmb_recorder, 48, {.channel_count = 0})
+DMB_DEFINE_INIT(dmb_recorder, 48, {.output_count = 0})
 
 DMB_DEFINE_INIT(dmb_static_options, 40, {
     .max_iterations = 60,

@@ -21,7 +21,7 @@ enum {
     DMB_CHECK_LEDGER = 11,
     DMB_CHECK_COUNTERS = 12,
     DMB_CHECK_REUSE = 13,       /* finite numbers in them */
-    DMB_CHECK_SET_INPUTS = 14,  /* doubles within the bounds of their inputs; NaN where a programme may be */
+    DMB_CHECK_SET_INPUTS = 14,  /* doubles within the bounds of their inputs; NaN where a time function may be */
     DMB_CHECK_EVENT_TIMES = 15, /* doubles that are finite, NaN or infinite and > 0 */
     DMB_CHECK_FRAMES = 16,      /* quaternions of length 1 or 0 */
     DMB_CHECK_PREDICTION = 17,  /* pauses as they are made */

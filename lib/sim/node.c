@@ -31,7 +31,7 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
     if (dmb_hole_is_straight(&scene->hole)) return 0;
     if (scene->layout.size[node] == DMB_NODE_PATH)
         return dmb_hole_segment_at(&scene->hole, dmb_path_depth(scene, known, node) + arm);
-    const uint32_t s = scene->near_site[node];
+    const uint32_t s = scene->near_contact[node];
     if (s == DMB_NONE) return segment_without_site(scene, known, node, arm, x);
     const dmb_site *site = scene->sites + s;
     const double described = scene->reference_depth[node] + arm - scene->reference_depth[site->node] - site->offset;

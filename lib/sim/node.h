@@ -24,7 +24,7 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
 /* [m] measured depth of a PATH node. */
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
 /* Arc of the hole's axis at which the search for the point of it nearest to x starts (dmb_hole_project); x [m] is on or
- * beside the section of a node that is `arm` [m] along body x from it. `known`: configuration whose contact sites are
+ * beside the section of a node that is `arm` [m] along body x from it. `known`: configuration whose contact points are
  * found, which follow the axis from step to step: a section is as far from the nearest one as described. Without any
  * site: the nearest place within twice the node's displacement of its described depth. 0 for a straight hole. */
 uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,

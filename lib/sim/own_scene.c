@@ -17,8 +17,8 @@ dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, scene->drive_count);
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, scene->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, scene->bit_count);
-    to->programmes = DMB_ARENA_ARRAY(arena, dmb_programme, scene->programme_count + inputs);
-    to->terms = DMB_ARENA_ARRAY(arena, dmb_term, inputs);
+    to->time_functions = DMB_ARENA_ARRAY(arena, dmb_time_function, scene->time_function_count + inputs);
+    to->segments = DMB_ARENA_ARRAY(arena, dmb_segment, inputs);
     to->references = DMB_ARENA_ARRAY(arena, dmb_reference, inputs);
     if (scene->has_density_input) {
         to->types = (dmb_element_type *)dmb_arena_take(arena, scene->type_count, sizeof *to->types, DMB_ALIGNMENT);
@@ -36,19 +36,19 @@ dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
 
 /* ---- As described ------------------------------------------------------------------------------------------------ */
 
-uint32_t dmb_described_programme(const dmb_scene *scene, uint32_t input)
+uint32_t dmb_described_time_function(const dmb_scene *scene, uint32_t input)
 {
     const dmb_scene_input *i = scene->inputs + input;
     switch (i->target) {
-    case DMB_TARGET_SET_POINT: return scene->drives[i->index].programme;
-    case DMB_TARGET_LOAD_FACTOR: return scene->loads[i->index].programme;
+    case DMB_TARGET_SET_POINT: return scene->drives[i->index].time_function;
+    case DMB_TARGET_LOAD_FACTOR: return scene->loads[i->index].time_function;
     case DMB_TARGET_BIT_LOAD: return scene->bits[i->index].load;
     default: return DMB_NONE;
     }
 }
 
-/* A load without a programme has the factor 1, a bit without one no load. */
-static double without_programme(const dmb_scene_input *input)
+/* A load without a time function has the factor 1, a bit without one no load. */
+static double without_time_function(const dmb_scene_input *input)
 {
     return input->target == DMB_TARGET_LOAD_FACTOR ? 1.0 : 0.0;
 }
@@ -69,7 +69,7 @@ static double described_value(const dmb_scene *scene, const dmb_environment_def 
     case DMB_TARGET_AXIAL_DAMPING: return e->axial_damping;
     case DMB_TARGET_TORSIONAL_DAMPING: return e->torsional_damping;
     case DMB_TARGET_FLOW_RATE: return e->flow_rate;
-    default: return dmb_described_programme(scene, input) == DMB_NONE ? without_programme(i) : (double)NAN;
+    default: return dmb_described_time_function(scene, input) == DMB_NONE ? without_time_function(i) : (double)NAN;
     }
 }
 
@@ -80,23 +80,23 @@ double dmb_described_setting(const dmb_sim *sim, uint32_t input)
 
 /* ---- As set ------------------------------------------------------------------------------------------------------ */
 
-/* The value of an input in the place of a programme. */
-static void set_programme(const dmb_sim *sim, uint32_t input)
+/* The value of an input in the place of a time function. */
+static void set_time_function(const dmb_sim *sim, uint32_t input)
 {
     dmb_own_scene *own = sim->own;
     const dmb_scene_input *i = own->scene.inputs + input;
     const double value = sim->input_value[input], *begin = sim->input_begin + 3 * (size_t)input;
-    uint32_t programme = own->scene.programme_count + input;
-    if (isnan(value)) programme = dmb_described_programme(sim->model->scene, input);
+    uint32_t time_function = own->scene.time_function_count + input;
+    if (isnan(value)) time_function = dmb_described_time_function(sim->model->scene, input);
     own->references[input] = (dmb_reference){.time = begin[0],
                                              .value = begin[1],
                                              .rate = begin[2],
                                              .target = value,
                                              .rate_limit = i->rate_limit,
                                              .slope_limit = i->slope_limit};
-    if (i->target == DMB_TARGET_SET_POINT) own->drives[i->index].programme = programme;
-    if (i->target == DMB_TARGET_LOAD_FACTOR) own->loads[i->index].programme = programme;
-    if (i->target == DMB_TARGET_BIT_LOAD) own->bits[i->index].load = programme;
+    if (i->target == DMB_TARGET_SET_POINT) own->drives[i->index].time_function = time_function;
+    if (i->target == DMB_TARGET_LOAD_FACTOR) own->loads[i->index].time_function = time_function;
+    if (i->target == DMB_TARGET_BIT_LOAD) own->bits[i->index].load = time_function;
 }
 
 static void set_drive(dmb_scene_drive *drive, int32_t target, double value)
@@ -149,8 +149,8 @@ static void set_input(const dmb_sim *sim, uint32_t input)
     const dmb_scene *described = sim->model->scene;
     const dmb_scene_input *i = described->inputs + input;
     const double value = sim->input_value[input];
-    if (dmb_input_is_programme(i->target))
-        set_programme(sim, input);
+    if (dmb_input_is_time_function(i->target))
+        set_time_function(sim, input);
     else if (i->target <= DMB_TARGET_LIMIT_HIGH)
         set_drive(own->drives + i->index, i->target, value);
     else if (i->target == DMB_TARGET_FRICTION)
@@ -180,8 +180,8 @@ static void copy_parts(dmb_own_scene *own, const dmb_scene *scene)
     memcpy(own->drives, scene->drives, scene->drive_count * sizeof *own->drives);
     memcpy(own->loads, scene->loads, scene->load_count * sizeof *own->loads);
     memcpy(own->bits, scene->bits, scene->bit_count * sizeof *own->bits);
-    if (scene->programme_count > 0)
-        memcpy(own->programmes, scene->programmes, scene->programme_count * sizeof *own->programmes);
+    if (scene->time_function_count > 0)
+        memcpy(own->time_functions, scene->time_functions, scene->time_function_count * sizeof *own->time_functions);
     if (scene->has_density_input) {
         memcpy(own->types, scene->types, scene->type_count * sizeof *own->types);
         memcpy(own->weight_mass, scene->weight_mass, n * sizeof(double));
@@ -201,7 +201,7 @@ static void place_parts(dmb_own_scene *own, const dmb_scene *compiled, dmb_scene
     to->drives = own->drives;
     to->loads = own->loads;
     to->bits = own->bits;
-    to->programmes = own->programmes;
+    to->time_functions = own->time_functions;
     if (compiled->has_density_input) {
         to->types = own->types;
         to->weight_mass = own->weight_mass;
@@ -217,9 +217,9 @@ static void place_parts(dmb_own_scene *own, const dmb_scene *compiled, dmb_scene
 static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
 {
     for (uint32_t i = 0; i < scene->input_count; i++) {
-        own->terms[i].kind = DMB_TERM_REFERENCE;
-        own->terms[i].callback_context = &own->references[i];
-        own->programmes[scene->programme_count + i] = (dmb_programme){&own->terms[i], 1};
+        own->segments[i].kind = DMB_SEGMENT_REFERENCE;
+        own->segments[i].callback_context = &own->references[i];
+        own->time_functions[scene->time_function_count + i] = (dmb_time_function){&own->segments[i], 1};
     }
 }
 
@@ -277,11 +277,11 @@ DMB_DEFINE_INIT(dmb_input_state, 40, {.value = 0.0})
 
 int32_t dmb_input_present(const dmb_sim *sim, uint32_t i, double *value, double *rate)
 {
-    const uint32_t programme = dmb_described_programme(sim->scene, i);
+    const uint32_t time_function = dmb_described_time_function(sim->scene, i);
     *rate = 0.0;
     *value = sim->input_value[i];
-    if (programme == DMB_NONE) return DMB_OK;
-    return dmb_programme_value(sim->scene->programmes + programme, sim->clock->time, value, rate);
+    if (time_function == DMB_NONE) return DMB_OK;
+    return dmb_time_function_value(sim->scene->time_functions + time_function, sim->clock->time, value, rate);
 }
 
 int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state)

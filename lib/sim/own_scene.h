@@ -12,10 +12,10 @@ typedef struct dmb_own_scene {
     dmb_scene_drive *drives;
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
-    dmb_programme *programmes; /* those of the model, then one for each input */
-    dmb_term *terms;           /* of each input, shape (input) */
-    dmb_reference *references; /* shape (input) */
-    dmb_element_type *types;   /* with an input of density only, as are the next two */
+    dmb_time_function *time_functions; /* those of the model, then one for each input */
+    dmb_segment *segments;             /* of each input, shape (input) */
+    dmb_reference *references;         /* shape (input) */
+    dmb_element_type *types;           /* with an input of density only, as are the next two */
     double *weight_mass;
     double *weight_moment;
     double *node_damping;        /* with one of damping only */
@@ -42,15 +42,15 @@ void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model);
 /* After input_value or input_begin were written. O(number of nodes) with inputs of density, damping or flow, else
  * O(number of drives, loads, bits and inputs). */
 void dmb_own_scene_update(dmb_sim *sim);
-/* Value of an input by the description of what it moves; NaN of a programme. */
+/* Value of an input by the description of what it moves; NaN of a time function. */
 double dmb_described_setting(const dmb_sim *sim, uint32_t input);
-/* Programme that an input takes the place of, in a compiled scene; DMB_NONE: none. */
-uint32_t dmb_described_programme(const dmb_scene *scene, uint32_t input);
+/* Time function that an input takes the place of, in a compiled scene; DMB_NONE: none. */
+uint32_t dmb_described_time_function(const dmb_scene *scene, uint32_t input);
 
 /* Inputs of an accepted state. */
 
-/* Value and rate of input i that are in force now: what stands in the place of its programme, else what is set. Errors:
- * those of the programme's callback. */
+/* Value and rate of input i that are in force now: what stands in the place of its time function, else what is set.
+ * Errors: those of the time function's callback. */
 int32_t dmb_input_present(const dmb_sim *sim, uint32_t i, double *value, double *rate);
 
 #endif

@@ -4,12 +4,13 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; pf = p
  * with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u = unilateral_count, ur = r
- * where there are any, else 0; ns = n where there are contact sites or any of those, else 0; piece = most pieces of one
- * run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count,
- * stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input = input_count, event =
- * event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
- * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
- * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * where there are any, else 0; ns = n where there are contact points or any of those, else 0; piece = most pieces of
+ * one run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force =
+ * force_count, stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input =
+ * input_count, event = event_count, history = history_count, diagonal and link = lengths of block storage; j =
+ * joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with
+ * joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced
+ * system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -51,15 +52,15 @@
     X(double, path_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps system/assemble/ledger_work */ \
     X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
     X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
-    /* system/assemble/drives, from programmes and velocity: */                                                       \
+    /* system/assemble/drives, from time functions and velocity: */                                                       \
     X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
     X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
-    X(double, drive_target, d, NUMBERS)           /* [unit of the programme] */                                       \
+    X(double, drive_target, d, NUMBERS)           /* [unit of the time function] */                                       \
     X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
     X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
     X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
-    X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
+    X(double, load_factor, load, NUMBERS)         /* [-] time function of each load */                                    \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/assemble/bit: */                                                                                        \
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
@@ -100,11 +101,11 @@
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                 \
-    X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
+    X(double, drive_input, d, INPUTS) /* [unit of the time function] value set by the caller; NaN: the time function:         \
                                          run/inputs, run/life */                                                      \
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each  \
                                                                  drive with a delay: system/assemble/actuators */     \
-    X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
+    X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the time function:          \
                                                  run/inputs, sim/own_scene; of a stuck place that lets go          \
                                                  system/jump */                                                      \
     X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
@@ -137,7 +138,7 @@
 /* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/newton). Written on acceptance
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
  * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
- * where there are contact sites too, else 0. */
+ * where there are contact points too, else 0. */
 /* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
     /* system/solve/solve: */                                                                                         \
@@ -272,12 +273,13 @@ typedef struct dmb_reduced_mode {
 } dmb_reduced_mode;
 
 typedef struct dmb_clock {
-    double time;      /* [s] */
-    double rest;      /* [s] rounding of time, for the next sum: time + rest is that of all steps (Kahan 1965) */
-    double corner;    /* [s] corners of programmes up to here lie behind, even one that is an ulp later than time */
-    double step;      /* [s] length of the last accepted step; 0 before the first */
-    double next_step; /* [s] proposal of the step control; 0: none yet */
-    double power[8];  /* [W] of the accepted state, DMB_POWER_... */
+    double time;       /* [s] */
+    double rest;       /* [s] rounding of time, for the next sum: time + rest is that of all steps (Kahan 1965) */
+    double breakpoint; /* [s] breakpoints of time functions up to here lie behind, even one that is an ulp later than
+                          time */
+    double step;       /* [s] length of the last accepted step; 0 before the first */
+    double next_step;  /* [s] proposal of the step control; 0: none yet */
+    double power[8];   /* [W] of the accepted state, DMB_POWER_... */
 } dmb_clock;
 
 /* Terms of power: ledger and clock.power share the numbering. The first three are rates of energies. */
@@ -440,7 +442,7 @@ struct dmb_sim {
 #undef DMB_FIELD
 #undef DMB_WORK_FIELD
 
-/* A call that runs functions of the caller's (programmes, constraints, allocator, path) makes its sim busy, so that
+/* A call that runs functions of the caller's (time functions, constraints, allocator, path) makes its sim busy, so that
  * these cannot pull it from under the call. READABLE: the accepted state is whole, it may be asked; CHANGING: it may
  * not. */
 enum { DMB_BUSY_NOT = 0, DMB_BUSY_READABLE = 1, DMB_BUSY_CHANGING = 2 };

@@ -99,7 +99,7 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
         dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g", owner.text,
                         evaluation->time);
     } else if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "programme: the callback failed or gave a value beyond +-1e30 at time %g",
+        dmb_message_set(&sim->message, "time function: the callback failed or gave a value beyond +-1e30 at time %g",
                         evaluation->time);
     } else if (status == DMB_ERR_NOT_FINITE) {
         dmb_message_set(&sim->message, "forces: not finite at time %g", evaluation->time);

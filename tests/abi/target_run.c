@@ -13,14 +13,14 @@ static void must(const char *what, int32_t status, const char *message)
     exit(1);
 }
 
-static dmb_id step_programme(dmb_model *model, double height)
+static dmb_id step_time_function(dmb_model *model, double height)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.05;
     term.h1 = height;
-    must("programme", dmb_model_add_programme(model, &term, 1, &id), dmb_model_message(model));
+    must("time_function", dmb_model_add_time_function(model, &term, 1, &id), dmb_model_message(model));
     return id;
 }
 
@@ -57,10 +57,10 @@ static dmb_model *describe(int32_t kind, int joints)
     bit.rock_law = DMB_ROCK_REGENERATIVE;
     bit.bottom = 1e-4;
     must("bit", dmb_model_add_bit(model, &bit, NULL), dmb_model_message(model));
-    drive.programme = step_programme(model, 0.02);
+    drive.time_function = step_time_function(model, 0.02);
     must("drive", dmb_model_add_drive(model, &drive, NULL), dmb_model_message(model));
     drive.component = DMB_RX;
-    drive.programme = step_programme(model, 10.0);
+    drive.time_function = step_time_function(model, 10.0);
     must("drive", dmb_model_add_drive(model, &drive, NULL), dmb_model_message(model));
     if (joints) add_arm(model);
     must("compile", dmb_model_compile(model, NULL), dmb_model_message(model));

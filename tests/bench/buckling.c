@@ -82,8 +82,8 @@ static int32_t add_string(column *c, uint32_t i, uint32_t count)
 static int32_t add_push(column *c)
 {
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default();
-    const int32_t status = dmb_model_add_programme(c->model, &off, 1, &push.programme);
+    const dmb_segment off = dmb_segment_default();
+    const int32_t status = dmb_model_add_time_function(c->model, &off, 1, &push.time_function);
     push.place = dmb_station(c->last, c->jointed ? 0 : c->pipes - 1, 1.0);
     push.force[0] = -1.0;
     return status < 0 ? status : dmb_model_add_load(c->model, &push, &c->push);

@@ -276,16 +276,16 @@ static int32_t add_rig_bit(scene *s, const variant *v)
 
 static int32_t add_rig_drive(scene *s, int32_t component, double rise, double speed, double shake)
 {
-    dmb_term term = dmb_term_default(), swing = dmb_term_default();
+    dmb_segment term = dmb_segment_default(), swing = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = rise;
     term.h1 = speed;
-    swing.kind = DMB_TERM_HARMONIC;
+    swing.kind = DMB_SEGMENT_HARMONIC;
     swing.h1 = shake;
     swing.omega = 10.0 * BENCH_PI;
-    int32_t status = dmb_model_add_programme(s->model, &term, 1, &drive.programme);
-    if (status >= 0 && shake > 0.0) status = dmb_model_add_programme(s->model, &swing, 1, &drive.excitation);
+    int32_t status = dmb_model_add_time_function(s->model, &term, 1, &drive.time_function);
+    if (status >= 0 && shake > 0.0) status = dmb_model_add_time_function(s->model, &swing, 1, &drive.excitation);
     drive.part = s->string;
     drive.component = component;
     return status < 0 ? status : dmb_model_add_drive(s->model, &drive, &s->turn);
@@ -331,7 +331,7 @@ static void report_rig(const scene *s, const variant *v, const method *how, cons
     row_word(&r, "variant", v->name);
     row_number(&r, "repeats", how->repeats, 3);
     row_number(&r, "pipes", s->pipes, 9);
-    row_number(&r, "sites", info->contact_sites, 9);
+    row_number(&r, "sites", info->contact_points, 9);
     row_number(&r, "degrees_of_freedom", info->degrees_of_freedom, 9);
     row_number(&r, "sim_bytes", bytes, 12);
     row_number(&r, "model_bytes", (double)info->model_bytes, 12);

@@ -54,11 +54,11 @@ static int32_t add_tube_string(tube *t, uint32_t start, uint32_t pipes, int32_t 
 
 static int32_t add_turning(tube *t, dmb_id part)
 {
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    rise.kind = DMB_TERM_STEP;
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = 2.0 * TUBE_PI;
-    const int32_t status = dmb_model_add_programme(t->model, &rise, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(t->model, &rise, 1, &drive.time_function);
     drive.part = part;
     drive.component = DMB_RX;
     return status < 0 ? status : dmb_model_add_drive(t->model, &drive, NULL);

@@ -1,4 +1,4 @@
-/* The drift of a million steps, or of as many as asked for: energy, rotations off orthonormal, joints and guides off
+/* The drift of a million steps, or of as many as asked for: energy, rotations off orthonormal, joints and supports off
  * their place. */
 #ifndef BENCH_LIMITS_DRIFT_H
 #define BENCH_LIMITS_DRIFT_H
@@ -107,7 +107,7 @@ static void drift_turning(limit_scene *s)
     pipe.eccentricity = 1e-3;
     pipe.damping_time = 1e-4;
     const dmb_id id = limit_string(s, &string, &pipe, 4);
-    limit_drive(s, id, DMB_RX, limit_programme(s, 0.0, turns, 1));
+    limit_drive(s, id, DMB_RX, limit_time_function(s, 0.0, turns, 1));
     drift_keep(id, 4);
 }
 

@@ -62,31 +62,31 @@ static dmb_id limit_string(limit_scene *s, const dmb_string_def *string, const d
 }
 
 /* A sum of cubic steps, each (time, to time, by how much), the first value before. */
-static dmb_id limit_programme(limit_scene *s, double first, const double (*steps)[3], uint32_t count)
+static dmb_id limit_time_function(limit_scene *s, double first, const double (*steps)[3], uint32_t count)
 {
-    dmb_term terms[4];
+    dmb_segment terms[4];
     dmb_id id = {0, 0};
     for (uint32_t i = 0; i <= count; ++i) {
-        terms[i] = dmb_term_default();
+        terms[i] = dmb_segment_default();
         if (i == 0) {
             terms[i].h0 = first;
             continue;
         }
-        terms[i].kind = DMB_TERM_STEP;
+        terms[i].kind = DMB_SEGMENT_STEP;
         terms[i].x0 = steps[i - 1][0];
         terms[i].x1 = steps[i - 1][1];
         terms[i].h1 = steps[i - 1][2];
     }
-    limit_note(s, dmb_model_add_programme(s->model, terms, count + 1, &id));
+    limit_note(s, dmb_model_add_time_function(s->model, terms, count + 1, &id));
     return id;
 }
 
-static void limit_drive(limit_scene *s, dmb_id part, int32_t component, dmb_id programme)
+static void limit_drive(limit_scene *s, dmb_id part, int32_t component, dmb_id time_function)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = part;
     drive.component = component;
-    drive.programme = programme;
+    drive.time_function = time_function;
     limit_note(s, dmb_model_add_drive(s->model, &drive, NULL));
 }
 
@@ -140,7 +140,7 @@ static void limit_stick_slip(limit_scene *s)
     limit_note(s, dmb_model_add_load(s->model, &load, NULL));
     drive.kind = DMB_DRIVE_CONTROL;
     drive.integral_gain = 73.0;
-    drive.programme = limit_programme(s, 5.0, NULL, 0);
+    drive.time_function = limit_time_function(s, 5.0, NULL, 0);
     limit_note(s, dmb_model_add_drive(s->model, &drive, NULL));
 }
 
@@ -161,10 +161,10 @@ static void limit_withdrawal(limit_scene *s)
     string.velocity[3] = turning;
     pipe.damping_time = 1e-4;
     bit.string = limit_string(s, &string, &pipe, 40);
-    bit.load = limit_programme(s, 2960.0, loads, 1);
+    bit.load = limit_time_function(s, 2960.0, loads, 1);
     limit_note(s, dmb_model_add_bit(s->model, &bit, NULL));
-    limit_drive(s, bit.string, DMB_X, limit_programme(s, feed, feeds, 2));
-    limit_drive(s, bit.string, DMB_RX, limit_programme(s, turning, turns, 2));
+    limit_drive(s, bit.string, DMB_X, limit_time_function(s, feed, feeds, 2));
+    limit_drive(s, bit.string, DMB_RX, limit_time_function(s, turning, turns, 2));
 }
 
 /* At 90 rpm, below its first critical speed of 110 rpm; nothing damps it but the scheme. */
@@ -178,7 +178,7 @@ static void limit_whirl(limit_scene *s)
     string.velocity[3] = turning;
     pipe.eccentricity = 1e-3;
     const dmb_id id = limit_string(s, &string, &pipe, 4);
-    limit_drive(s, id, DMB_RX, limit_programme(s, turning, NULL, 0));
+    limit_drive(s, id, DMB_RX, limit_time_function(s, turning, NULL, 0));
 }
 
 /* A bar of 1 kg in the plane of x and z; reference point in its middle, x along it. */
@@ -247,8 +247,8 @@ static void limit_rate_bit(limit_scene *s)
     bit.string = limit_string(s, &string, &pipe, 30);
     bit.rock_law = DMB_ROCK_RATE;
     limit_note(s, dmb_model_add_bit(s->model, &bit, NULL));
-    limit_drive(s, bit.string, DMB_X, limit_programme(s, 0.0, feeds, 1));
-    limit_drive(s, bit.string, DMB_RX, limit_programme(s, 0.0, turns, 1));
+    limit_drive(s, bit.string, DMB_X, limit_time_function(s, 0.0, feeds, 1));
+    limit_drive(s, bit.string, DMB_RX, limit_time_function(s, 0.0, turns, 1));
 }
 
 /* ---- All -----------------------------------------------------------------------------------------------------------

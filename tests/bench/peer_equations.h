@@ -4,7 +4,7 @@
  *
  * The residual and its tangents are the library's own (system/assemble/evaluation.h), so that what differs is the
  * integrator alone. Unknowns of a node: displacement u (3, world), quaternion q (4), body-frame velocity (v, omega)
- * (6). Nodes that drives and guides hold altogether move as the library prescribes; their unknowns stand still. Nodes
+ * (6). Nodes that drives and supports hold altogether move as the library prescribes; their unknowns stand still. Nodes
  * held in part are refused.
  *
  * The linear system of an implicit step,

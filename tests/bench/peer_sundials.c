@@ -199,7 +199,7 @@ static int go_to_stop(peer_run *run, double stop, double *t)
     return ARKStepSetStopTime(run->arkode, stop) == 0 && ARKStepEvolve(run->arkode, stop, run->y, t, ARK_NORMAL) >= 0;
 }
 
-/* To `end`, stopping where the drive's programme has its corner, as the library does. */
+/* To `end`, stopping where the drive's time function has its corner, as the library does. */
 static int peer_go(peer_run *run, double end)
 {
     double t = 0.0;

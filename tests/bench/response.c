@@ -86,9 +86,9 @@ static int32_t add_surroundings(tube *t)
 
 static int32_t add_turning(tube *t)
 {
-    const dmb_term still = dmb_term_default();
+    const dmb_segment still = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    const int32_t status = dmb_model_add_programme(t->model, &still, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(t->model, &still, 1, &drive.time_function);
     drive.part = t->string;
     drive.component = DMB_RX;
     return status < 0 ? status : dmb_model_add_drive(t->model, &drive, &t->drive);
@@ -136,14 +136,14 @@ static int32_t find_error(const dmb_response *response, uint32_t points, double 
 static int32_t respond(const tube *t, uint32_t points, double *seconds, double *error)
 {
     dmb_response_options options = dmb_response_options_default();
-    dmb_input input = dmb_input_default();
-    dmb_output output = dmb_output_default();
+    dmb_excitation input = dmb_excitation_default();
+    dmb_response_output output = dmb_response_output_default();
     dmb_response *response = NULL;
     options.points = points;
     options.frequency_low = 0.1;
     options.frequency_high = 50.0;
     options.structural_damping = TUBE_LOSS;
-    input.kind = DMB_INPUT_DRIVE;
+    input.kind = DMB_EXCITATION_DRIVE;
     input.place.part = t->drive;
     output.place = t->tip;
     output.component = DMB_RX;

@@ -43,7 +43,7 @@ typedef struct scene {
     dmb_model *model;
     dmb_id string, turn;
     double bytes;        /* [byte] of model and sim with default options, an element */
-    rig_options options; /* of R; its programmes read them */
+    rig_options options; /* of R; its time functions read them */
 } scene;
 
 /* ---- C and B ----------------------------------------------------------------------------------------------------- */
@@ -61,16 +61,16 @@ static int32_t cosine_speed(void *context, double time, double out[3])
 
 static int32_t bench_add_turning(scene *s)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.h1 = 2.0 * BENCH_PI;
     if (s->kind == SCENE_B_COSINE) {
-        term.kind = DMB_TERM_CALLBACK;
+        term.kind = DMB_SEGMENT_CALLBACK;
         term.callback = cosine_speed;
         term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     }
-    int32_t status = dmb_model_add_programme(s->model, &term, 1, &drive.programme);
+    int32_t status = dmb_model_add_time_function(s->model, &term, 1, &drive.time_function);
     drive.part = s->string;
     drive.component = DMB_RX;
     return status < 0 ? status : dmb_model_add_drive(s->model, &drive, &s->turn);

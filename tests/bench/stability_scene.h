@@ -171,12 +171,12 @@ static int32_t add_head(random_scene *s)
 /* control: NULL where the motion is prescribed. */
 static int32_t add_drive(random_scene *s, int32_t component, double speed, const controller *control)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = start_up;
     term.h1 = speed;
-    const int32_t status = dmb_model_add_programme(s->model, &term, 1, &drive.programme);
+    const int32_t status = dmb_model_add_time_function(s->model, &term, 1, &drive.time_function);
     drive.part = s->strings[0];
     drive.component = component;
     if (control) {

@@ -154,17 +154,17 @@ static inline int32_t ask_wide_damped_band(const asked_of *a)
     return ask_modes_of_a_wide_band(a, DMB_MODES_DAMPED);
 }
 
-static inline dmb_input ask_force_on(const asked_of *a)
+static inline dmb_excitation ask_force_on(const asked_of *a)
 {
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.place = a->place;
     input.component = a->component;
     return input;
 }
 
-static inline dmb_output ask_motion_of(const asked_of *a)
+static inline dmb_response_output ask_motion_of(const asked_of *a)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.place = a->place;
     output.component = a->component;
     return output;
@@ -172,8 +172,8 @@ static inline dmb_output ask_motion_of(const asked_of *a)
 
 static inline int32_t ask_response(const asked_of *a)
 {
-    const dmb_input input = ask_force_on(a);
-    const dmb_output output = ask_motion_of(a);
+    const dmb_excitation input = ask_force_on(a);
+    const dmb_response_output output = ask_motion_of(a);
     dmb_response_options options = dmb_response_options_default();
     dmb_response *found = NULL;
     options.points = a->points;
@@ -186,13 +186,13 @@ static inline int32_t ask_response(const asked_of *a)
 
 static inline int32_t ask_speeds(const asked_of *a)
 {
-    const dmb_output output = ask_motion_of(a);
+    const dmb_response_output output = ask_motion_of(a);
     const double limit = 1e-6;
     dmb_order order = dmb_order_default();
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_speed_band bands[4] = {dmb_speed_band_default()};
     uint32_t count = 4;
-    order.input = ask_force_on(a);
+    order.excitation = ask_force_on(a);
     options.points = a->points;
     return dmb_analysis_speeds(a->sim, &options, &order, 1, &output, &limit, 1, bands, &count, NULL);
 }
@@ -200,7 +200,7 @@ static inline int32_t ask_speeds(const asked_of *a)
 /* It moves the sim on. */
 static inline int32_t ask_stepped_sine(const asked_of *a)
 {
-    const dmb_output output = ask_motion_of(a);
+    const dmb_response_output output = ask_motion_of(a);
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     double amplitudes[8];
     options.steps_per_period = 24;
@@ -211,8 +211,8 @@ static inline int32_t ask_stepped_sine(const asked_of *a)
 
 static inline int32_t ask_state_space(const asked_of *a)
 {
-    const dmb_input input = ask_force_on(a);
-    const dmb_output output = ask_motion_of(a);
+    const dmb_excitation input = ask_force_on(a);
+    const dmb_response_output output = ask_motion_of(a);
     dmb_state_space *found = NULL;
     const int32_t status = dmb_analysis_state_space(a->sim, NULL, &input, 1, &output, 1, &found);
     GIVES_NOTHING_OUT(found);
@@ -222,8 +222,8 @@ static inline int32_t ask_state_space(const asked_of *a)
 
 static inline int32_t ask_reduced_state_space(const asked_of *a)
 {
-    const dmb_input input = ask_force_on(a);
-    const dmb_output output = ask_motion_of(a);
+    const dmb_excitation input = ask_force_on(a);
+    const dmb_response_output output = ask_motion_of(a);
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_state_space *found = NULL;

@@ -52,12 +52,12 @@ static inline dmb_id scene_body(joint_scene *c, double x, double y, double z)
 
 static inline dmb_id scene_ramp(joint_scene *c, double h1)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.002;
     term.x1 = 0.0513;
     term.h1 = h1;
-    return add_programme(&c->s, &term, 1);
+    return add_time_function(&c->s, &term, 1);
 }
 
 /* ---- The string and what carries it ------------------------------------------------------------------------------ */
@@ -92,12 +92,12 @@ static inline void scene_carriage(joint_scene *c)
     (void)scene_joint(c, &def);
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = rail;
-    drive.programme = scene_ramp(c, 0.02);
+    drive.time_function = scene_ramp(c, 0.02);
     c->feed = add_drive(&c->s, &drive);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = spindle;
     drive.component = DMB_RX;
-    drive.programme = scene_ramp(c, 5.0);
+    drive.time_function = scene_ramp(c, 5.0);
     drive.gain = 200.0;
     drive.integral_gain = 400.0;
     drive.limit_low = -300.0;

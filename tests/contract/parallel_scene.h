@@ -14,11 +14,11 @@ static int32_t laws[2] = {DMB_NORMAL_KELVIN_VOIGT, DMB_FRICTION_BRISTLE}; /* of 
 
 static inline dmb_id ramp(rig *s, double to)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.05;
     term.h1 = to;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
 static inline dmb_id long_string(rig *s, uint32_t pipes, double y, int32_t free)

@@ -19,7 +19,7 @@
 
 typedef struct rig {
     dmb_model *model;
-    dmb_id wall, string, head, bit, load_programme, feed, torque, programme;
+    dmb_id wall, string, head, bit, load_time_function, feed, torque, time_function;
 } rig;
 
 typedef struct rig_options {
@@ -37,13 +37,13 @@ static const rig_options plain_rig = {DMB_PIPE_FLEXIBLE, DMB_FRICTION_STRIBECK, 
 
 static inline dmb_id rig_step(dmb_model *model, double height)
 {
-    dmb_term term = dmb_term_default();
-    dmb_id programme;
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    dmb_id time_function;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.05;
     term.h1 = height;
-    must(dmb_model_add_programme(model, &term, 1, &programme));
-    return programme;
+    must(dmb_model_add_time_function(model, &term, 1, &time_function));
+    return time_function;
 }
 
 static inline void rig_describe(rig *r, const rig_options *options)
@@ -67,16 +67,16 @@ static inline void rig_describe(rig *r, const rig_options *options)
     head.attach = DMB_ATTACH_START;
     head.mass = 12.0;
     must(dmb_model_add_body(r->model, &head, &r->head));
-    r->load_programme = rig_step(r->model, 100.0);
-    bit.load = r->load_programme;
+    r->load_time_function = rig_step(r->model, 100.0);
+    bit.load = r->load_time_function;
     bit.rock_law = DMB_ROCK_REGENERATIVE;
     bit.bottom = 1e-3;
     must(dmb_model_add_bit(r->model, &bit, &r->bit));
-    drive.programme = r->programme = rig_step(r->model, 0.1);
+    drive.time_function = r->time_function = rig_step(r->model, 0.1);
     must(dmb_model_add_drive(r->model, &drive, &r->feed));
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;
-    drive.programme = rig_step(r->model, 50.0);
+    drive.time_function = rig_step(r->model, 50.0);
     must(dmb_model_add_drive(r->model, &drive, &r->torque));
 }
 

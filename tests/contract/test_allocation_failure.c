@@ -272,11 +272,11 @@ static void unaligned_memory_is_refused(void **state)
 /* More parts of a kind than fit where the first ones did, so that what grows fails between two of them. */
 enum { CROWD = 14 };
 
-static dmb_id crowd_programme(dmb_model *model, int32_t *status)
+static dmb_id crowd_time_function(dmb_model *model, int32_t *status)
 {
     dmb_id id = {0, 0};
-    const dmb_term term = dmb_term_default();
-    if (*status >= 0) *status = dmb_model_add_programme(model, &term, 1, &id);
+    const dmb_segment term = dmb_segment_default();
+    if (*status >= 0) *status = dmb_model_add_time_function(model, &term, 1, &id);
     return id;
 }
 
@@ -286,7 +286,7 @@ static int32_t crowd_string(dmb_model *model, dmb_id *string)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     int32_t status = dmb_model_add_string(model, &def, string);
@@ -300,12 +300,12 @@ static int32_t crowd_string(dmb_model *model, dmb_id *string)
     load.place = dmb_station(*string, 0, 0.4);
     if (status >= 0) status = dmb_model_add_pipes(model, &pipe, 2, NULL);
     if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
-    if (status >= 0) status = dmb_model_add_ring(model, &ring, NULL);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &ring, NULL);
     ring.pipe = 1;
-    if (status >= 0) status = dmb_model_add_ring(model, &ring, NULL);
+    if (status >= 0) status = dmb_model_add_stabiliser(model, &ring, NULL);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.lag = 0.1;
-    drive.programme = crowd_programme(model, &status);
+    drive.time_function = crowd_time_function(model, &status);
     if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
     if (status >= 0) status = dmb_model_add_load(model, &load, NULL);
     return status;
@@ -333,7 +333,7 @@ static int32_t crowd_body(dmb_model *model, int i, dmb_id *last)
     spring.offset_b[2] = 1.0;
     spring.stiffness = 10.0;
     stuck.stuck = 0;
-    event.output.quantity = DMB_CHANNEL_VELOCITY_X;
+    event.output.quantity = DMB_OUTPUT_VELOCITY_X;
     event.level = 1.0;
     (void)snprintf(event.name, sizeof event.name, "event %d", i);
     if (status >= 0 && i % 2 == 1) status = dmb_model_add_joint(model, &joint, NULL);

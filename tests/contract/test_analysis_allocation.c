@@ -270,9 +270,9 @@ static int32_t fatigue(subject *c)
 
 static int32_t window(subject *c)
 {
-    const dmb_channel channel = {.place = c->place, .quantity = DMB_CHANNEL_POSITION_Y};
+    const dmb_output output = {.place = c->place, .quantity = DMB_OUTPUT_POSITION_Y};
     dmb_window *made = NULL;
-    const int32_t status = dmb_window_create(c->s.sim, NULL, &channel, 1, &made);
+    const int32_t status = dmb_window_create(c->s.sim, NULL, &output, 1, &made);
     GIVES_NOTHING_OUT(made);
     dmb_window_destroy(&made);
     return status;
@@ -525,7 +525,7 @@ static int32_t describe(subject *c, int i)
     case 4:
         strcpy(event.name, "far");
         event.output.place = dmb_station(c->part, 1, 0.5);
-        event.output.quantity = DMB_CHANNEL_POSITION_Y;
+        event.output.quantity = DMB_OUTPUT_POSITION_Y;
         event.level = 1.0;
         return dmb_model_add_event(c->s.model, &event, NULL);
     case 5: /* refused parts are remembered */

@@ -1,4 +1,4 @@
-/* Programmes, forces and constraints of the caller that fail: in every call that asks them, each of these questions
+/* Time functions, forces and constraints of the caller that fail: in every call that asks them, each of these questions
  * fails once. The status is DMB_ERR_CALLBACK, a message tells it, nothing is given out, the sim is as it was, and the
  * call works when it is made again. */
 #include <stdlib.h>
@@ -84,7 +84,7 @@ static void add_push(subject *c)
     push.place = c->place;
     push.force[0] = -100.0;
     push.force[2] = -1.0;
-    push.programme = add_callback(&c->r, one, c);
+    push.time_function = add_callback(&c->r, one, c);
     c->load = add_load(&c->r, &push);
 }
 
@@ -92,7 +92,7 @@ static void add_drives(subject *c)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = c->part;
-    drive.programme = add_callback(&c->r, still, c);
+    drive.time_function = add_callback(&c->r, still, c);
     drive.excitation = add_callback(&c->r, still, c);
     drive.kind = DMB_DRIVE_LOAD;
     c->drive = add_drive(&c->r, &drive);
@@ -116,7 +116,7 @@ static void start(subject *c)
     (void)find_equilibrium(&c->r, NULL);
 }
 
-/* Takes the programme of the turning drive over and leaves its value at a limited rate. */
+/* Takes the time function of the turning drive over and leaves its value at a limited rate. */
 static void add_input(subject *c)
 {
     dmb_input_def input = dmb_input_def_default();
@@ -222,7 +222,7 @@ static int32_t create(subject *c)
 static int32_t sensitivity(subject *c)
 {
     dmb_parameter parameter = dmb_parameter_default();
-    const dmb_channel height = {.place = c->place, .quantity = DMB_CHANNEL_POSITION_Z};
+    const dmb_output height = {.place = c->place, .quantity = DMB_OUTPUT_POSITION_Z};
     double value;
     dmb_sensitivity *made = NULL;
     dmb_sim *sim = NULL;
@@ -235,7 +235,7 @@ static int32_t sensitivity(subject *c)
     GIVES_NOTHING_OUT(made);
     if (status >= 0) status = dmb_sensitivity_step(made, 1e-4, NULL);
     if (status >= 0) status = dmb_sensitivity_advance(made, 1e-3, NULL);
-    if (status >= 0) must(&c->r, dmb_sensitivity_channels(made, &height, 1, &value, &c->found));
+    if (status >= 0) must(&c->r, dmb_sensitivity_outputs(made, &height, 1, &value, &c->found));
     dmb_sensitivity_destroy(&made);
     dmb_sim_destroy(&sim);
     return status;

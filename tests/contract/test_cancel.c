@@ -80,7 +80,7 @@ static void add_load(scene *s)
         load.force[2] = 200.0;
     }
     must(dmb_model_add_load(s->model, &load, NULL));
-    load.programme = rig_step(s->model, 1.0); /* something for steps to do */
+    load.time_function = rig_step(s->model, 1.0); /* something for steps to do */
     load.force[1] = 100.0;
     must(dmb_model_add_load(s->model, &load, NULL));
 }
@@ -91,7 +91,7 @@ static void add_drives(scene *s)
     drive.kind = DMB_DRIVE_MOTION;
     for (int i = 0; i < 2; i++) {
         drive.component = i == 0 ? DMB_X : DMB_RX;
-        drive.programme = rig_step(s->model, i == 0 ? 0.01 : 3.0);
+        drive.time_function = rig_step(s->model, i == 0 ? 0.01 : 3.0);
         must(dmb_model_add_drive(s->model, &drive, NULL));
     }
 }
@@ -130,17 +130,17 @@ static void say(answer *a, double number)
     if (a->count < 64) a->number[a->count++] = number;
 }
 
-static dmb_input tip_force(const scene *s)
+static dmb_excitation tip_force(const scene *s)
 {
-    dmb_input input = dmb_input_default();
-    input.kind = DMB_INPUT_FORCE;
+    dmb_excitation input = dmb_excitation_default();
+    input.kind = DMB_EXCITATION_FORCE;
     input.place = dmb_station(s->string, 11, 1.0);
     return input;
 }
 
-static dmb_output middle(const scene *s)
+static dmb_response_output middle(const scene *s)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.place = dmb_station(s->string, 5, 1.0);
     output.component = DMB_Z;
     return output;
@@ -221,8 +221,8 @@ static void call_modes(dmb_sim *sim, int32_t kind, int32_t select, answer *a)
 static void call_response(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_response_options options = dmb_response_options_default();
-    const dmb_input input = tip_force(s);
-    const dmb_output output = middle(s);
+    const dmb_excitation input = tip_force(s);
+    const dmb_response_output output = middle(s);
     dmb_response *response = NULL;
     uint32_t shape[3] = {0, 0, 0};
     double values[1024] = {0.0};
@@ -242,7 +242,7 @@ static void call_response(dmb_sim *sim, const scene *s, answer *a)
 static void call_sine(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    const dmb_output output = middle(s);
+    const dmb_response_output output = middle(s);
     double amplitudes[64] = {0.0};
     options.windows = 3;
     options.harmonics = options.periods = 1;
@@ -255,7 +255,7 @@ static void call_speeds(dmb_sim *sim, const scene *s, answer *a)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
-    const dmb_output output = middle(s);
+    const dmb_response_output output = middle(s);
     const double limit = 1e-5;
     dmb_speed_band bands[4];
     uint32_t count = 4;
@@ -264,7 +264,7 @@ static void call_speeds(dmb_sim *sim, const scene *s, answer *a)
     options.points = 8;
     options.refinement = 1;
     options.equilibrium_tolerance = 1.0;
-    orders[0].input = orders[1].input = tip_force(s);
+    orders[0].excitation = orders[1].excitation = tip_force(s);
     orders[1].order = 2.0;
     a->status = dmb_analysis_speeds(sim, &options, orders, 2, &output, &limit, 1, bands, &count, severity);
     for (int i = 0; i < 8; i++) say(a, severity[i]);

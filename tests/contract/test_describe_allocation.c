@@ -45,7 +45,7 @@ typedef struct scene_plan {
     dmb_model_options options;
     dmb_environment_def environment;
     dmb_wall_def wall;
-    dmb_term terms[2];
+    dmb_segment terms[2];
     dmb_string_def string;
     dmb_pipe_def pipe[3];
     dmb_body_def head;
@@ -81,8 +81,8 @@ static scene_plan plan(const dmb_allocator *allocator)
     p.wall = dmb_wall_def_default();
     p.wall.survey = survey;
     p.wall.survey_count = 3;
-    p.terms[0] = p.terms[1] = dmb_term_default();
-    p.terms[1].kind = DMB_TERM_TABLE;
+    p.terms[0] = p.terms[1] = dmb_segment_default();
+    p.terms[1].kind = DMB_SEGMENT_TABLE;
     p.terms[1].table_time = table_time;
     p.terms[1].table_value = table_value;
     p.terms[1].table_count = 3;
@@ -117,7 +117,7 @@ static int32_t step(scene_plan *p, int which)
     case 0: return dmb_model_create(&p->options, &p->model);
     case 1: return dmb_model_set_environment(p->model, &p->environment);
     case 2: return dmb_model_add_wall(p->model, &p->wall, NULL);
-    case 3: return dmb_model_add_programme(p->model, p->terms, 2, &p->drive.programme);
+    case 3: return dmb_model_add_time_function(p->model, p->terms, 2, &p->drive.time_function);
     case 4: return dmb_model_add_pipes(p->model, &p->pipe[0], 5, &p->load.place.part); /* makes the string */
     case 5: return dmb_model_add_pipes(p->model, &p->pipe[1], 5, NULL);
     case 6: return dmb_model_add_pipes(p->model, &p->pipe[2], 2, NULL);
@@ -140,7 +140,7 @@ static int32_t step(scene_plan *p, int which)
         return dmb_model_add_constraint(p->model, &p->constraint, NULL);
     case 17:
         p->screw.part = p->coupling.joint[0];
-        p->screw.programme = p->drive.programme;
+        p->screw.time_function = p->drive.time_function;
         return dmb_model_add_drive(p->model, &p->screw, NULL);
     default: return dmb_model_compile(p->model, NULL);
     }
@@ -149,7 +149,7 @@ enum { STEPS = 19 };
 
 /* Counts that must not change when a call fails. */
 typedef struct counts {
-    uint32_t programmes, strings, runs, bodies, bits, drives, loads, joints, couplings, constraints, wall;
+    uint32_t time_functions, strings, runs, bodies, bits, drives, loads, joints, couplings, constraints, wall;
     int compiled;
     long blocks;
 } counts;
@@ -160,7 +160,7 @@ static counts counts_of(const dmb_model *model, const meter *m)
     memset(&c, 0, sizeof c);
     c.blocks = m->blocks;
     if (model == NULL) return c;
-    c.programmes = model->programmes.count;
+    c.time_functions = model->time_functions.count;
     c.strings = model->strings.count;
     c.runs = model->runs.count;
     c.bodies = model->bodies.count;
@@ -180,7 +180,7 @@ static counts counts_of(const dmb_model *model, const meter *m)
 static void expect_unchanged(const counts *before, const counts *after, int which)
 {
     const long grown = after->blocks - before->blocks;
-    assert_int_equal(before->programmes, after->programmes);
+    assert_int_equal(before->time_functions, after->time_functions);
     assert_int_equal(before->strings, after->strings);
     assert_int_equal(before->runs, after->runs);
     assert_int_equal(before->bodies, after->bodies);

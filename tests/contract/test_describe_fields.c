@@ -29,7 +29,7 @@ typedef struct field {
 typedef union any_def {
     uint32_t struct_size;
     dmb_environment_def environment;
-    dmb_term term;
+    dmb_segment term;
     dmb_wall_def wall;
     dmb_hole_section section;
     dmb_string_def string;
@@ -44,13 +44,13 @@ typedef union any_def {
     dmb_spring_def spring;
     dmb_force_def force;
     dmb_stuck_def stuck;
-    dmb_ring_def ring;
+    dmb_stabiliser_def ring;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
 typedef struct scene_under_test {
     dmb_model *model;
-    dmb_id string, programme;
+    dmb_id string, time_function;
 } scene_under_test;
 
 static scene_under_test begin(int with_wall)
@@ -58,12 +58,12 @@ static scene_under_test begin(int with_wall)
     scene_under_test s;
     const dmb_wall_def wall = dmb_wall_def_default();
     const dmb_string_def string = dmb_string_def_default();
-    const dmb_term term = dmb_term_default();
+    const dmb_segment term = dmb_segment_default();
     memset(&s, 0, sizeof s);
     assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
     if (with_wall) assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_OK);
     assert_int_equal(dmb_model_add_string(s.model, &string, &s.string), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s.model, &term, 1, &s.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s.model, &term, 1, &s.time_function), DMB_OK);
     return s;
 }
 
@@ -105,31 +105,31 @@ static int32_t add_environment(dmb_model *model, const any_def *def)
     return dmb_model_set_environment(model, &def->environment);
 }
 
-static const field term_fields[] = {
-    F(dmb_term, kind, WHOLE, 1), F(dmb_term, x0, REAL, 1),           F(dmb_term, x1, REAL, 1),
-    F(dmb_term, h0, REAL, 1),    F(dmb_term, h1, REAL, 1),           F(dmb_term, omega, REAL, 1),
-    F(dmb_term, phase, REAL, 1), F(dmb_term, table_count, COUNT, 1), F(dmb_term, provides, WHOLE, 1)};
-static void fill_term(const scene_under_test *s, any_def *def)
+static const field segment_fields[] = {
+    F(dmb_segment, kind, WHOLE, 1), F(dmb_segment, x0, REAL, 1),           F(dmb_segment, x1, REAL, 1),
+    F(dmb_segment, h0, REAL, 1),    F(dmb_segment, h1, REAL, 1),           F(dmb_segment, omega, REAL, 1),
+    F(dmb_segment, phase, REAL, 1), F(dmb_segment, table_count, COUNT, 1), F(dmb_segment, provides, WHOLE, 1)};
+static void fill_segment(const scene_under_test *s, any_def *def)
 {
     (void)s;
-    def->term = dmb_term_default();
-    def->term.kind = DMB_TERM_STEP;
+    def->term = dmb_segment_default();
+    def->term.kind = DMB_SEGMENT_STEP;
 }
 static void fill_table(const scene_under_test *s, any_def *def)
 {
     static const double time[] = {0.0, 1.0}, value[] = {1.0, 2.0};
-    fill_term(s, def);
-    def->term.kind = DMB_TERM_TABLE;
+    fill_segment(s, def);
+    def->term.kind = DMB_SEGMENT_TABLE;
     def->term.table_time = time;
     def->term.table_value = value;
     def->term.table_count = 2;
 }
-static int32_t add_term(dmb_model *model, const any_def *def)
+static int32_t add_segment(dmb_model *model, const any_def *def)
 {
     /* the table is only as long as it is: larger counts are the caller's lie, and no library can see it */
-    if (def->term.kind == DMB_TERM_TABLE && def->term.table_count > 2 && def->term.table_count <= 1u << 20)
+    if (def->term.kind == DMB_SEGMENT_TABLE && def->term.table_count > 2 && def->term.table_count <= 1u << 20)
         return DMB_OK;
-    return dmb_model_add_programme(model, &def->term, 1, NULL);
+    return dmb_model_add_time_function(model, &def->term, 1, NULL);
 }
 
 static const field wall_fields[] = {
@@ -266,8 +266,8 @@ static const field bit_fields[] = {F(dmb_bit_def, rock_law, WHOLE, 1),
                                    F(dmb_bit_def, wear_length, REAL, 1),
                                    F(dmb_bit_def, contact_friction, REAL, 1),
                                    F(dmb_bit_def, intrusion_depth, REAL, 1),
-                                   F(dmb_bit_def, ring.index, COUNT, 1),
-                                   F(dmb_bit_def, ring.generation, COUNT, 1),
+                                   F(dmb_bit_def, stabiliser.index, COUNT, 1),
+                                   F(dmb_bit_def, stabiliser.generation, COUNT, 1),
                                    F(dmb_bit_def, inner_radius, REAL, 1),
                                    F(dmb_bit_def, bottom, REAL, 1),
                                    F(dmb_bit_def, blades, COUNT, 1),
@@ -279,7 +279,7 @@ static void fill_bit(const scene_under_test *s, any_def *def)
 {
     def->bit = dmb_bit_def_default();
     def->bit.rock_law = DMB_ROCK_REGENERATIVE;
-    def->bit.load = s->programme;
+    def->bit.load = s->time_function;
 }
 static int32_t add_bit(dmb_model *model, const any_def *def)
 {
@@ -291,8 +291,8 @@ static const field drive_fields[] = {F(dmb_drive_def, kind, WHOLE, 1),
                                      F(dmb_drive_def, part.generation, COUNT, 1),
                                      F(dmb_drive_def, component, WHOLE, 1),
                                      F(dmb_drive_def, reserved, WHOLE, 1),
-                                     F(dmb_drive_def, programme.index, COUNT, 1),
-                                     F(dmb_drive_def, programme.generation, COUNT, 1),
+                                     F(dmb_drive_def, time_function.index, COUNT, 1),
+                                     F(dmb_drive_def, time_function.generation, COUNT, 1),
                                      F(dmb_drive_def, excitation.index, COUNT, 1),
                                      F(dmb_drive_def, excitation.generation, COUNT, 1),
                                      F(dmb_drive_def, gain, REAL, 1),
@@ -303,7 +303,7 @@ static const field drive_fields[] = {F(dmb_drive_def, kind, WHOLE, 1),
 static void fill_drive(const scene_under_test *s, any_def *def)
 {
     def->drive = dmb_drive_def_default();
-    def->drive.programme = s->programme;
+    def->drive.time_function = s->time_function;
 }
 static int32_t add_drive(dmb_model *model, const any_def *def)
 {
@@ -318,8 +318,8 @@ static const field load_fields[] = {F(dmb_load_def, frame, WHOLE, 1),
                                     F(dmb_load_def, place.fraction, REAL, 1),
                                     F(dmb_load_def, force, REAL, 3),
                                     F(dmb_load_def, moment, REAL, 3),
-                                    F(dmb_load_def, programme.index, COUNT, 1),
-                                    F(dmb_load_def, programme.generation, COUNT, 1),
+                                    F(dmb_load_def, time_function.index, COUNT, 1),
+                                    F(dmb_load_def, time_function.generation, COUNT, 1),
                                     F(dmb_load_def, offset, REAL, 3)};
 static void fill_load(const scene_under_test *s, any_def *def)
 {
@@ -455,18 +455,19 @@ static int32_t add_force(dmb_model *model, const any_def *def)
 }
 
 static const field ring_fields[] = {
-    F(dmb_ring_def, pipe, COUNT, 1),   F(dmb_ring_def, fraction, REAL, 1),   F(dmb_ring_def, outer_diameter, REAL, 1),
-    F(dmb_ring_def, length, REAL, 1),  F(dmb_ring_def, mass, REAL, 1),       F(dmb_ring_def, inertia, REAL, 2),
-    F(dmb_ring_def, density, REAL, 1), F(dmb_ring_def, added_mass, REAL, 2),
+    F(dmb_stabiliser_def, pipe, COUNT, 1),          F(dmb_stabiliser_def, fraction, REAL, 1),
+    F(dmb_stabiliser_def, outer_diameter, REAL, 1), F(dmb_stabiliser_def, length, REAL, 1),
+    F(dmb_stabiliser_def, mass, REAL, 1),           F(dmb_stabiliser_def, inertia, REAL, 2),
+    F(dmb_stabiliser_def, density, REAL, 1),        F(dmb_stabiliser_def, added_mass, REAL, 2),
 };
 static void fill_ring(const scene_under_test *s, any_def *def)
 {
-    def->ring = dmb_ring_def_default();
+    def->ring = dmb_stabiliser_def_default();
     def->ring.string = s->string;
 }
-static int32_t add_ring(dmb_model *model, const any_def *def)
+static int32_t add_stabiliser(dmb_model *model, const any_def *def)
 {
-    return dmb_model_add_ring(model, &def->ring, NULL);
+    return dmb_model_add_stabiliser(model, &def->ring, NULL);
 }
 
 static int32_t any_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
@@ -495,8 +496,8 @@ static int32_t add_constraint(dmb_model *model, const any_def *def)
 
 static const kind_of_def kinds[] = {
     {"environment", FIELDS(environment_fields), fill_environment, add_environment},
-    {"term", FIELDS(term_fields), fill_term, add_term},
-    {"table", FIELDS(term_fields), fill_table, add_term},
+    {"segment", FIELDS(segment_fields), fill_segment, add_segment},
+    {"table", FIELDS(segment_fields), fill_table, add_segment},
     {"wall", FIELDS(wall_fields), fill_wall, add_wall},
     {"string", FIELDS(string_fields), fill_string, add_string},
     {"pipe", FIELDS(pipe_fields), fill_pipe, add_pipe},
@@ -512,7 +513,7 @@ static const kind_of_def kinds[] = {
     {"hole section", FIELDS(section_fields), fill_section, add_section},
     {"force", FIELDS(force_fields), fill_force, add_force},
     {"stuck", FIELDS(stuck_fields), fill_stuck, add_stuck},
-    {"ring", FIELDS(ring_fields), fill_ring, add_ring},
+    {"stabiliser", FIELDS(ring_fields), fill_ring, add_stabiliser},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 
@@ -751,7 +752,7 @@ static void what_must_be_refused(void **state)
                  {7, "length", 0.0},
                  {8, "component", 6.0},
                  {8, "limit_high", -1e30},
-                 {8, "programme.generation", 0.0},
+                 {8, "time_function.generation", 0.0},
                  {9, "place.fraction", 1.5},
                  {14, "free_length", -2.0},
                  {14, "stiffness", -1.0},
@@ -872,15 +873,16 @@ static void tables(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         scene_under_test s = begin(0);
-        dmb_term term = dmb_term_default();
-        term.kind = DMB_TERM_TABLE;
+        dmb_segment term = dmb_segment_default();
+        term.kind = DMB_SEGMENT_TABLE;
         term.table_time = cases[i].time;
         term.table_value = cases[i].value;
         term.table_count = 3;
-        assert_int_equal(dmb_model_add_programme(s.model, &term, 1, NULL), cases[i].status);
-        if (cases[i].status < 0) assert_non_null(strstr(dmb_model_message(s.model), "programme 1, term 0: table_"));
+        assert_int_equal(dmb_model_add_time_function(s.model, &term, 1, NULL), cases[i].status);
+        if (cases[i].status < 0)
+            assert_non_null(strstr(dmb_model_message(s.model), "time function 1, segment 0: table_"));
         term.table_value = NULL;
-        assert_int_equal(dmb_model_add_programme(s.model, &term, 1, NULL), DMB_ERR_NULL);
+        assert_int_equal(dmb_model_add_time_function(s.model, &term, 1, NULL), DMB_ERR_NULL);
         dmb_model_destroy(&s.model);
     }
 }
@@ -931,20 +933,20 @@ static int32_t silent(void *context, double time, double out[3])
 static void callbacks_and_counts_of_terms(void **state)
 {
     scene_under_test s = begin(0);
-    dmb_term terms[65];
+    dmb_segment terms[65];
     (void)state;
-    for (int i = 0; i < 65; ++i) terms[i] = dmb_term_default();
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 0, NULL), DMB_ERR_VALUE);
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 65, NULL), DMB_ERR_VALUE);
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 64, NULL), DMB_OK);
-    terms[0].kind = DMB_TERM_CALLBACK;
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_ERR_NULL);
+    for (int i = 0; i < 65; ++i) terms[i] = dmb_segment_default();
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 0, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 65, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 64, NULL), DMB_OK);
+    terms[0].kind = DMB_SEGMENT_CALLBACK;
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 1, NULL), DMB_ERR_NULL);
     assert_non_null(strstr(dmb_model_message(s.model), "callback"));
     terms[0].callback = silent;
     terms[0].provides = 4;
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 1, NULL), DMB_ERR_VALUE);
     terms[0].provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
-    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s.model, terms, 1, NULL), DMB_OK);
     dmb_model_destroy(&s.model);
 }
 

@@ -10,14 +10,14 @@ static void open_string(rig *s, const dmb_sim_options *options)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def turn = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(s, 0.0, 0.0, -9.81);
     add_wall(s, &wall);
     add_pipes(s, &pipe, 5);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.h1 = 6.0;
     turn.component = DMB_RX;
-    turn.programme = add_programme(s, &term, 1);
+    turn.time_function = add_time_function(s, &term, 1);
     add_drive(s, &turn);
     rig_start(s, options);
 }
@@ -71,7 +71,7 @@ static void failing_calls_leave_them(void **state)
     rig_open(&s, 0.0, 0.0, -9.81);
     add_pipes(&s, &pipe, 5);
     turn.component = DMB_RX;
-    turn.programme = add_callback(&s, refuse, NULL);
+    turn.time_function = add_callback(&s, refuse, NULL);
     add_drive(&s, &turn);
     rig_start(&s, NULL);
     run(&s, 20);

@@ -76,7 +76,7 @@ typedef struct scene {
     dmb_modes *modes;
     dmb_response *response;
     dmb_recorder recorder;
-    dmb_channel channels[2];
+    dmb_output outputs[2];
     double table[9];
     dmb_profile_recorder profiles;
     dmb_profile profile;
@@ -87,8 +87,8 @@ typedef struct scene {
 static dmb_response *respond(scene *s)
 {
     dmb_response_options options = dmb_response_options_default();
-    dmb_input input = dmb_input_default();
-    dmb_output output[2] = {dmb_output_default(), dmb_output_default()};
+    dmb_excitation input = dmb_excitation_default();
+    dmb_response_output output[2] = {dmb_response_output_default(), dmb_response_output_default()};
     dmb_response *response = NULL;
     options.points = 5;
     options.equilibrium_tolerance = 1.0;
@@ -98,7 +98,7 @@ static dmb_response *respond(scene *s)
     output[0].place = dmb_station(s->r.string, 1, 0.5);
     output[0].component = DMB_Y;
     output[1].place = input.place;
-    output[1].kind = DMB_OUTPUT_VELOCITY;
+    output[1].kind = DMB_RESPONSE_VELOCITY;
     output[1].component = DMB_Y;
     if (dmb_analysis_response(s->sim, &options, &input, 1, output, 2, &response) < 0)
         fail_msg("%s", dmb_sim_message(s->sim));
@@ -107,13 +107,13 @@ static dmb_response *respond(scene *s)
 
 static void record(scene *s)
 {
-    s->channels[0].place = dmb_station(s->r.string, 2, 1.0);
-    s->channels[0].quantity = DMB_CHANNEL_POSITION_Y;
-    s->channels[1].place.part = s->r.feed;
-    s->channels[1].quantity = DMB_CHANNEL_DRIVE_FORCE;
+    s->outputs[0].place = dmb_station(s->r.string, 2, 1.0);
+    s->outputs[0].quantity = DMB_OUTPUT_POSITION_Y;
+    s->outputs[1].place.part = s->r.feed;
+    s->outputs[1].quantity = DMB_OUTPUT_DRIVE_FORCE;
     s->recorder = dmb_recorder_default();
-    s->recorder.channel_count = 2;
-    s->recorder.channels = s->channels;
+    s->recorder.output_count = 2;
+    s->recorder.outputs = s->outputs;
     s->recorder.table = s->table;
     s->recorder.capacity = 3;
     for (int i = 0; i < 3; i++) rig_run(s->sim, 1), must(dmb_recorder_take(&s->recorder, s->sim));

@@ -1,14 +1,14 @@
-/* Rings of bodies and bits that a guide keeps off the wall against what compile and the model check say; rings that can
- * move sideways, and scenes without a wall, bring no warning. */
+/* Rings of bodies and bits that a support keeps off the wall against what compile and the model check say; rings that
+ * can move sideways, and scenes without a wall, bring no warning. */
 #include "sim_test.h"
 
 enum {
-    GUIDED_HEAD,
+    SUPPORTD_HEAD,
     FREE_HEAD,
     HEAD_WITHOUT_RING,
-    GUIDED_BIT,
+    SUPPORTD_BIT,
     BIT_WITHOUT_GAUGE,
-    GUIDED_BODY,
+    SUPPORTD_BODY,
     LOOSE_BODY,
     BODY_IN_RING,
     BODY_BESIDE_RING,
@@ -17,10 +17,10 @@ enum {
     CASES
 };
 
-static void add_guide(dmb_model *model, dmb_id body, double at, int32_t state)
+static void add_support(dmb_model *model, dmb_id body, double at, int32_t state)
 {
     dmb_joint_def joint = dmb_joint_def_default();
-    strcpy(joint.name, "ring guide");
+    strcpy(joint.name, "ring support");
     joint.kind = DMB_JOINT_POINT_ON_HOLE;
     joint.place_b = dmb_station(body, 0, 0.0);
     joint.origin_b[0] = at;
@@ -38,22 +38,22 @@ static void describe(dmb_model *model, int what)
     dmb_id id;
     if (what != NO_WALL) must(dmb_model_add_wall(model, &wall, NULL));
     if (what == FREE_HEAD) string.start_free = DMB_FREE_ALL;
-    if (what == GUIDED_BIT || what == BIT_WITHOUT_GAUGE) string.end_free = DMB_FREE_CYLINDRICAL;
+    if (what == SUPPORTD_BIT || what == BIT_WITHOUT_GAUGE) string.end_free = DMB_FREE_CYLINDRICAL;
     must(dmb_model_add_string(model, &string, &pipe.string));
     must(dmb_model_add_pipes(model, &pipe, 3, NULL));
     body.contact_diameter = what == HEAD_WITHOUT_RING ? 0.0 : 0.09;
     if (what <= HEAD_WITHOUT_RING || what == NO_WALL) body.attach = DMB_ATTACH_START;
-    if (what == GUIDED_BODY) body.free_mask = DMB_FREE_CYLINDRICAL;
+    if (what == SUPPORTD_BODY) body.free_mask = DMB_FREE_CYLINDRICAL;
     body.position[0] = 1.0;
     if (what == BIT_WITHOUT_GAUGE) bit.diameter = 0.0;
-    if (what == GUIDED_BIT || what == BIT_WITHOUT_GAUGE) {
+    if (what == SUPPORTD_BIT || what == BIT_WITHOUT_GAUGE) {
         must(dmb_model_add_bit(model, &bit, NULL));
         return;
     }
     must(dmb_model_add_body(model, &body, &id));
     if (what >= BODY_IN_RING && what <= OPEN_RING)
-        add_guide(model, id, what == BODY_BESIDE_RING ? 0.5 : 0.0,
-                  what == OPEN_RING ? DMB_JOINT_OPEN : DMB_JOINT_ACTIVE);
+        add_support(model, id, what == BODY_BESIDE_RING ? 0.5 : 0.0,
+                    what == OPEN_RING ? DMB_JOINT_OPEN : DMB_JOINT_ACTIVE);
 }
 
 static int warnings;
@@ -66,14 +66,14 @@ static void count_warnings(void *context, int32_t level, const char *text)
 
 static void told_by_compile_and_check(void **state)
 {
-    static const char *const told[CASES] = {"body 0: its ring never touches the wall, the guide",
+    static const char *const told[CASES] = {"body 0: its ring never touches the wall, the support",
                                             NULL,
                                             NULL,
-                                            "bit 0: its ring never touches the wall, the guide",
+                                            "bit 0: its ring never touches the wall, the support",
                                             NULL,
-                                            "body 0: its ring never touches the wall, the guide",
+                                            "body 0: its ring never touches the wall, the support",
                                             NULL,
-                                            "body 0: its ring never touches the wall, joint 0 (ring guide) holds"};
+                                            "body 0: its ring never touches the wall, joint 0 (ring support) holds"};
     (void)state;
     for (int what = 0; what < CASES; what++) {
         dmb_model_options options = dmb_model_options_default();

@@ -1,5 +1,5 @@
-/* Before an input is set its programme is in force, and the input tells it by value and rate; where that is a function
- * of the caller's that fails, the question fails and nothing is written. */
+/* Before an input is set its time function is in force, and the input tells it by value and rate; where that is a
+ * function of the caller's that fails, the question fails and nothing is written. */
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ static dmb_id open_driven(rig *r)
     return id;
 }
 
-static void a_programme_is_in_force(void **state)
+static void a_time_function_is_in_force(void **state)
 {
     (void)state;
     rig r;
@@ -51,7 +51,7 @@ static void a_programme_is_in_force(void **state)
     rig_close(&r);
 }
 
-static void a_programme_that_fails(void **state)
+static void a_time_function_that_fails(void **state)
 {
     (void)state;
     rig r;
@@ -71,8 +71,8 @@ static void a_programme_that_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_programme_is_in_force),
-        cmocka_unit_test(a_programme_that_fails),
+        cmocka_unit_test(a_time_function_is_in_force),
+        cmocka_unit_test(a_time_function_that_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

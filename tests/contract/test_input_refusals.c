@@ -176,7 +176,7 @@ static void stuck_and_refused(void **state)
     drive.component = DMB_RX;
     drive.gain = 2.0;
     drive.limit_low = -10.0, drive.limit_high = 10.0;
-    drive.programme = add_constant(&s, 1.0);
+    drive.time_function = add_constant(&s, 1.0);
     strcpy(input.name, "least");
     input.target = DMB_TARGET_LIMIT_LOW;
     input.part = add_drive(&s, &drive);

@@ -40,7 +40,7 @@ static void describe(controlled *c, double speed, double factor)
     drive.component = DMB_RX;
     drive.gain = 2.0;
     drive.integral_gain = 3.0;
-    drive.programme = rig_step(c->rig.model, speed);
+    drive.time_function = rig_step(c->rig.model, speed);
     must(dmb_model_add_drive(c->rig.model, &drive, &id));
     c->speed = add(c->rig.model, "speed", DMB_TARGET_SET_POINT, id, (double)NAN);
     c->gain = add(c->rig.model, "gain", DMB_TARGET_GAIN, id, (double)NAN);
@@ -220,7 +220,7 @@ static void gains_and_limits(void **state)
     dmb_motion motion = dmb_motion_default();
     dmb_drive_state drive = dmb_drive_state_default();
     dmb_input_info info = dmb_input_info_default();
-    run(sim, 100); /* its programme is at 5 rad/s since 0.05 s */
+    run(sim, 100); /* its time function is at 5 rad/s since 0.05 s */
     must(dmb_model_get_input(c.rig.model, 0, &info));
     must(dmb_query_drive(sim, info.part, &drive));
     const double error = 5.0 - drive.speed, rest = drive.force - 2.0 * error;
@@ -348,7 +348,7 @@ static void bad_definitions(void **state)
 }
 
 /* The speed of a motion drive and the way it has gone, at every step, against the reference by itself: rest to 0.3 m/s
- * from the 0.1 m/s of its programme, in the least time. */
+ * from the 0.1 m/s of its time function, in the least time. */
 static void motion_follows(void **state)
 {
     (void)state;
@@ -564,7 +564,8 @@ static void modes_outlive_the_sim(void **state)
     assert_true(isfinite(shapes[0]) && isfinite(shapes[1]));
 }
 
-/* Bytes with a checksum that fits: no value beyond the bounds, none that is no number where there is no programme. */
+/* Bytes with a checksum that fits: no value beyond the bounds, none that is no number where there is no time function.
+ */
 static void forged(void **state)
 {
     (void)state;

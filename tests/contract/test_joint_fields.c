@@ -14,14 +14,14 @@
 
 typedef struct scene_under_test {
     dmb_model *model;
-    dmb_id string, body, attached, bit, programme, wall, joint, pin;
+    dmb_id string, body, attached, bit, time_function, wall, joint, pin;
 } scene_under_test;
 
 static scene_under_test begin(void)
 {
     scene_under_test s;
     const dmb_wall_def wall = dmb_wall_def_default();
-    const dmb_term term = dmb_term_default();
+    const dmb_segment term = dmb_segment_default();
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     const dmb_bit_def bit = dmb_bit_def_default();
     dmb_body_def body = dmb_body_def_default();
@@ -29,7 +29,7 @@ static scene_under_test begin(void)
     memset(&s, 0, sizeof s);
     assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
     assert_int_equal(dmb_model_add_wall(s.model, &wall, &s.wall), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s.model, &term, 1, &s.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s.model, &term, 1, &s.time_function), DMB_OK);
     assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, &s.string), DMB_OK);
     assert_int_equal(dmb_model_add_body(s.model, &body, &s.body), DMB_OK);
     body.attach = DMB_ATTACH_START;
@@ -255,7 +255,7 @@ static void joint_places(void **state)
 {
     scene_under_test s = begin();
     const dmb_id none = {0, 0}, strange = {s.body.index, s.body.generation + 1};
-    const dmb_id wrong[] = {s.programme, s.wall, s.joint, strange, {UINT32_MAX, s.body.generation}};
+    const dmb_id wrong[] = {s.time_function, s.wall, s.joint, strange, {UINT32_MAX, s.body.generation}};
     dmb_joint_def joint = good_joint(&s);
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
@@ -450,7 +450,7 @@ static void drives(void **state)
     scene_under_test s = begin();
     dmb_drive_def drive = dmb_drive_def_default();
     (void)state;
-    drive.programme = s.programme;
+    drive.time_function = s.time_function;
     drive.part = s.pin;
     for (int32_t k = DMB_X; k <= DMB_RZ; ++k) {
         drive.component = k;

@@ -118,7 +118,8 @@ static void initial_speeds_that_fight(void **state)
 }
 
 /* A body that is described up to half a turn off: one that is free turns to where its joint holds it, although Newton's
- * iteration would end where its axes point against each other; one that a guide keeps from turning is refused there. */
+ * iteration would end where its axes point against each other; one that a support keeps from turning is refused there.
+ */
 static void described_turned_over(void **state)
 {
     (void)state;
@@ -128,18 +129,18 @@ static void described_turned_over(void **state)
     for (int k = 0; k < 5; k++)
         for (int axis = k < 2 ? 0 : 1; axis < 3; axis++)
             for (int far = 0; far < 5; far++) {
-                const int guided = far == 4;
+                const int supportd = far == 4;
                 rig s;
                 dmb_body_def body = dmb_body_def_default();
                 dmb_joint_def def = dmb_joint_def_default();
                 rig_open(&s, 0.0, 0.0, 0.0);
-                body.rotation[axis] = degrees[guided ? 3 : far] * PI / 180.0;
-                if (guided) body.free_mask = DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z;
+                body.rotation[axis] = degrees[supportd ? 3 : far] * PI / 180.0;
+                if (supportd) body.free_mask = DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z;
                 (void)snprintf(def.name, sizeof def.name, "plug");
                 def.kind = kinds[k];
                 def.place_b = dmb_station(add_body(&s, &body), 0, 0.0);
                 const dmb_id joint = add_joint(&s, &def);
-                if (guided) {
+                if (supportd) {
                     expect_no_start(&s, DMB_ERR_GEOMETRY, "joint 0 (plug): turned over", "3.14159 rad");
                     continue;
                 }
@@ -415,14 +416,14 @@ static void bounded_work_beyond_its_reach(void **state)
     rig_close(&p.s);
 }
 
-/* Two bodies on guides of the mesh, driven apart; a rod of fixed length between them. */
+/* Two bodies on supports of the mesh, driven apart; a rod of fixed length between them. */
 static void distance_stretched(void **state)
 {
     (void)state;
     rig s;
     dmb_body_def block = dmb_body_def_default();
     dmb_joint_def rod = dmb_joint_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(&s, 0.0, 0.0, -9.81);
     block.free_mask = DMB_FREE_X;
     const dmb_id a = add_body(&s, &block);
@@ -433,12 +434,12 @@ static void distance_stretched(void **state)
     rod.place_a = dmb_station(a, 0, 0.0);
     rod.place_b = dmb_station(b, 0, 0.0);
     const dmb_id joint = add_joint(&s, &rod);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.1;
     term.x1 = 0.2;
     term.h1 = 1.0;
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, a, DMB_X, add_constant(&s, 0.0));
-    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, b, DMB_X, add_programme(&s, &term, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, b, DMB_X, add_time_function(&s, &term, 1));
     (void)mechanism_start(&s, NULL);
     expect_stuck(&s, run_into(&s, 300));
     expect_text(dmb_sim_message(s.sim), "joint 0 (rod)");
@@ -455,7 +456,7 @@ typedef struct frame {
     dmb_id hinge[4], drive[2];
 } frame;
 
-static frame frame_of(const dmb_term *first, const dmb_term *second)
+static frame frame_of(const dmb_segment *first, const dmb_segment *second)
 {
     frame f;
     const bar left = {{0.0, 0.0}, {0.0, 1.0}, 1.0}, top = {{0.0, 1.0}, {2.0, 1.0}, 1.0},
@@ -466,22 +467,22 @@ static frame frame_of(const dmb_term *first, const dmb_term *second)
     f.hinge[1] = add_hinge(&f.s, "", DMB_JOINT_REVOLUTE, pin_on(a, 0.5), pin_on(b, -1.0));
     f.hinge[2] = add_hinge(&f.s, "", DMB_JOINT_REVOLUTE, pin_on(b, 1.0), pin_on(c, 0.5));
     f.hinge[3] = add_hinge(&f.s, "right", DMB_JOINT_REVOLUTE, pin_ground(2.0, 0.0), pin_on(c, -0.5));
-    f.drive[0] = add_simple_drive(&f.s, DMB_DRIVE_MOTION, f.hinge[0], DMB_RX, add_programme(&f.s, first, 1));
-    f.drive[1] = add_simple_drive(&f.s, DMB_DRIVE_MOTION, f.hinge[3], DMB_RX, add_programme(&f.s, second, 1));
+    f.drive[0] = add_simple_drive(&f.s, DMB_DRIVE_MOTION, f.hinge[0], DMB_RX, add_time_function(&f.s, first, 1));
+    f.drive[1] = add_simple_drive(&f.s, DMB_DRIVE_MOTION, f.hinge[3], DMB_RX, add_time_function(&f.s, second, 1));
     return f;
 }
 
-static dmb_term constant(double value)
+static dmb_segment constant(double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.h0 = value;
     return term;
 }
 
-static dmb_term ramp(double h1)
+static dmb_segment ramp(double h1)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.1;
     term.x1 = 0.3;
     term.h1 = h1;
@@ -491,7 +492,7 @@ static dmb_term ramp(double h1)
 static void drives_that_fight_from_the_start(void **state)
 {
     (void)state;
-    const dmb_term slow = constant(0.5), fast = constant(0.7);
+    const dmb_segment slow = constant(0.5), fast = constant(0.7);
     frame f = frame_of(&slow, &fast);
     expect_no_start(&f.s, DMB_ERR_GEOMETRY, "drive ", "speed cannot be had");
 }
@@ -500,7 +501,7 @@ static void drives_that_fight_from_the_start(void **state)
 static void drives_that_come_to_fight(void **state)
 {
     (void)state;
-    const dmb_term slow = ramp(0.5), fast = ramp(0.7);
+    const dmb_segment slow = ramp(0.5), fast = ramp(0.7);
     frame f = frame_of(&slow, &slow);
     (void)mechanism_start(&f.s, NULL);
     take_steps(&f.s, step, 400);

@@ -22,15 +22,15 @@ static double faulty_sum(uint32_t count, const double *a)
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 /* Rate that jumps at 2.4 ms, behind five steps of 0.4 ms and one to come. */
-static dmb_id bent_programme(rig *r)
+static dmb_id bent_time_function(rig *r)
 {
     static const double times[] = {0.0, 2.4e-3, 1.0}, values[] = {0.0, 0.0, 40.0};
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_TABLE;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = times;
     term.table_value = values;
     term.table_count = 3;
-    return add_programme(r, &term, 1);
+    return add_time_function(r, &term, 1);
 }
 
 static void start(rig *r, dmb_kernels *kernels)
@@ -51,7 +51,7 @@ static void open_turned(rig *r)
     const dmb_pipe_def pipe = s1_pipe();
     rig_open(r, 0.0, 0.0, -9.81);
     const dmb_id string = add_pipes(r, &pipe, 3);
-    (void)add_simple_drive(r, DMB_DRIVE_MOTION, string, DMB_RX, bent_programme(r));
+    (void)add_simple_drive(r, DMB_DRIVE_MOTION, string, DMB_RX, bent_time_function(r));
 }
 
 /* The same by a joint, whose equations are settled anew. */
@@ -65,7 +65,7 @@ static void open_jointed(rig *r)
     dmb_joint_def joint = joint_between(DMB_JOINT_REVOLUTE, dmb_station(ground, 0, 0.0), dmb_station(arm, 0, 0.0));
     joint.origin_b[0] = -0.3;
     joint.match = 1;
-    (void)add_simple_drive(r, DMB_DRIVE_MOTION, add_joint(r, &joint), DMB_RX, bent_programme(r));
+    (void)add_simple_drive(r, DMB_DRIVE_MOTION, add_joint(r, &joint), DMB_RX, bent_time_function(r));
 }
 
 /* A string that is pulled until a place comes free. */

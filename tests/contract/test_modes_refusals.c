@@ -42,7 +42,7 @@ static void close_scene(scene *s)
 
 /* ---- Nothing to move --------------------------------------------------------------------------------------------- */
 
-/* A body that its guide holds altogether, and one that a drive moves. */
+/* A body that its support holds altogether, and one that a drive moves. */
 static void nothing_is_free(void **state)
 {
     (void)state;
@@ -52,12 +52,12 @@ static void nothing_is_free(void **state)
         dmb_modes *modes = NULL;
         dmb_body_def body = dmb_body_def_default();
         dmb_drive_def drive = dmb_drive_def_default();
-        const dmb_term zero = dmb_term_default();
+        const dmb_segment zero = dmb_segment_default();
         assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
         body.free_mask = driven ? DMB_FREE_RX : DMB_FREE_NONE;
         assert_int_equal(dmb_model_add_body(model, &body, &drive.part), DMB_OK);
         drive.component = DMB_RX;
-        assert_int_equal(dmb_model_add_programme(model, &zero, 1, &drive.programme), DMB_OK);
+        assert_int_equal(dmb_model_add_time_function(model, &zero, 1, &drive.time_function), DMB_OK);
         if (driven) assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_OK);
         assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
         assert_int_equal(dmb_sim_create(model, NULL, &sim), DMB_OK);

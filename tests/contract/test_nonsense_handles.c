@@ -187,9 +187,9 @@ static int32_t fatigue_create(dmb_sim *sim, int missing)
 }
 static int32_t window_create(dmb_sim *sim, int missing)
 {
-    const dmb_channel channel = {.place = scene.place, .quantity = DMB_CHANNEL_POSITION_Y};
+    const dmb_output output = {.place = scene.place, .quantity = DMB_OUTPUT_POSITION_Y};
     dmb_window *made = NULL;
-    const int32_t status = dmb_window_create(sim, NULL, GIVEN(&channel), 1, &made);
+    const int32_t status = dmb_window_create(sim, NULL, GIVEN(&output), 1, &made);
     assert_null(made);
     return status;
 }
@@ -250,7 +250,7 @@ ADD(wall, wall_def)
 ADD(string, string_def)
 ADD(body, body_def)
 ADD(bit, bit_def)
-ADD(ring, ring_def)
+ADD(stabiliser, stabiliser_def)
 ADD(drive, drive_def)
 ADD(load, load_def)
 ADD(joint, joint_def)
@@ -262,10 +262,10 @@ static int32_t set_environment(dmb_model *model, int missing)
     const dmb_environment_def def = dmb_environment_def_default();
     return dmb_model_set_environment(model, GIVEN(&def));
 }
-static int32_t add_programme(dmb_model *model, int missing)
+static int32_t add_time_function(dmb_model *model, int missing)
 {
-    const dmb_term term = dmb_term_default();
-    return dmb_model_add_programme(model, GIVEN(&term), 1, NULL);
+    const dmb_segment term = dmb_segment_default();
+    return dmb_model_add_time_function(model, GIVEN(&term), 1, NULL);
 }
 static int32_t add_hole_sections(dmb_model *model, int missing)
 {
@@ -316,14 +316,14 @@ static const struct {
     model_call call;
     int describes; /* refused with DMB_ERR_ORDER once the model is compiled */
 } model_calls[] = {{"set_environment", set_environment, 1},
-                   {"add_programme", add_programme, 1},
+                   {"add_time_function", add_time_function, 1},
                    {"add_wall", add_wall, 1},
                    {"add_hole_sections", add_hole_sections, 1},
                    {"add_string", add_string, 1},
                    {"add_pipes", add_pipes, 1},
                    {"add_body", add_body, 1},
                    {"add_bit", add_bit, 1},
-                   {"add_ring", add_ring, 1},
+                   {"add_stabiliser", add_stabiliser, 1},
                    {"add_drive", add_drive, 1},
                    {"add_load", add_load, 1},
                    {"add_joint", add_joint, 1},

@@ -30,18 +30,18 @@ static void expect(int32_t status, int32_t wanted, const char *call)
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------- */
 
-static const dmb_channel height = {.quantity = DMB_CHANNEL_POSITION_Y};
+static const dmb_output height = {.quantity = DMB_OUTPUT_POSITION_Y};
 
-static dmb_input force(void)
+static dmb_excitation force(void)
 {
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.place = s.place;
     return input;
 }
 
-static dmb_output motion(void)
+static dmb_response_output motion(void)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.place = s.place;
     return output;
 }
@@ -87,15 +87,15 @@ static int set_up(void **state)
 {
     (void)state;
     describe();
-    const dmb_input input = force();
-    const dmb_output output = motion();
+    const dmb_excitation input = force();
+    const dmb_response_output output = motion();
     const dmb_parameter p = parameter();
     const dmb_fatigue_options fatigue = fatigue_options();
     dmb_modes_options modes = dmb_modes_options_default();
     dmb_buckling_options buckling = dmb_buckling_options_default();
     dmb_response_options response = dmb_response_options_default();
-    dmb_channel channel = height;
-    channel.place = s.place;
+    dmb_output reading = height;
+    reading.place = s.place;
     modes.count = 2;
     response.points = 3;
     (void)find_equilibrium(&s.r, NULL);
@@ -105,7 +105,7 @@ static int set_up(void **state)
     must(&s.r, dmb_analysis_response(s.r.sim, &response, &input, 1, &output, 1, &s.response));
     must(&s.r, dmb_analysis_state_space(s.r.sim, NULL, &input, 1, &output, 1, &s.space));
     must(&s.r, dmb_fatigue_create(s.r.sim, &fatigue, &s.place, 1, &s.fatigue));
-    must(&s.r, dmb_window_create(s.r.sim, NULL, &channel, 1, &s.window));
+    must(&s.r, dmb_window_create(s.r.sim, NULL, &reading, 1, &s.window));
     assert_true(dmb_sensitivity_create(s.beside, &p, 1, &s.sensitivity) >= 0);
     return 0;
 }
@@ -182,8 +182,8 @@ static void of_responses(void **state)
 {
     (void)state;
     dmb_response *made = NULL;
-    const dmb_input input = force();
-    const dmb_output output = motion();
+    const dmb_excitation input = force();
+    const dmb_response_output output = motion();
     uint32_t dimensions[3];
     double values[8];
     MISSING(dmb_analysis_response(NULL, NULL, &input, 1, &output, 1, &made));
@@ -202,20 +202,20 @@ static void of_responses(void **state)
     NO_OBJECT(dmb_response_frequencies(JUNK(dmb_response), values));
     NO_OBJECT(dmb_response_transfer(JUNK(dmb_response), 0, 0, values));
     NO_OBJECT(dmb_response_write_csv(JUNK(dmb_response), "/dev/null"));
-    expect(dmb_response_transfer(s.response, 1, 0, values), DMB_ERR_VALUE, "input 1 of one");
+    expect(dmb_response_transfer(s.response, 1, 0, values), DMB_ERR_VALUE, "excitation 1 of one");
     expect(dmb_response_transfer(s.response, 0, 1, values), DMB_ERR_VALUE, "output 1 of one");
 }
 
 static void of_stepped_sines_and_speeds(void **state)
 {
     (void)state;
-    const dmb_output output = motion();
+    const dmb_response_output output = motion();
     const double limit = 1.0;
     double amplitudes[8];
     dmb_order order = dmb_order_default();
     dmb_speed_band bands[2] = {dmb_speed_band_default(), dmb_speed_band_default()};
     uint32_t count = 2;
-    order.input = force();
+    order.excitation = force();
     MISSING(dmb_analysis_stepped_sine(NULL, 10.0, NULL, &output, 1, amplitudes, NULL));
     MISSING(dmb_analysis_stepped_sine(s.r.sim, 10.0, NULL, NULL, 1, amplitudes, NULL));
     MISSING(dmb_analysis_stepped_sine(s.r.sim, 10.0, NULL, &output, 1, NULL, NULL));
@@ -231,8 +231,8 @@ static void of_state_spaces(void **state)
 {
     (void)state;
     dmb_state_space *made = NULL;
-    const dmb_input input = force();
-    const dmb_output output = motion();
+    const dmb_excitation input = force();
+    const dmb_response_output output = motion();
     dmb_state_space_info info = dmb_state_space_info_default();
     double values[24];
     uint32_t rows[24], count;
@@ -334,15 +334,15 @@ static void of_sensitivities(void **state)
     NO_OBJECT(dmb_sensitivity_create(s.beside, &p, 1, &made));
     MISSING(dmb_sensitivity_step(NULL, 1e-3, NULL));
     MISSING(dmb_sensitivity_advance(NULL, 1e-3, NULL));
-    MISSING(dmb_sensitivity_channels(NULL, &height, 1, values, derivatives));
-    MISSING(dmb_sensitivity_channels(s.sensitivity, NULL, 1, values, derivatives));
+    MISSING(dmb_sensitivity_outputs(NULL, &height, 1, values, derivatives));
+    MISSING(dmb_sensitivity_outputs(s.sensitivity, NULL, 1, values, derivatives));
     MISSING(dmb_sensitivity_rows(NULL, 0, values, derivatives, &rows));
     MISSING(dmb_sensitivity_rows(s.sensitivity, 0, values, derivatives, NULL));
     MISSING(dmb_sensitivity_kinks(NULL, 0, &kinks));
     MISSING(dmb_sensitivity_kinks(s.sensitivity, 0, NULL));
     NO_OBJECT(dmb_sensitivity_step(JUNK(dmb_sensitivity), 1e-3, NULL));
     NO_OBJECT(dmb_sensitivity_advance(JUNK(dmb_sensitivity), 1e-3, NULL));
-    NO_OBJECT(dmb_sensitivity_channels(JUNK(dmb_sensitivity), &height, 1, values, derivatives));
+    NO_OBJECT(dmb_sensitivity_outputs(JUNK(dmb_sensitivity), &height, 1, values, derivatives));
     NO_OBJECT(dmb_sensitivity_rows(JUNK(dmb_sensitivity), 0, values, derivatives, &rows));
     NO_OBJECT(dmb_sensitivity_kinks(JUNK(dmb_sensitivity), 0, &kinks));
     expect(dmb_sensitivity_kinks(s.sensitivity, 1, &kinks), DMB_ERR_VALUE, "kinks of parameter 1 of one");
@@ -451,24 +451,24 @@ static void of_events(void **state)
 
 /* ---- Queries, recorders, parts of a string ----------------------------------------------------------------------- */
 
-static void of_channels(void **state)
+static void of_outputs(void **state)
 {
     (void)state;
     double value;
     int32_t quantity;
     dmb_profile_recorder profile = dmb_profile_recorder_default();
-    MISSING(dmb_query_channel(NULL, &height, &value));
-    MISSING(dmb_query_channel(s.r.sim, NULL, &value));
-    MISSING(dmb_query_channel(s.r.sim, &height, NULL));
-    MISSING(dmb_channel_quantity(NULL, &quantity));
-    MISSING(dmb_channel_quantity("position_x", NULL));
-    MISSING(dmb_channel_check(NULL, &height, 1));
-    MISSING(dmb_channel_check(s.r.sim, NULL, 1));
+    MISSING(dmb_query_output(NULL, &height, &value));
+    MISSING(dmb_query_output(s.r.sim, NULL, &value));
+    MISSING(dmb_query_output(s.r.sim, &height, NULL));
+    MISSING(dmb_output_quantity(NULL, &quantity));
+    MISSING(dmb_output_quantity("position_x", NULL));
+    MISSING(dmb_output_check(NULL, &height, 1));
+    MISSING(dmb_output_check(s.r.sim, NULL, 1));
     MISSING(dmb_profile_recorder_take(NULL, s.r.sim));
     MISSING(dmb_profile_recorder_take(&profile, s.r.sim)); /* its profile */
     MISSING(dmb_profile_recorder_write_csv(NULL, "/dev/null"));
     MISSING(dmb_profile_recorder_write_csv(&profile, "/dev/null"));
-    assert_null(dmb_channel_name(-1, NULL));
+    assert_null(dmb_output_name(-1, NULL));
     assert_null(dmb_profile_name(-1, NULL));
 }
 
@@ -559,7 +559,7 @@ static void nothing_has_changed(void **state)
                                     of_state_spaces,  of_fatigue_and_windows,
                                     of_sensitivities, of_torque_and_drag,
                                     of_inputs,        of_events,
-                                    of_channels,      of_queries};
+                                    of_outputs,       of_queries};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) all[i](state);
     assert_true(rig_hash(&s.r) == before);
 }
@@ -580,7 +580,7 @@ int main(void)
         TEST(of_names),
         TEST(of_inputs),
         TEST(of_events),
-        TEST(of_channels),
+        TEST(of_outputs),
         TEST(of_queries),
         TEST(of_subs_and_motors),
         TEST(nothing_has_changed),

@@ -14,7 +14,7 @@ static struct {
     dmb_sim *plain;
     dmb_model *mud_model; /* the same with mud that flows */
     dmb_sim *mud;
-    dmb_channel channel;
+    dmb_output output;
     double table[8];
 } scene;
 
@@ -46,7 +46,7 @@ typedef struct entry {
     }
 
 /* clang-format off */
-INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
+INIT(model_options) INIT(environment_def) INIT(segment) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
 INIT(event_def) INIT(event_report)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
@@ -57,7 +57,7 @@ INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(hydraulics)
 INIT(fatigue_options) INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
-INIT(stuck_def) INIT(stuck_state) INIT(flow_state) INIT(motor) INIT(ring_def) INIT(sub_def) INIT(sub)
+INIT(stuck_def) INIT(stuck_state) INIT(flow_state) INIT(motor) INIT(stabiliser_def) INIT(sub_def) INIT(sub)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -104,12 +104,12 @@ static int32_t add_drive(dmb_model *model, void *p)
 {
     dmb_drive_def *drive = p;
     const dmb_pipe_def pipe = dmb_pipe_def_default();
-    const dmb_term term = dmb_term_default();
-    dmb_id programme;
+    const dmb_segment segment = dmb_segment_default();
+    dmb_id time_function;
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(model, &term, 1, &programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(model, &segment, 1, &time_function), DMB_OK);
     if (drive->struct_size >= 72) /* has it */
-        drive->programme = programme;
+        drive->time_function = time_function;
     return dmb_model_add_drive(model, drive, NULL);
 }
 
@@ -174,11 +174,11 @@ static int32_t add_stuck(dmb_model *model, void *p)
     return dmb_model_add_stuck(model, stuck, NULL);
 }
 
-static int32_t add_ring(dmb_model *model, void *p)
+static int32_t add_stabiliser(dmb_model *model, void *p)
 {
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
-    return dmb_model_add_ring(model, p, NULL);
+    return dmb_model_add_stabiliser(model, p, NULL);
 }
 
 static int32_t add_spring(dmb_model *model, void *p)
@@ -262,7 +262,7 @@ static int32_t add_input(dmb_model *model, void *p)
 static dmb_event_def an_event(void)
 {
     dmb_event_def event = dmb_event_def_default();
-    event.output.quantity = DMB_CHANNEL_ENERGY_ERROR;
+    event.output.quantity = DMB_OUTPUT_ENERGY_ERROR;
     event.name[0] = 'e';
     event.level = 1e20;
     return event;
@@ -326,9 +326,9 @@ static int32_t add_environment(dmb_model *model, void *p)
 {
     return dmb_model_set_environment(model, p);
 }
-static int32_t add_term(dmb_model *model, void *p)
+static int32_t add_segment(dmb_model *model, void *p)
 {
-    return dmb_model_add_programme(model, p, 1, NULL);
+    return dmb_model_add_time_function(model, p, 1, NULL);
 }
 static int32_t add_wall(dmb_model *model, void *p)
 {
@@ -367,7 +367,7 @@ static dmb_place middle(void)
 }
 
 CALL(environment_def, with_model(add_environment, p))
-CALL(term, with_model(add_term, p))
+CALL(segment, with_model(add_segment, p))
 CALL(wall_def, with_model(add_wall, p))
 CALL(hole_section, with_model(add_hole_sections, p))
 CALL(string_def, with_model(add_string, p))
@@ -396,7 +396,7 @@ static int32_t call_motor(void *p)
 }
 
 CALL(force_def, with_model(add_force, p))
-CALL(ring_def, with_model(add_ring, p))
+CALL(stabiliser_def, with_model(add_stabiliser, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
 CALL(constraint_def, with_model(add_constraint, p))
@@ -528,7 +528,7 @@ static int32_t call_fatigue_result(void *p)
 static int32_t call_window_options(void *p)
 {
     dmb_window *window = NULL;
-    const int32_t status = dmb_window_create(scene.sim, p, &scene.channel, 1, &window);
+    const int32_t status = dmb_window_create(scene.sim, p, &scene.output, 1, &window);
     dmb_window_destroy(&window);
     return status;
 }
@@ -536,7 +536,7 @@ static int32_t call_window_options(void *p)
 static int32_t call_window_result(void *p)
 {
     dmb_window *window = NULL;
-    assert_int_equal(dmb_window_create(scene.sim, NULL, &scene.channel, 1, &window), DMB_OK);
+    assert_int_equal(dmb_window_create(scene.sim, NULL, &scene.output, 1, &window), DMB_OK);
     const int32_t status = dmb_window_get(window, 0, p);
     dmb_window_destroy(&window);
     return status;
@@ -591,8 +591,8 @@ static int32_t call_recorder(void *p)
 {
     dmb_recorder *recorder = p;
     if (recorder->struct_size >= offsetof(dmb_recorder, window)) {
-        recorder->channels = &scene.channel;
-        recorder->channel_count = 1;
+        recorder->outputs = &scene.output;
+        recorder->output_count = 1;
         recorder->table = scene.table;
         recorder->capacity = 4;
         recorder->row_count = 0;
@@ -615,7 +615,7 @@ static const entry entries[] = {
     ENTRY(allocator, 0),
     ENTRY(model_options, 0),
     GROWN(environment_def, 64, 0),
-    ENTRY(term, 0),
+    ENTRY(segment, 0),
     GROWN(wall_def, 184, 0),
     ENTRY(hole_section, 0),
     GROWN(string_def, 136, 0),
@@ -668,7 +668,7 @@ static const entry entries[] = {
     ENTRY(input_state, 1),
     ENTRY(spring_def, 0),
     ENTRY(force_def, 0),
-    GROWN(ring_def, 96, 0),
+    GROWN(stabiliser_def, 96, 0),
     ENTRY(spring_state, 1),
     ENTRY(stuck_def, 0),
     GROWN(motor, 32, 0),
@@ -708,7 +708,7 @@ static int set_up(void **state)
     scene.sim = whole_sim(scene.model, NULL);
     make_pipe(NULL, &scene.plain_model, &scene.plain);
     make_pipe(&mud, &scene.mud_model, &scene.mud);
-    scene.channel.quantity = DMB_CHANNEL_ENERGY_ERROR;
+    scene.output.quantity = DMB_OUTPUT_ENERGY_ERROR;
     whole_run(scene.sim, 3, 1e-3);
     return 0;
 }
@@ -875,18 +875,18 @@ static void init_stays_within_its_size(void **state)
 /* Terms stand side by side: all of them have to be of one size. */
 static void terms_of_different_size_are_refused(void **state)
 {
-    dmb_term terms[3] = {dmb_term_default(), dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[3] = {dmb_segment_default(), dmb_segment_default(), dmb_segment_default()};
     dmb_model *model = NULL;
     (void)state;
     assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
     for (size_t i = 1; i < 3; i++) {
-        terms[i].struct_size = (uint32_t)sizeof(dmb_term) + 8;
-        assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
+        terms[i].struct_size = (uint32_t)sizeof(dmb_segment) + 8;
+        assert_int_equal(dmb_model_add_time_function(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
         terms[i].struct_size = 0;
-        assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
-        terms[i].struct_size = (uint32_t)sizeof(dmb_term);
+        assert_int_equal(dmb_model_add_time_function(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
+        terms[i].struct_size = (uint32_t)sizeof(dmb_segment);
     }
-    assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(model, terms, 3, NULL), DMB_OK);
     dmb_model_destroy(&model);
 }
 

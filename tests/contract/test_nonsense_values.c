@@ -41,7 +41,7 @@ static void refused(const char *what, int32_t status, int32_t wanted)
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
-enum { STRING, BODY, BIT, DRIVE, PROGRAMME, WALL, JOINT, COUPLING, CONSTRAINT, KINDS };
+enum { STRING, BODY, BIT, DRIVE, TIME_FUNCTION, WALL, JOINT, COUPLING, CONSTRAINT, KINDS };
 
 static dmb_id id_of(const whole_parts *parts, int kind)
 {
@@ -111,13 +111,13 @@ static int32_t ask_multipliers(dmb_id id)
 static int32_t record(dmb_id id, int32_t quantity)
 {
     dmb_recorder recorder = dmb_recorder_default();
-    dmb_channel channel;
+    dmb_output output;
     double table[2];
-    memset(&channel, 0, sizeof channel);
-    channel.place = dmb_station(id, 0, 0.0);
-    channel.quantity = quantity;
-    recorder.channels = &channel;
-    recorder.channel_count = 1;
+    memset(&output, 0, sizeof output);
+    output.place = dmb_station(id, 0, 0.0);
+    output.quantity = quantity;
+    recorder.outputs = &output;
+    recorder.output_count = 1;
     recorder.table = table;
     recorder.capacity = 1;
     const int32_t status = dmb_recorder_take(&recorder, scene.sim);
@@ -126,22 +126,22 @@ static int32_t record(dmb_id id, int32_t quantity)
 }
 static int32_t record_position(dmb_id id)
 {
-    return record(id, DMB_CHANNEL_POSITION_X);
+    return record(id, DMB_OUTPUT_POSITION_X);
 }
 static int32_t record_drive(dmb_id id)
 {
-    return record(id, DMB_CHANNEL_DRIVE_SPEED);
+    return record(id, DMB_OUTPUT_DRIVE_SPEED);
 }
 static int32_t record_bit(dmb_id id)
 {
-    return record(id, DMB_CHANNEL_BIT_WEIGHT);
+    return record(id, DMB_OUTPUT_BIT_WEIGHT);
 }
 static int32_t record_normal_force(dmb_id id)
 {
-    return record(id, DMB_CHANNEL_NORMAL_FORCE);
+    return record(id, DMB_OUTPUT_NORMAL_FORCE);
 }
 
-/*                                            string body bit drive programme wall joint coupling constraint */
+/*                                            string body bit drive time function wall joint coupling constraint */
 static const question questions[] = {
     {"pose", ask_pose, {1, 1, 1, 0, 0, 0}},
     {"motion", ask_motion, {1, 1, 1, 0, 0, 0}},
@@ -172,7 +172,7 @@ static void wrong_kind_of_id_is_refused(void **state)
 /* Sections and reactions are of strings and bodies; what they say of the others is their own. */
 static void sections_and_reactions_refuse_other_ids(void **state)
 {
-    static const int kinds[] = {DRIVE, PROGRAMME, WALL, JOINT, COUPLING, CONSTRAINT};
+    static const int kinds[] = {DRIVE, TIME_FUNCTION, WALL, JOINT, COUPLING, CONSTRAINT};
     (void)state;
     refused("section", ask_section(scene.parts.string), DMB_OK);
     refused("section of a body", ask_section(scene.parts.body), DMB_ERR_UNSUPPORTED);
@@ -236,9 +236,9 @@ static void definitions_refuse_strange_ids(void **state)
         bit.string = (dmb_id){0, 0};
         bit.load = strange[i];
         refused("bit's load", dmb_model_add_bit(model, &bit, NULL), DMB_ERR_ID);
-        drive.programme = strange[i];
-        refused("drive's programme", dmb_model_add_drive(model, &drive, NULL), DMB_ERR_ID);
-        drive.programme = parts.step;
+        drive.time_function = strange[i];
+        refused("drive's time function", dmb_model_add_drive(model, &drive, NULL), DMB_ERR_ID);
+        drive.time_function = parts.step;
         drive.part = strange[i];
         refused("drive's part", dmb_model_add_drive(model, &drive, NULL), DMB_ERR_ID);
         drive.part = parts.string;
@@ -247,8 +247,8 @@ static void definitions_refuse_strange_ids(void **state)
         load.place = dmb_station(strange[i], 0, 1.0);
         refused("load's place", dmb_model_add_load(model, &load, NULL), DMB_ERR_ID);
         load.place = dmb_station(parts.string, 0, 1.0);
-        load.programme = strange[i];
-        refused("load's programme", dmb_model_add_load(model, &load, NULL), DMB_ERR_ID);
+        load.time_function = strange[i];
+        refused("load's time function", dmb_model_add_load(model, &load, NULL), DMB_ERR_ID);
         joint.place_b = dmb_station(parts.string, 0, 1.0);
         joint.place_a = dmb_station(strange[i], 0, 0.0);
         refused("joint's place a", dmb_model_add_joint(model, &joint, NULL), DMB_ERR_ID);
@@ -317,8 +317,8 @@ static void other_numbers_of_questions_are_checked(void **state)
     double energy = 3.0;
     (void)state;
     assert_int_equal(dmb_model_get_info(scene.model, &info), DMB_OK);
-    refused("last site", dmb_query_contact(scene.sim, info.contact_sites - 1, &contact), DMB_OK);
-    refused("site", dmb_query_contact(scene.sim, info.contact_sites, &contact), DMB_ERR_VALUE);
+    refused("last site", dmb_query_contact(scene.sim, info.contact_points - 1, &contact), DMB_OK);
+    refused("site", dmb_query_contact(scene.sim, info.contact_points, &contact), DMB_ERR_VALUE);
     refused("site", dmb_query_contact(scene.sim, UINT32_MAX, &contact), DMB_ERR_VALUE);
     refused("pipe", dmb_query_kinetic_energy(scene.sim, scene.parts.string, WHOLE_PIPES, &energy), DMB_ERR_VALUE);
     refused("pipe", dmb_query_kinetic_energy(scene.sim, scene.parts.body, 1, &energy), DMB_ERR_VALUE);
@@ -624,9 +624,9 @@ static void recorders_that_are_none_are_refused(void **state)
         refused(#field, dmb_recorder_take(&a.recorder, scene.sim), wanted); \
         assert_true(dmb_recorder_write_csv(&a.recorder, "/dev/null") < 0);  \
     } while (0)
-    BAD(channel_count, 0, DMB_ERR_VALUE);
-    BAD(channel_count, 4097, DMB_ERR_VALUE);
-    BAD(channels, NULL, DMB_ERR_NULL);
+    BAD(output_count, 0, DMB_ERR_VALUE);
+    BAD(output_count, 4097, DMB_ERR_VALUE);
+    BAD(outputs, NULL, DMB_ERR_NULL);
     BAD(table, NULL, DMB_ERR_NULL);
     BAD(interval, -1.0, DMB_ERR_VALUE);
     BAD(interval, (double)NAN, DMB_ERR_NOT_FINITE);
@@ -634,9 +634,9 @@ static void recorders_that_are_none_are_refused(void **state)
     BAD(capacity, UINT64_MAX, DMB_ERR_VALUE);
 #undef BAD
     a.recorder = good;
-    a.channels[2].quantity = DMB_CHANNEL_COUNT;
+    a.outputs[2].quantity = DMB_OUTPUT_COUNT;
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);
-    a.channels[2].quantity = -1;
+    a.outputs[2].quantity = -1;
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);
     assert_int_equal(a.recorder.row_count, 0);
 }

@@ -38,7 +38,7 @@ static void told_where_described(void **state)
     strcpy(drive.name, "pump");
     drive.part = id;
     assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_ERR_ID);
-    expect(dmb_model_message(model), "drive 0 (pump): programme");
+    expect(dmb_model_message(model), "drive 0 (pump): time_function");
     memset(drive.name, 'x', sizeof drive.name);
     assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_ERR_VALUE);
     expect(dmb_model_message(model), "drive 0: name");
@@ -55,10 +55,10 @@ static void told_where_described(void **state)
 
 static dmb_id constant(dmb_model *model, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id;
     term.h0 = value;
-    must(dmb_model_add_programme(model, &term, 1, &id));
+    must(dmb_model_add_time_function(model, &term, 1, &id));
     return id;
 }
 
@@ -73,7 +73,7 @@ static void told_by_compile(void **state)
     body.free_mask = DMB_FREE_RX;
     must(dmb_model_add_body(model, &body, &drive.part));
     strcpy(drive.name, "pump");
-    drive.programme = constant(model, 1.0);
+    drive.time_function = constant(model, 1.0);
     drive.component = DMB_X;
     must(dmb_model_add_drive(model, &drive, NULL));
     assert_int_equal(dmb_model_compile(model, NULL), DMB_ERR_VALUE);
@@ -105,7 +105,7 @@ static void told_by_runs_and_analyses(void **state)
     must(dmb_model_add_body(model, &body, NULL));
     strcpy(drive.name, "pump");
     drive.component = DMB_RX;
-    drive.programme = constant(model, 1.0);
+    drive.time_function = constant(model, 1.0);
     must(dmb_model_add_drive(model, &drive, &id));
     must(dmb_model_compile(model, NULL));
     assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
@@ -114,12 +114,12 @@ static void told_by_runs_and_analyses(void **state)
     assert_true(dmb_analysis_static(sim, NULL, NULL) < 0);
     expect(dmb_sim_message(sim), "): nothing holds it");
     must(dmb_analysis_check_text(sim, text, sizeof text, NULL));
-    expect(text, "body 1 (stone): no guide");
+    expect(text, "body 1 (stone): no support");
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);
 }
 
-/* Strings, runs of pipes, bits, walls and programmes have names too; a mistake in a definition tells them. */
+/* Strings, runs of pipes, bits, walls and time functions have names too; a mistake in a definition tells them. */
 static void told_of_every_kind(void **state)
 {
     dmb_model *model;
@@ -200,7 +200,7 @@ static void looked_up(void **state)
     dmb_body_def body = dmb_body_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_input_def input = dmb_input_def_default();
-    dmb_id string, head, moved, set, programme, found = {7, 7};
+    dmb_id string, head, moved, set, time_function, found = {7, 7};
     uint32_t first, count;
     char text[DMB_NAME_SIZE], longer[64];
     (void)state;
@@ -216,8 +216,8 @@ static void looked_up(void **state)
     assert_int_equal(dmb_model_add_body(model, &body, NULL), DMB_ERR_VALUE);
     expect(dmb_model_message(model), "body 1 (head): name = head, must be of its own, and body 0 has it; give another");
     must(dmb_model_clear_refused(model));
-    programme = constant(model, 1.0);
-    drive.programme = programme;
+    time_function = constant(model, 1.0);
+    drive.time_function = time_function;
     drive.component = DMB_RX;
     strcpy(drive.name, "rotation");
     must(dmb_model_add_drive(model, &drive, &moved));
@@ -245,14 +245,14 @@ static void looked_up(void **state)
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_ERR_VALUE);
     expect(dmb_model_message(model), "name is no text");
     must(dmb_model_clear_refused(model));
-    must(dmb_model_set_name(model, programme, "120 rpm"));
-    must_be(model, DMB_PART_ANY, "120 rpm", programme);
-    must(dmb_model_set_name(model, programme, "60 rpm"));
+    must(dmb_model_set_name(model, time_function, "120 rpm"));
+    must_be(model, DMB_PART_ANY, "120 rpm", time_function);
+    must(dmb_model_set_name(model, time_function, "60 rpm"));
     assert_int_equal(dmb_model_find(model, DMB_PART_ANY, "120 rpm", &found), DMB_ERR_ID);
     const dmb_id second = constant(model, 2.0);
     must(dmb_model_set_name(model, second, "90 rpm"));
-    must_be(model, DMB_PART_PROGRAMME, "90 rpm", second);
-    must_be(model, DMB_PART_PROGRAMME, "60 rpm", programme);
+    must_be(model, DMB_PART_TIME_FUNCTION, "90 rpm", second);
+    must_be(model, DMB_PART_TIME_FUNCTION, "60 rpm", time_function);
     assert_int_equal(dmb_model_set_name(model, second, "60 rpm"), DMB_ERR_VALUE);
     const dmb_id odd[3] = {
         {0, head.generation}, {UINT32_C(60) << 24, head.generation}, {UINT32_C(18) << 24, head.generation}};

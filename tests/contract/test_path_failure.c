@@ -36,7 +36,7 @@ static void lay(subject *c, dmb_string_def string, dmb_pipe_def pipe)
     c->place = dmb_station(c->string, 0, 1.0);
 }
 
-static void load_and_start(subject *c, dmb_load_def load, double programme)
+static void load_and_start(subject *c, dmb_load_def load, double time_function)
 {
     dmb_force_def force = dmb_force_def_default();
     force.place[0] = load.place = c->place;
@@ -44,14 +44,15 @@ static void load_and_start(subject *c, dmb_load_def load, double programme)
     force.provides = DMB_PROVIDES_TANGENT;
     force.callback_context = c;
     must_model(&c->r, dmb_model_add_force(c->r.model, &force, NULL));
-    load.programme = add_constant(&c->r, programme);
+    load.time_function = add_constant(&c->r, time_function);
     c->push = add_load(&c->r, &load);
     (void)rig_start(&c->r, NULL);
     (void)find_equilibrium(&c->r, NULL);
 }
 
-/* Half of a pinned column, its end in the middle moves and does not turn. programme: of its push, over Euler's load. */
-static void open_column(subject *c, double programme)
+/* Half of a pinned column, its end in the middle moves and does not turn. time function: of its push, over Euler's
+ * load. */
+static void open_column(subject *c, double time_function)
 {
     dmb_string_def string = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
@@ -59,7 +60,7 @@ static void open_column(subject *c, double programme)
     string.end_free = DMB_FREE_TRANSLATIONS;
     lay(c, string, beam_pipe(5.0, 6, 1e7, 1e7, 1e4, 1e4));
     load.force[0] = -PI * PI * 1e4 / 100.0;
-    load_and_start(c, load, programme);
+    load_and_start(c, load, time_function);
 }
 
 static void open_unloaded_column(subject *c)
@@ -76,17 +77,17 @@ static void open_pushed_column(subject *c)
 static void open_truss(subject *c)
 {
     dmb_string_def string = dmb_string_def_default();
-    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_joint_def support = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
     string.rotation[1] = -atan2(2.0, 10.0);
     string.start_free = 1 << DMB_RY;
     lay(c, string, beam_pipe(hypot(10.0, 2.0), 1, 1e6, 1e8, 1e8, 1e8));
-    guide.kind = DMB_JOINT_POINT_ON_LINE;
-    guide.place_b = c->place;
-    guide.origin_a[0] = 10.0;
-    guide.axis_a[0] = 0.0;
-    guide.axis_a[2] = 1.0;
-    must_model(&c->r, dmb_model_add_joint(c->r.model, &guide, NULL));
+    support.kind = DMB_JOINT_POINT_ON_LINE;
+    support.place_b = c->place;
+    support.origin_a[0] = 10.0;
+    support.axis_a[0] = 0.0;
+    support.axis_a[2] = 1.0;
+    must_model(&c->r, dmb_model_add_joint(c->r.model, &support, NULL));
     load.force[2] = -1.0;
     load_and_start(c, load, 0.0);
 }

@@ -56,7 +56,7 @@ static void body_that_is_free(void **state)
     (void)add_pipes(&c.s, &pipe, 4);
     (void)add_body(&c.s, &body);
     load.place = dmb_station(c.string, 3, 1.0);
-    load.programme = add_constant(&c.s, 0.0);
+    load.time_function = add_constant(&c.s, 0.0);
     load.force[0] = -1.0;
     c.load = add_load(&c.s, &load);
     (void)rig_start(&c.s, NULL);

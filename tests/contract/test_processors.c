@@ -44,7 +44,7 @@ static uint64_t string_on_the_wall(int32_t pipe_kind, int32_t normal_law)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_body_def head = dmb_body_def_default();
     assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
     wall.normal_law = normal_law;
@@ -56,10 +56,10 @@ static uint64_t string_on_the_wall(int32_t pipe_kind, int32_t normal_law)
     whole_must(model, dmb_model_add_pipes(model, &pipe, 4, NULL));
     head.attach = DMB_ATTACH_START;
     whole_must(model, dmb_model_add_body(model, &head, NULL));
-    term.kind = DMB_TERM_HARMONIC;
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = 0.3;
     term.omega = 37.0;
-    whole_must(model, dmb_model_add_programme(model, &term, 1, &drive.programme));
+    whole_must(model, dmb_model_add_time_function(model, &term, 1, &drive.time_function));
     whole_must(model, dmb_model_add_drive(model, &drive, NULL));
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;

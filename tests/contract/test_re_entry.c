@@ -1,6 +1,6 @@
-/* Functions of the caller's (programme, constraint, allocator, path, log) that meddle with the object they are called
- * for: every call is refused with DMB_ERR_ORDER, destroying does nothing, and the call under way ends with the status
- * and the hash that it has undisturbed. */
+/* Functions of the caller's (time function, constraint, allocator, path, log) that meddle with the object they are
+ * called for: every call is refused with DMB_ERR_ORDER, destroying does nothing, and the call under way ends with the
+ * status and the hash that it has undisturbed. */
 #include "sim_test.h"
 
 typedef struct agent {
@@ -23,10 +23,10 @@ static int32_t path_point(void *context, const dmb_sim *at, const dmb_path_point
 
 /* ---- Every call that changes a sim or runs functions of the caller's --------------------------------------------- */
 
-static dmb_input tip_load(dmb_place place)
+static dmb_excitation tip_load(dmb_place place)
 {
-    dmb_input input = dmb_input_default();
-    input.kind = DMB_INPUT_FORCE;
+    dmb_excitation input = dmb_excitation_default();
+    input.kind = DMB_EXCITATION_FORCE;
     input.place = place;
     return input;
 }
@@ -59,8 +59,8 @@ enum {
 static int32_t call_response(dmb_sim *sim, scene *s)
 {
     dmb_response_options options = dmb_response_options_default();
-    const dmb_input input = tip_load(dmb_station(s->string, 1, 1.0));
-    dmb_output output = dmb_output_default();
+    const dmb_excitation input = tip_load(dmb_station(s->string, 1, 1.0));
+    dmb_response_output output = dmb_response_output_default();
     dmb_response *response = NULL;
     options.points = 3;
     options.equilibrium_tolerance = 1.0;
@@ -75,7 +75,7 @@ static int32_t call_response(dmb_sim *sim, scene *s)
 static int32_t call_sine(dmb_sim *sim, scene *s)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     double amplitudes[64];
     options.windows = 3;
     options.harmonics = options.periods = 1;
@@ -88,14 +88,14 @@ static int32_t call_speeds(dmb_sim *sim, scene *s)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order order = dmb_order_default();
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     const double limit = 1e-3;
     dmb_speed_band band = dmb_speed_band_default();
     uint32_t count = 1;
     options.points = 3;
     options.refinement = 0;
     options.equilibrium_tolerance = 1.0;
-    order.input = tip_load(dmb_station(s->string, 1, 1.0));
+    order.excitation = tip_load(dmb_station(s->string, 1, 1.0));
     output.place = dmb_station(s->string, 0, 1.0);
     return dmb_analysis_speeds(sim, &options, &order, 1, &output, &limit, 1, &band, &count, NULL);
 }
@@ -178,7 +178,7 @@ static void meddle(agent *a)
     a->deep = 0;
 }
 
-static int32_t programme(void *context, double time, double out[3])
+static int32_t time_function(void *context, double time, double out[3])
 {
     meddle(context);
     out[0] = 1.0 + 0.1 * time;
@@ -212,23 +212,23 @@ enum { PLAIN, CONSTRAINED, KINDS, HELD };
 
 static void add_parts(scene *s, int kind)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_constraint_def constraint = dmb_constraint_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     pipe.damping_time = 1e-3;
     must(dmb_model_add_pipes(s->model, &pipe, 2, &s->string));
-    term.kind = DMB_TERM_CALLBACK;
-    term.callback = programme;
+    term.kind = DMB_SEGMENT_CALLBACK;
+    term.callback = time_function;
     term.callback_context = s;
-    must(dmb_model_add_programme(s->model, &term, 1, &load.programme));
+    must(dmb_model_add_time_function(s->model, &term, 1, &load.time_function));
     load.place = dmb_station(s->string, 1, 1.0);
     load.force[0] = -10.0;
     must(dmb_model_add_load(s->model, &load, NULL));
     drive.kind = DMB_DRIVE_LOAD;
     drive.component = DMB_RX;
-    drive.programme = rig_step(s->model, 5.0);
+    drive.time_function = rig_step(s->model, 5.0);
     if (kind != HELD) must(dmb_model_add_drive(s->model, &drive, &s->agent.drive));
     constraint.place[0] = load.place;
     constraint.callback = plane;
@@ -332,16 +332,16 @@ static void source_of_a_transfer(void **state)
     scene s[2];
     dmb_sim *sim[2] = {NULL, NULL};
     for (int i = 0; i < 2; i++) {
-        dmb_term term = dmb_term_default();
+        dmb_segment term = dmb_segment_default();
         dmb_load_def load = dmb_load_def_default();
         const dmb_pipe_def pipe = dmb_pipe_def_default();
         memset(&s[i], 0, sizeof s[i]);
         must(dmb_model_create(NULL, &s[i].model));
         must(dmb_model_add_pipes(s[i].model, &pipe, 2, &s[i].string));
-        term.kind = DMB_TERM_CALLBACK;
+        term.kind = DMB_SEGMENT_CALLBACK;
         term.callback = of_the_source;
         term.callback_context = &s[i];
-        must(dmb_model_add_programme(s[i].model, &term, 1, &load.programme));
+        must(dmb_model_add_time_function(s[i].model, &term, 1, &load.time_function));
         load.place = dmb_station(s[i].string, 1, 1.0);
         load.force[0] = 1.0;
         must(dmb_model_add_load(s[i].model, &load, NULL));

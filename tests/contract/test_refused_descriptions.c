@@ -86,7 +86,7 @@ static void limits_that_cross(void **state)
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 1.0;
     drive.limit_high = 10.0;
-    drive.programme = add_constant(&c.r, 0.0);
+    drive.time_function = add_constant(&c.r, 0.0);
     c.drive = add_drive(&c.r, &drive);
     dmb_input_def input = input_of("least", DMB_TARGET_LIMIT_LOW, c.drive);
     input.initial = 20.0;
@@ -129,7 +129,7 @@ static void tables_of_drives(void **state)
     begin_string(&c, DMB_PIPE_FLEXIBLE);
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_CONTROL;
-    drive.programme = add_constant(&c.r, 0.0);
+    drive.time_function = add_constant(&c.r, 0.0);
     drive.gain_count = 2;
     drive.curve_speed[1] = drive.gain_error[1] = 1e-13;
     drive.gain_force[1] = 1.0;
@@ -283,9 +283,9 @@ static void ring_without_pipes(void **state)
 {
     (void)state;
     subject c;
-    const dmb_ring_def ring = dmb_ring_def_default();
+    const dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     begin_body(&c);
-    must_model(&c.r, dmb_model_add_ring(c.r.model, &ring, NULL));
+    must_model(&c.r, dmb_model_add_stabiliser(c.r.model, &ring, NULL));
     expect(&c, dmb_model_compile(c.r.model, NULL), DMB_ERR_ID, "the model's first string, and there is none");
     end(&c);
 }

@@ -8,7 +8,7 @@
 /* A string of two pipes with its hole, a body that hangs on a hinge below it, one that stands by itself; mud. */
 typedef struct scene {
     rig s;
-    dmb_id string, body, hinge, slide, programme;
+    dmb_id string, body, hinge, slide, time_function;
 } scene;
 
 static void open_scene(scene *c)
@@ -28,7 +28,7 @@ static void open_scene(scene *c)
     c->hinge = add_joint(&c->s, &joint);
     joint = joint_between(DMB_JOINT_PRISMATIC, ground, dmb_station(add_body(&c->s, &body), 0, 0.0));
     c->slide = add_joint(&c->s, &joint);
-    c->programme = add_constant(&c->s, 0.0);
+    c->time_function = add_constant(&c->s, 0.0);
 }
 
 static dmb_environment_def muddy(void)
@@ -71,7 +71,7 @@ static void actuators_of_motion_drives(void **state)
     open_scene(&c);
     for (int k = 0; k < 6; k++) {
         dmb_drive_def drive = dmb_drive_def_default();
-        drive.programme = c.programme;
+        drive.time_function = c.time_function;
         drive.delay = k == 0 ? 0.1 : 0.0;
         drive.force_rate = k == 1 ? 10.0 : 0.0;
         drive.lag = k == 2 ? 0.1 : 0.0;
@@ -91,7 +91,7 @@ static void rotors_and_motors(void **state)
     scene c;
     open_scene(&c);
     dmb_drive_def drive = dmb_drive_def_default();
-    drive.programme = c.programme;
+    drive.time_function = c.time_function;
     drive.kind = DMB_DRIVE_LOAD;
     drive.inertia = 0.1;
     drive.component = DMB_X;
@@ -107,11 +107,11 @@ static void rotors_and_motors(void **state)
     drive.part = c.string;
     drive.component = DMB_RX;
     refused(&c, dmb_model_add_drive(c.s.model, &drive, NULL), DMB_ERR_UNSUPPORTED, "the shaft of a motor");
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
-    refused(&c, dmb_model_add_programme(c.s.model, &term, 1, NULL), DMB_ERR_NULL, "callback is NULL");
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
+    refused(&c, dmb_model_add_time_function(c.s.model, &term, 1, NULL), DMB_ERR_NULL, "callback is NULL");
     term.provides = 64;
-    refused(&c, dmb_model_add_programme(c.s.model, &term, 1, NULL), DMB_ERR_VALUE, "provides");
+    refused(&c, dmb_model_add_time_function(c.s.model, &term, 1, NULL), DMB_ERR_VALUE, "provides");
     rig_close(&c.s);
 }
 
@@ -210,7 +210,7 @@ static void sizes_of_structs(void **state)
     WRONG_SIZE(stuck);
     WRONG_SIZE(input);
     WRONG_SIZE(event);
-    WRONG_SIZE(ring);
+    WRONG_SIZE(stabiliser);
     WRONG_SIZE(joint);
     WRONG_SIZE(coupling);
     WRONG_SIZE(constraint);
@@ -323,18 +323,18 @@ static void density_that_changes(void **state)
             must_model(&c.s, dmb_model_set_environment(c.s.model, &mud));
             dmb_body_def body = dmb_body_def_default();
             dmb_bit_def bit = dmb_bit_def_default();
-            dmb_ring_def ring = dmb_ring_def_default();
+            dmb_stabiliser_def stabiliser = dmb_stabiliser_def_default();
             if (k == 1) body.added_mass[along] = 1.0;
             if (k == 2) bit.added_mass[along] = 1.0;
-            ring.added_mass[0] = k == 3 && along ? 1.0 : 0.0;
-            ring.added_mass[1] = k == 3 && !along ? 1.0 : 0.0;
+            stabiliser.added_mass[0] = k == 3 && along ? 1.0 : 0.0;
+            stabiliser.added_mass[1] = k == 3 && !along ? 1.0 : 0.0;
             body.displaced_volume = 1e-3;
             body.centre[0] = 0.5;
             if (k == 6) body.centre[1 + along] = 0.1;
             (void)add_body(&c.s, &body);
             bit.diameter = 0.0;
             if (k == 2) must_model(&c.s, dmb_model_add_bit(c.s.model, &bit, NULL));
-            must_model(&c.s, dmb_model_add_ring(c.s.model, &ring, NULL));
+            must_model(&c.s, dmb_model_add_stabiliser(c.s.model, &stabiliser, NULL));
             dmb_input_def def = input_named("density", DMB_TARGET_FLUID_DENSITY, (dmb_id){0, 0});
             must_model(&c.s, dmb_model_add_input(c.s.model, &def, NULL));
             def = input_named("flow", DMB_TARGET_FLOW_RATE, (dmb_id){0, 0});
@@ -352,7 +352,7 @@ static void limits_at_the_start(void **state)
         open_scene(&c);
         dmb_drive_def drive = dmb_drive_def_default();
         drive.kind = DMB_DRIVE_CONTROL;
-        drive.programme = c.programme;
+        drive.time_function = c.time_function;
         drive.gain = 1.0;
         drive.limit_low = -5.0;
         drive.limit_high = 5.0;
@@ -429,7 +429,7 @@ static void mud_that_cannot_flow(void **state)
             motor.part = add_joint(&c.s, &joint);
             motor.component = DMB_RX;
             motor.mud_pressure = 1e3;
-            motor.programme = add_constant(&c.s, 0.0);
+            motor.time_function = add_constant(&c.s, 0.0);
             (void)add_drive(&c.s, &motor);
         }
         const dmb_input_def input = input_named("pump", DMB_TARGET_FLOW_RATE, (dmb_id){0, 0});

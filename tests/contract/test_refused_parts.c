@@ -84,15 +84,15 @@ static void names_tell(void **state)
     dmb_model *model = begin(&string);
     dmb_joint_def joint = dmb_joint_def_default();
     (void)state;
-    strcpy(joint.name, "guide");
+    strcpy(joint.name, "support");
     joint.kind = 99;
     joint.place_b = dmb_station(string, 1, 1.0);
     assert_int_equal(dmb_model_add_joint(model, &joint, NULL), DMB_ERR_VALUE);
     strcpy(joint.name, "other");
     joint.kind = DMB_JOINT_FREE;
     must(dmb_model_add_joint(model, &joint, NULL));
-    expect_refused(model, DMB_ERR_VALUE, "1 refused part missing", "(guide)");
-    strcpy(joint.name, "guide");
+    expect_refused(model, DMB_ERR_VALUE, "1 refused part missing", "(support)");
+    strcpy(joint.name, "support");
     joint.place_b = dmb_station(string, 2, 1.0);
     joint.match = 1;
     joint.damping[0] = 1.0;
@@ -125,25 +125,25 @@ static void one_of_a_kind(void **state)
     end(model);
 }
 
-static void programmes_and_structs(void **state)
+static void time_functions_and_structs(void **state)
 {
     dmb_id string;
     dmb_model *model = begin(&string);
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_bit_def bit = dmb_bit_def_default();
     (void)state;
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = -1.0;
-    assert_int_equal(dmb_model_add_programme(model, &term, 1, NULL), DMB_ERR_VALUE);
-    expect_refused(model, DMB_ERR_VALUE, "1 refused part missing", "programme 0, term 0");
-    assert_int_equal(dmb_model_add_programme(model, &term, 0, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_time_function(model, &term, 1, NULL), DMB_ERR_VALUE);
+    expect_refused(model, DMB_ERR_VALUE, "1 refused part missing", "time function 0, segment 0");
+    assert_int_equal(dmb_model_add_time_function(model, &term, 0, NULL), DMB_ERR_VALUE);
     bit.struct_size = 3;
     assert_int_equal(dmb_model_add_bit(model, &bit, NULL), DMB_ERR_STRUCT_SIZE);
     assert_int_equal(dmb_model_add_bit(model, NULL, NULL), DMB_ERR_NULL);
-    expect_refused(model, DMB_ERR_VALUE, "4 refused parts missing", "programme 0, term 0");
+    expect_refused(model, DMB_ERR_VALUE, "4 refused parts missing", "time function 0, segment 0");
     term.x1 = 1.0;
-    must(dmb_model_add_programme(model, &term, 1, NULL));
-    expect_refused(model, DMB_ERR_VALUE, "3 refused parts missing", "term_count = 0");
+    must(dmb_model_add_time_function(model, &term, 1, NULL));
+    expect_refused(model, DMB_ERR_VALUE, "3 refused parts missing", "segment_count = 0");
     must(dmb_model_clear_refused(model));
     end(model);
 }
@@ -184,7 +184,7 @@ int main(void)
         cmocka_unit_test(others_do_not_stand_in),
         cmocka_unit_test(names_tell),
         cmocka_unit_test(one_of_a_kind),
-        cmocka_unit_test(programmes_and_structs),
+        cmocka_unit_test(time_functions_and_structs),
         cmocka_unit_test(a_thousand_refusals),
         cmocka_unit_test(handles),
     };

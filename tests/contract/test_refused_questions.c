@@ -87,7 +87,7 @@ static void stepped_sines(void **state)
 {
     (void)state;
     subject c;
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     double amplitudes[64];
     begin_beam(&c, 0.0);

@@ -13,8 +13,8 @@ typedef struct scene {
     dmb_sim *sim;
     dmb_id string, drive, load;
     dmb_response_options options;
-    dmb_input input;
-    dmb_output output;
+    dmb_excitation input;
+    dmb_response_output output;
 } scene;
 
 /* Ten pipes without a wall, rig end free in `free_mask`, turned and pushed; gravity downwards. */
@@ -26,7 +26,7 @@ static void begin(scene *s, int32_t free_mask, double gravity)
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_sim_options options = dmb_sim_options_default();
-    const dmb_term zero = dmb_term_default();
+    const dmb_segment zero = dmb_segment_default();
     memset(s, 0, sizeof *s);
     const dmb_allocator allocator = scarce_allocator(&s->memory);
     options.allocator = &allocator;
@@ -37,7 +37,7 @@ static void begin(scene *s, int32_t free_mask, double gravity)
     assert_int_equal(dmb_model_set_environment(s->model, &around), DMB_OK);
     assert_int_equal(dmb_model_add_string(s->model, &string, &s->string), DMB_OK);
     assert_int_equal(dmb_model_add_pipes(s->model, &pipe, 10, NULL), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s->model, &zero, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s->model, &zero, 1, &drive.time_function), DMB_OK);
     if (free_mask & DMB_FREE_RX) assert_int_equal(dmb_model_add_drive(s->model, &drive, &s->drive), DMB_OK);
     load.place = dmb_station(s->string, 9, 1.0);
     assert_int_equal(dmb_model_add_load(s->model, &load, &s->load), DMB_OK);
@@ -45,9 +45,9 @@ static void begin(scene *s, int32_t free_mask, double gravity)
     assert_int_equal(dmb_sim_create(s->model, &options, &s->sim), DMB_OK);
     s->options = dmb_response_options_default();
     s->options.points = 3;
-    s->input = dmb_input_default();
+    s->input = dmb_excitation_default();
     s->input.place = load.place;
-    s->output = dmb_output_default();
+    s->output = dmb_response_output_default();
     s->output.place = load.place;
 }
 
@@ -100,10 +100,10 @@ static void motion_drive_at_frequency_zero(void **state)
     scene s;
     begin(&s, DMB_FREE_RX, 0.0);
     s.options.frequency_low = 0.0;
-    s.input = dmb_input_default();
-    s.input.kind = DMB_INPUT_DRIVE;
+    s.input = dmb_excitation_default();
+    s.input.kind = DMB_EXCITATION_DRIVE;
     s.input.place = dmb_station(s.drive, 0, 0.0);
-    expect(&s, DMB_ERR_SINGULAR, "input 0", "frequency 0");
+    expect(&s, DMB_ERR_SINGULAR, "excitation 0", "frequency 0");
     end(&s);
 }
 
@@ -127,7 +127,7 @@ static void describe_body(scene *s, int32_t free_mask, int32_t joint_kind, int32
     dmb_body_def body = dmb_body_def_default();
     dmb_joint_def joint = dmb_joint_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    const dmb_term zero = dmb_term_default();
+    const dmb_segment zero = dmb_segment_default();
     none.gravity[2] = 0.0;
     body.free_mask = free_mask;
     joint.kind = joint_kind;
@@ -137,10 +137,10 @@ static void describe_body(scene *s, int32_t free_mask, int32_t joint_kind, int32
     assert_int_equal(dmb_model_add_body(s->model, &body, &drive.part), DMB_OK);
     joint.place_b = dmb_station(drive.part, 0, 0.0);
     assert_int_equal(dmb_model_add_joint(s->model, &joint, NULL), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s->model, &zero, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s->model, &zero, 1, &drive.time_function), DMB_OK);
     if (driven) assert_int_equal(dmb_model_add_drive(s->model, &drive, &s->drive), DMB_OK);
-    s->input = dmb_input_default();
-    s->output = dmb_output_default();
+    s->input = dmb_excitation_default();
+    s->output = dmb_response_output_default();
     s->input.place = s->output.place = joint.place_b;
 }
 
@@ -198,8 +198,8 @@ static void frequency_zero_with_free_wheels(void **state)
         last = wheel;
     }
     start(&s);
-    s.input = dmb_input_default();
-    s.output = dmb_output_default();
+    s.input = dmb_excitation_default();
+    s.output = dmb_response_output_default();
     s.input.place = s.output.place = last;
     s.input.component = s.output.component = DMB_RX;
     dmb_response *response = NULL;
@@ -218,9 +218,9 @@ static void drive_that_joints_hold(void **state)
     memset(&s, 0, sizeof s);
     describe_body(&s, 1 << DMB_RX, DMB_JOINT_FIXED, 1);
     start(&s);
-    s.input.kind = DMB_INPUT_DRIVE;
+    s.input.kind = DMB_EXCITATION_DRIVE;
     s.input.place.part = s.drive;
-    expect(&s, DMB_ERR_VALUE, "input 0", "joints hold the part");
+    expect(&s, DMB_ERR_VALUE, "excitation 0", "joints hold the part");
     end(&s);
 }
 
@@ -235,11 +235,11 @@ static void eccentric_masses_that_nothing_feels(void **state)
     pipe.eccentricity = 1e-3;
     assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, &s.string), DMB_OK);
     start(&s);
-    s.input = dmb_input_default();
-    s.output = dmb_output_default();
+    s.input = dmb_excitation_default();
+    s.output = dmb_response_output_default();
     s.output.place = dmb_station(s.string, 2, 1.0);
-    s.input.kind = DMB_INPUT_ECCENTRICITY;
-    expect(&s, DMB_ERR_UNSUPPORTED, "input 0", "axial-torsional");
+    s.input.kind = DMB_EXCITATION_ECCENTRICITY;
+    expect(&s, DMB_ERR_UNSUPPORTED, "excitation 0", "axial-torsional");
     end(&s);
 }
 
@@ -273,53 +273,56 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_VALUE, s.options.friction = -1, "friction");
     REFUSED(DMB_ERR_VALUE, s.options.contact_gap = -1.0, "contact_gap");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.options.struct_size = 3, "struct_size");
-    REFUSED(DMB_ERR_VALUE, s.input.kind = 8, "input 0: kind");
-    REFUSED(DMB_ERR_VALUE, s.input.component = 6, "input 0: component");
-    REFUSED(DMB_ERR_VALUE, s.input.frame = DMB_FRAME_HOLE, "input 0: frame");
-    REFUSED(DMB_ERR_NOT_FINITE, s.input.amplitude = (double)INFINITY, "input 0: amplitude");
-    REFUSED(DMB_ERR_NOT_FINITE, s.input.phase = (double)NAN, "input 0: phase");
-    REFUSED(DMB_ERR_VALUE, s.input.place.pipe = 10, "input 0: place");
-    REFUSED(DMB_ERR_ID, s.input.place.part = s.drive, "input 0: place");
-    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_INPUT_UNBALANCE, s.input.component = DMB_RY), "input 0: component");
-    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_INPUT_FRICTION, s.input.component = DMB_Y), "input 0: component");
-    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_LOAD, "input 0: place.part names no load");
-    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_DRIVE, "input 0: place.part names no drive");
-    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_BIT_LOAD, "input 0: place.part names no bit");
-    REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "input 0: struct_size");
+    REFUSED(DMB_ERR_VALUE, s.input.kind = 8, "excitation 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.input.component = 6, "excitation 0: component");
+    REFUSED(DMB_ERR_VALUE, s.input.frame = DMB_FRAME_HOLE, "excitation 0: frame");
+    REFUSED(DMB_ERR_NOT_FINITE, s.input.amplitude = (double)INFINITY, "excitation 0: amplitude");
+    REFUSED(DMB_ERR_NOT_FINITE, s.input.phase = (double)NAN, "excitation 0: phase");
+    REFUSED(DMB_ERR_VALUE, s.input.place.pipe = 10, "excitation 0: place");
+    REFUSED(DMB_ERR_ID, s.input.place.part = s.drive, "excitation 0: place");
+    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_EXCITATION_UNBALANCE, s.input.component = DMB_RY),
+            "excitation 0: component");
+    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_EXCITATION_FRICTION, s.input.component = DMB_Y),
+            "excitation 0: component");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_EXCITATION_LOAD, "excitation 0: place.part names no load");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_EXCITATION_DRIVE, "excitation 0: place.part names no drive");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_EXCITATION_BIT_LOAD, "excitation 0: place.part names no bit");
+    REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "excitation 0: struct_size");
     REFUSED(DMB_ERR_VALUE, s.output.kind = 16, "output 0: kind");
     REFUSED(DMB_ERR_VALUE, s.output.component = -1, "output 0: component");
     REFUSED(DMB_ERR_VALUE, s.output.frame = -1, "output 0: frame");
     REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0: place");
     REFUSED(DMB_ERR_ID, s.output.place.part = s.load, "output 0: place");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.output.struct_size = 12, "output 0: struct_size");
-    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_OUTPUT_SECTION_STRAIN, s.output.place.part = s.drive), "output 0: place");
-    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_CONTACT, s.output.place.pipe = 0), "output 0: place.pipe");
-    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_CONTACT, s.output.component = 3), "output 0: component");
-    REFUSED(DMB_ERR_UNSUPPORTED, (s.output.kind = DMB_OUTPUT_CONTACT, s.options.contact = DMB_CONTACT_OPEN),
+    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_RESPONSE_SECTION_STRAIN, s.output.place.part = s.drive),
+            "output 0: place");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_RESPONSE_CONTACT, s.output.place.pipe = 0), "output 0: place.pipe");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_RESPONSE_CONTACT, s.output.component = 3), "output 0: component");
+    REFUSED(DMB_ERR_UNSUPPORTED, (s.output.kind = DMB_RESPONSE_CONTACT, s.options.contact = DMB_CONTACT_OPEN),
             "output 0: contact is left out");
-    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_DRIVE, "output 0: place.part names no drive");
-    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_OUTPUT_REACTION, s.output.place.part = s.load),
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_RESPONSE_DRIVE, "output 0: place.part names no drive");
+    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_RESPONSE_REACTION, s.output.place.part = s.load),
             "output 0: place.part names no");
-    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_JOINT_POSITION, "output 0: place.part names no joint");
-    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_JOINT_REACTION, "output 0: place.part names no joint");
-    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_MULTIPLIER, "output 0: component is no row");
-    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_BIT, "output 0: place.part names no bit");
-    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_BIT, s.output.component = DMB_Y), "output 0: component");
-#define CHANNEL(quantity, of) \
-    (s.output.kind = DMB_OUTPUT_CHANNEL, s.output.component = (quantity), s.output.place = dmb_station((of), 0, 0.0))
-    REFUSED(DMB_ERR_VALUE, CHANNEL(-1, s.string), "a channel that dmb_channel_name knows");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_HOOK_LOAD, s.load), "place.part names no string");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_WEIGHT_ON_BIT, s.load), "place.part names no string");
-    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_WEIGHT_ON_BIT, s.string), "the string must have one bit");
-    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_TORQUE_ON_BIT, s.string), "the string must have one bit");
-    REFUSED(DMB_ERR_UNSUPPORTED, CHANNEL(DMB_CHANNEL_STRETCH, s.string), "has no linear answer");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_BIT_WEIGHT, s.string), "place.part names no bit");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_BIT_TORQUE, s.string), "place.part names no bit");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_DRIVE_FORCE, s.string), "place.part names no drive");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_JOINT_POSITION, s.string), "place.part names no joint");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_MULTIPLIER, s.string), "component is no row of a joint");
-    REFUSED(DMB_ERR_ID, CHANNEL(DMB_CHANNEL_REACTION, s.load), "place.part names no string or body");
-#undef CHANNEL
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_RESPONSE_JOINT_POSITION, "output 0: place.part names no joint");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_RESPONSE_JOINT_REACTION, "output 0: place.part names no joint");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_RESPONSE_MULTIPLIER, "output 0: component is no row");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_RESPONSE_BIT, "output 0: place.part names no bit");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_RESPONSE_BIT, s.output.component = DMB_Y), "output 0: component");
+#define OUTPUT(quantity, of) \
+    (s.output.kind = DMB_RESPONSE_OUTPUT, s.output.component = (quantity), s.output.place = dmb_station((of), 0, 0.0))
+    REFUSED(DMB_ERR_VALUE, OUTPUT(-1, s.string), "a output that dmb_output_name knows");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_HOOK_LOAD, s.load), "place.part names no string");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_WEIGHT_ON_BIT, s.load), "place.part names no string");
+    REFUSED(DMB_ERR_UNSUPPORTED, OUTPUT(DMB_OUTPUT_WEIGHT_ON_BIT, s.string), "the string must have one bit");
+    REFUSED(DMB_ERR_UNSUPPORTED, OUTPUT(DMB_OUTPUT_TORQUE_ON_BIT, s.string), "the string must have one bit");
+    REFUSED(DMB_ERR_UNSUPPORTED, OUTPUT(DMB_OUTPUT_STRETCH, s.string), "has no linear answer");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_BIT_WEIGHT, s.string), "place.part names no bit");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_BIT_TORQUE, s.string), "place.part names no bit");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_DRIVE_FORCE, s.string), "place.part names no drive");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_JOINT_POSITION, s.string), "place.part names no joint");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_MULTIPLIER, s.string), "component is no row of a joint");
+    REFUSED(DMB_ERR_ID, OUTPUT(DMB_OUTPUT_REACTION, s.load), "place.part names no string or body");
+#undef OUTPUT
 #undef REFUSED
     end(&s);
 }
@@ -330,19 +333,19 @@ static void speed_of_a_drive_without_a_joint(void **state)
     (void)state;
     scene s;
     begin(&s, DMB_FREE_RX, 0.0);
-    s.output.kind = DMB_OUTPUT_CHANNEL;
+    s.output.kind = DMB_RESPONSE_OUTPUT;
     s.output.place = dmb_station(s.drive, 0, 0.0);
-    s.output.component = DMB_CHANNEL_DRIVE_SPEED;
-    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_speed", "at the rig end instead");
-    s.output.component = DMB_CHANNEL_DRIVE_POSITION;
-    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_position", "at the rig end instead");
-    s.output.component = DMB_CHANNEL_DRIVE_POWER;
-    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: channel drive_power", "has no linear answer");
+    s.output.component = DMB_OUTPUT_DRIVE_SPEED;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: output drive_speed", "at the rig end instead");
+    s.output.component = DMB_OUTPUT_DRIVE_POSITION;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: output drive_position", "at the rig end instead");
+    s.output.component = DMB_OUTPUT_DRIVE_POWER;
+    expect(&s, DMB_ERR_UNSUPPORTED, "output 0: output drive_power", "has no linear answer");
     end(&s);
 }
 
 /* A body that slides along and turns about the x axis as it was made to: its axes turn in those of the world. */
-static void channels_of_what_moves(void **state)
+static void outputs_of_what_moves(void **state)
 {
     (void)state;
     scene s;
@@ -358,18 +361,17 @@ static void channels_of_what_moves(void **state)
     assert_int_equal(dmb_model_set_environment(s.model, &none), DMB_OK);
     assert_int_equal(dmb_model_add_body(s.model, &body, &id), DMB_OK);
     start(&s);
-    s.input = dmb_input_default();
-    s.output = dmb_output_default();
+    s.input = dmb_excitation_default();
+    s.output = dmb_response_output_default();
     s.input.place = s.output.place = dmb_station(id, 0, 0.0);
-    s.output.kind = DMB_OUTPUT_CHANNEL;
-    static const int32_t refused[5] = {DMB_CHANNEL_DISPLACEMENT_X, DMB_CHANNEL_VELOCITY_Z,
-                                       DMB_CHANNEL_WORLD_ACCELERATION, DMB_CHANNEL_BODY_VELOCITY + DMB_Y,
-                                       DMB_CHANNEL_BODY_ACCELERATION + DMB_RZ};
-    static const int32_t answered[4] = {DMB_CHANNEL_ROTATION, DMB_CHANNEL_SPIN, DMB_CHANNEL_BODY_VELOCITY + DMB_X,
-                                        DMB_CHANNEL_BODY_ACCELERATION + DMB_RX};
+    s.output.kind = DMB_RESPONSE_OUTPUT;
+    static const int32_t refused[5] = {DMB_OUTPUT_DISPLACEMENT_X, DMB_OUTPUT_VELOCITY_Z, DMB_OUTPUT_WORLD_ACCELERATION,
+                                       DMB_OUTPUT_BODY_VELOCITY + DMB_Y, DMB_OUTPUT_BODY_ACCELERATION + DMB_RZ};
+    static const int32_t answered[4] = {DMB_OUTPUT_ROTATION, DMB_OUTPUT_SPIN, DMB_OUTPUT_BODY_VELOCITY + DMB_X,
+                                        DMB_OUTPUT_BODY_ACCELERATION + DMB_RX};
     for (int i = 0; i < 5; i++) {
         s.output.component = refused[i];
-        expect(&s, DMB_ERR_UNSUPPORTED, "the place moves in the state", "DMB_OUTPUT_VELOCITY");
+        expect(&s, DMB_ERR_UNSUPPORTED, "the place moves in the state", "DMB_RESPONSE_VELOCITY");
     }
     for (int i = 0; i < 4; i++) {
         s.output.component = answered[i];
@@ -388,7 +390,7 @@ static void at_a_limit(double speed, double gain)
     dmb_body_def body = dmb_body_def_default();
     dmb_joint_def joint = dmb_joint_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term target = dmb_term_default();
+    dmb_segment target = dmb_segment_default();
     dmb_response *response = NULL;
     double value[2] = {0.0, 0.0};
     memset(&s, 0, sizeof s);
@@ -407,29 +409,29 @@ static void at_a_limit(double speed, double gain)
     assert_int_equal(dmb_model_add_body(s.model, &body, &id), DMB_OK);
     joint.place_b = dmb_station(id, 0, 0.0);
     assert_int_equal(dmb_model_add_joint(s.model, &joint, &drive.part), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s.model, &target, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s.model, &target, 1, &drive.time_function), DMB_OK);
     assert_int_equal(dmb_model_add_drive(s.model, &drive, &s.drive), DMB_OK);
     start(&s);
     assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_OK);
     s.options.points = 1;
     s.options.frequency_low = s.options.frequency_high = 0.0;
-    s.input = dmb_input_default();
-    s.output = dmb_output_default();
+    s.input = dmb_excitation_default();
+    s.output = dmb_response_output_default();
     s.input.place = s.output.place = joint.place_b;
     s.input.component = s.output.component = DMB_RX;
     assert_int_equal(ask(&s, &response), DMB_OK);
     assert_int_equal(dmb_response_transfer(response, 0, 0, value), DMB_OK);
     dmb_response_destroy(&response);
     assert_true(fabs(value[0] * 400.0 - 1.0) < 1e-12 && value[1] == 0.0);
-    s.output.kind = DMB_OUTPUT_DRIVE;
+    s.output.kind = DMB_RESPONSE_DRIVE;
     s.output.place.part = s.drive;
     assert_int_equal(ask(&s, &response), DMB_OK);
     assert_int_equal(dmb_response_transfer(response, 0, 0, value), DMB_OK);
     dmb_response_destroy(&response);
     assert_true(value[0] == 0.0 && value[1] == 0.0);
-    s.input.kind = DMB_INPUT_DRIVE;
+    s.input.kind = DMB_EXCITATION_DRIVE;
     s.input.place.part = s.drive;
-    expect(&s, DMB_ERR_VALUE, "input 0", gain > 0.0 ? "the drive is at its limit" : "the drive has no gain");
+    expect(&s, DMB_ERR_VALUE, "excitation 0", gain > 0.0 ? "the drive is at its limit" : "the drive has no gain");
     end(&s);
 }
 
@@ -458,11 +460,11 @@ static void friction_of_bristles(void **state)
     assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, NULL), DMB_OK);
     start(&s);
     assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_NOTE_INCOMPLETE); /* nothing holds it along the hole */
-    s.input = dmb_input_default();
+    s.input = dmb_excitation_default();
     s.input.place = dmb_station(s.string, 2, 1.0);
     s.input.component = DMB_Z;
-    s.output = dmb_output_default();
-    s.output.kind = DMB_OUTPUT_CONTACT;
+    s.output = dmb_response_output_default();
+    s.output.kind = DMB_RESPONSE_CONTACT;
     s.output.place.pipe = 2;
     s.output.component = DMB_X;
     expect(&s, DMB_ERR_UNSUPPORTED, "output 0", "friction of bristles is not an output");
@@ -478,8 +480,8 @@ static void items_of_another_size(void **state)
     (void)state;
     scene s;
     begin(&s, DMB_FREE_NONE, 0.0);
-    dmb_input inputs[2] = {s.input, s.input};
-    dmb_output outputs[2] = {s.output, s.output};
+    dmb_excitation inputs[2] = {s.input, s.input};
+    dmb_response_output outputs[2] = {s.output, s.output};
     dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
     dmb_speed_band band = dmb_speed_band_default();
     dmb_response *response = NULL;
@@ -490,7 +492,8 @@ static void items_of_another_size(void **state)
     assert_int_equal(dmb_sim_hash(s.sim, &before), DMB_OK);
     inputs[1].struct_size -= 8;
     assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);
-    assert_non_null(strstr(dmb_sim_message(s.sim), "input 1: struct_size is not one this library knows, or not that"));
+    assert_non_null(
+        strstr(dmb_sim_message(s.sim), "excitation 1: struct_size is not one this library knows, or not that"));
     inputs[1] = inputs[0];
     outputs[1].struct_size -= 8;
     assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);
@@ -502,7 +505,7 @@ static void items_of_another_size(void **state)
     s.options.points = 4;
     assert_int_equal(dmb_analysis_response(s.sim, &s.options, inputs, 2, outputs, 2, &response), DMB_ERR_VALUE);
     assert_non_null(strstr(dmb_sim_message(s.sim), "frequencies = 2"));
-    outputs[1].kind = DMB_OUTPUT_BIT;
+    outputs[1].kind = DMB_RESPONSE_BIT;
     outputs[1].component = -1;
     assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_VALUE);
     assert_non_null(strstr(dmb_sim_message(s.sim), "output 1: component = -1, must be 0 .. 5"));
@@ -536,7 +539,7 @@ static void stepped_sine_out_of_bounds(void **state)
 #define REFUSED(status, frequency, change, field)                                                                \
     do {                                                                                                         \
         dmb_stepped_sine_options options = good;                                                                 \
-        dmb_output output = s.output;                                                                            \
+        dmb_response_output output = s.output;                                                                   \
         change;                                                                                                  \
         assert_int_equal(dmb_analysis_stepped_sine(s.sim, frequency, &options, &output, 1, amplitudes, &report), \
                          status);                                                                                \
@@ -577,7 +580,7 @@ static void counts_and_pointers(void **state)
     double number;
     begin(&s, DMB_FREE_NONE, 0.0);
     assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 0, &s.output, 1, &response), DMB_ERR_VALUE);
-    assert_non_null(strstr(dmb_sim_message(s.sim), "input_count"));
+    assert_non_null(strstr(dmb_sim_message(s.sim), "excitation_count"));
     assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 1, &s.output, 1025, &response), DMB_ERR_VALUE);
     assert_int_equal(dmb_analysis_response(NULL, NULL, &s.input, 1, &s.output, 1, &response), DMB_ERR_NULL);
     assert_int_equal(dmb_analysis_response(s.sim, NULL, NULL, 1, &s.output, 1, &response), DMB_ERR_NULL);
@@ -676,7 +679,7 @@ static void speeds_that_are_refused(void **state)
     REFUSED(DMB_ERR_STRUCT_SIZE, options.struct_size = 7, "struct_size");
     REFUSED(DMB_ERR_VALUE, order.order = 0.0, "order 0: order");
     REFUSED(DMB_ERR_STRUCT_SIZE, order.struct_size = 9, "order 0: struct_size");
-    REFUSED(DMB_ERR_VALUE, order.input.kind = -1, "input 0: kind");
+    REFUSED(DMB_ERR_VALUE, order.excitation.kind = -1, "excitation 0: kind");
     REFUSED(DMB_ERR_VALUE, limit = 0.0, "limits");
     dmb_speeds_report report = dmb_speeds_report_default();
     report.struct_size = 4;
@@ -723,7 +726,7 @@ int main(void)
         cmocka_unit_test(eccentric_masses_that_nothing_feels),
         cmocka_unit_test(fields_out_of_bounds),
         cmocka_unit_test(speed_of_a_drive_without_a_joint),
-        cmocka_unit_test(channels_of_what_moves),
+        cmocka_unit_test(outputs_of_what_moves),
         cmocka_unit_test(controller_at_its_limit),
         cmocka_unit_test(friction_of_bristles),
         cmocka_unit_test(items_of_another_size),

@@ -1,5 +1,5 @@
-/* Sensitivities as an object: the bits of the sim's own steps, what is refused and what a refusal leaves, corners told,
- * no allocation in a step, all memory given back. */
+/* Sensitivities as an object: the bits of the sim's own steps, what is refused and what a refusal leaves, breakpoints
+ * told, no allocation in a step, all memory given back. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -163,7 +163,7 @@ static void test_refusals(void **state)
     trio_close(&t);
 }
 
-/* A corner of a programme at another time on one side: steps end at the sim's. */
+/* A breakpoint of a time function at another time on one side: steps end at the sim's. */
 static void test_times_differ(void **state)
 {
     rig s[3];
@@ -171,13 +171,14 @@ static void test_times_differ(void **state)
     dmb_parameter parameter = dmb_parameter_default();
     (void)state;
     for (int i = 0; i < 3; i++) {
-        dmb_term term = dmb_term_default();
+        dmb_segment term = dmb_segment_default();
         dmb_body_def body = dmb_body_def_default();
         rig_open(&s[i], 0.0, 0.0, 0.0);
-        term.kind = DMB_TERM_STEP;
+        term.kind = DMB_SEGMENT_STEP;
         term.x1 = 0.1 + 1e-6 * i;
         term.h1 = 1.0;
-        (void)add_simple_drive(&s[i], DMB_DRIVE_MOTION, add_body(&s[i], &body), DMB_X, add_programme(&s[i], &term, 1));
+        (void)add_simple_drive(&s[i], DMB_DRIVE_MOTION, add_body(&s[i], &body), DMB_X,
+                               add_time_function(&s[i], &term, 1));
         (void)rig_start(&s[i], NULL);
     }
     parameter.step = 1e-6;
@@ -199,11 +200,11 @@ static void test_failures(void **state)
     must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
     must(&t.s, dmb_sensitivity_step(sensitivity, 1e-2, NULL));
     const dmb_id body = {(UINT32_C(4) << 24), 0};
-    dmb_channel channel = {dmb_station(body, 0, 0.0), DMB_CHANNEL_ENERGY_ERROR, 0};
-    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, none), DMB_ERR_UNSUPPORTED);
-    channel.quantity = DMB_CHANNEL_POSITION_Z;
-    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, none), DMB_ERR_ID);
-    assert_int_equal(dmb_sensitivity_channels(sensitivity, NULL, 1, NULL, none), DMB_ERR_NULL);
+    dmb_output output = {dmb_station(body, 0, 0.0), DMB_OUTPUT_ENERGY_ERROR, 0};
+    assert_int_equal(dmb_sensitivity_outputs(sensitivity, &output, 1, NULL, none), DMB_ERR_UNSUPPORTED);
+    output.quantity = DMB_OUTPUT_POSITION_Z;
+    assert_int_equal(dmb_sensitivity_outputs(sensitivity, &output, 1, NULL, none), DMB_ERR_ID);
+    assert_int_equal(dmb_sensitivity_outputs(sensitivity, NULL, 1, NULL, none), DMB_ERR_NULL);
     assert_int_equal(dmb_sensitivity_rows(sensitivity, 1, NULL, NULL, &rows), DMB_ERR_VALUE);
     double velocity[6];
     must(&t.s, dmb_sensitivity_rows(sensitivity, 0, NULL, velocity, &rows));
@@ -219,27 +220,27 @@ static void test_failures(void **state)
 }
 
 /* Energies that a run sums up and counts of steps have none; that of the whole as it is has: m v by v. */
-static void test_channels_of_the_whole(void **state)
+static void test_outputs_of_the_whole(void **state)
 {
-    static const int32_t summed[] = {DMB_CHANNEL_ENERGY_DRIVES, DMB_CHANNEL_ENERGY_UNEXPLAINED, DMB_CHANNEL_STEPS,
-                                     DMB_CHANNEL_REDUNDANT, DMB_CHANNEL_DRIVE_WORK};
+    static const int32_t summed[] = {DMB_OUTPUT_ENERGY_DRIVES, DMB_OUTPUT_ENERGY_UNEXPLAINED, DMB_OUTPUT_STEPS,
+                                     DMB_OUTPUT_REDUNDANT, DMB_OUTPUT_DRIVE_WORK};
     trio t = trio_of(1e-6);
     dmb_sensitivity *sensitivity;
-    dmb_channel channel = {.quantity = DMB_CHANNEL_ENERGY_KINETIC};
+    dmb_output output = {.quantity = DMB_OUTPUT_ENERGY_KINETIC};
     double derivative = 0.0, value = 0.0, velocity[6], by[6];
     uint32_t rows;
     (void)state;
     must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
     for (int i = 0; i < 60; i++) (void)dmb_sensitivity_step(sensitivity, 1e-3, NULL); /* into the wall */
-    must(&t.s, dmb_sensitivity_channels(sensitivity, &channel, 1, &value, &derivative));
+    must(&t.s, dmb_sensitivity_outputs(sensitivity, &output, 1, &value, &derivative));
     must(&t.s, dmb_sensitivity_rows(sensitivity, 0, NULL, by, &rows));
     memcpy(velocity, t.s.sim->now.velocity, sizeof velocity);
     check_relative("    kinetic energy", value, 0.5 * velocity[2] * velocity[2], 1e-9);
     assert_true(fabs(derivative) > 0.1);
     check_relative("    by the height", derivative, velocity[2] * by[2], 1e-4);
     for (size_t i = 0; i < sizeof summed / sizeof summed[0]; i++) {
-        channel.quantity = summed[i];
-        assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, &value, &derivative), DMB_ERR_UNSUPPORTED);
+        output.quantity = summed[i];
+        assert_int_equal(dmb_sensitivity_outputs(sensitivity, &output, 1, &value, &derivative), DMB_ERR_UNSUPPORTED);
         assert_non_null(strstr(dmb_sim_message(t.s.sim), "sums and counts"));
     }
     dmb_sensitivity_destroy(&sensitivity);
@@ -393,18 +394,18 @@ static rig moved_body(double velocity)
     static const double times[3] = {0.0, 0.0071, 0.1}, speeds[3] = {0.0, 0.5, -1.0};
     dmb_body_def body = dmb_body_def_default();
     dmb_force_def force = dmb_force_def_default();
-    dmb_term table = dmb_term_default();
+    dmb_segment table = dmb_segment_default();
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     body.velocity[0] = velocity;
     force.place[0] = dmb_station(add_body(&s, &body), 0, 0.0);
     force.callback = pull;
     must_model(&s, dmb_model_add_force(s.model, &force, NULL));
-    table.kind = DMB_TERM_TABLE;
+    table.kind = DMB_SEGMENT_TABLE;
     table.table_time = times;
     table.table_value = speeds;
     table.table_count = 3;
-    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, force.place[0].part, DMB_Y, add_programme(&s, &table, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, force.place[0].part, DMB_Y, add_time_function(&s, &table, 1));
     dmb_sim_options options = dmb_sim_options_default();
     options.tolerance_translation = 1e-10; /* steps of different lengths after a failure come to the same */
     (void)rig_start(&s, &options);
@@ -461,7 +462,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_times_differ),
-        cmocka_unit_test(test_channels_of_the_whole),
+        cmocka_unit_test(test_outputs_of_the_whole),
         cmocka_unit_test(test_calls_within_a_call),
         cmocka_unit_test(test_allocates_nothing),
         cmocka_unit_test(test_forces_that_fail),

@@ -28,9 +28,9 @@ enum {
     MORE_LOADS,
     MORE_BITS,
     MORE_TYPES,
-    MORE_PROGRAMMES,
-    MORE_TERMS,
-    KIND_OF_TERM,
+    MORE_TIME_FUNCTIONS,
+    MORE_SEGMENTS,
+    KIND_OF_SEGMENT,
     BEGIN_OF_STEP,
     END_OF_STEP,
     ROWS_OF_TABLE,
@@ -105,17 +105,17 @@ static void add_joints(scene *c, int32_t variant)
 static dmb_id add_table(scene *c, int32_t variant)
 {
     static const double usual[3] = {0.0, 0.2, 0.3}, other[3] = {0.0, 0.2, 0.4}, values[3] = {0.0, 1.0, 0.5};
-    dmb_term terms[4];
-    for (int i = 0; i < 4; i++) terms[i] = dmb_term_default();
-    terms[0].kind = DMB_TERM_TABLE;
+    dmb_segment terms[4];
+    for (int i = 0; i < 4; i++) terms[i] = dmb_segment_default();
+    terms[0].kind = DMB_SEGMENT_TABLE;
     terms[0].table_count = variant == ROWS_OF_TABLE ? 2 : 3;
     terms[0].table_time = variant == TIMES_OF_TABLE ? other : usual;
     terms[0].table_value = values;
-    terms[1].kind = variant == KIND_OF_TERM ? DMB_TERM_STEP5 : DMB_TERM_STEP;
+    terms[1].kind = variant == KIND_OF_SEGMENT ? DMB_SEGMENT_STEP5 : DMB_SEGMENT_STEP;
     terms[1].x0 = variant == BEGIN_OF_STEP ? 0.06 : 0.05;
     terms[1].x1 = variant == END_OF_STEP ? 0.11 : 0.1;
     terms[1].h1 = 1.0;
-    return add_programme(&c->s, terms, variant == MORE_TERMS ? 4 : 3);
+    return add_time_function(&c->s, terms, variant == MORE_SEGMENTS ? 4 : 3);
 }
 
 static void add_actions(scene *c, int32_t variant)
@@ -125,14 +125,14 @@ static void add_actions(scene *c, int32_t variant)
     drive.part = variant == COMPONENT_OF_DRIVE ? c->body[0] : c->string[1];
     drive.component = DMB_RX;
     drive.gain = 10.0;
-    drive.programme = add_table(c, variant);
+    drive.time_function = add_table(c, variant);
     c->drive = add_drive(&c->s, &drive);
     c->feed = add_simple_drive(&c->s, DMB_DRIVE_LOAD, c->string[0], variant == RIG_END_FREE ? DMB_X : DMB_RX,
-                               drive.programme);
+                               drive.time_function);
     (void)add_simple_drive(&c->s, DMB_DRIVE_LOAD, c->joint[variant != JOINT_OF_DRIVE],
-                           variant == COORDINATE_OF_DRIVE ? DMB_X : DMB_RX, drive.programme);
-    if (variant == MORE_DRIVES) (void)add_simple_drive(&c->s, DMB_DRIVE_LOAD, c->body[0], DMB_X, drive.programme);
-    if (variant == MORE_PROGRAMMES) (void)add_constant(&c->s, 1.0);
+                           variant == COORDINATE_OF_DRIVE ? DMB_X : DMB_RX, drive.time_function);
+    if (variant == MORE_DRIVES) (void)add_simple_drive(&c->s, DMB_DRIVE_LOAD, c->body[0], DMB_X, drive.time_function);
+    if (variant == MORE_TIME_FUNCTIONS) (void)add_constant(&c->s, 1.0);
     for (int i = 0; i < (variant == MORE_LOADS ? 3 : 2); i++) {
         dmb_load_def load = dmb_load_def_default();
         load.place = dmb_station(c->string[0], 0, 1.0);
@@ -243,9 +243,9 @@ static void one_difference(void **state)
         {MORE_LOADS, DMB_ERR_VALUE, "other parts"},
         {MORE_BITS, DMB_ERR_VALUE, "other parts"},
         {MORE_TYPES, DMB_ERR_VALUE, "other parts"},
-        {MORE_PROGRAMMES, DMB_ERR_UNSUPPORTED, "other terms or times"},
-        {MORE_TERMS, DMB_ERR_UNSUPPORTED, "other terms or times"},
-        {KIND_OF_TERM, DMB_ERR_UNSUPPORTED, "other terms or times"},
+        {MORE_TIME_FUNCTIONS, DMB_ERR_UNSUPPORTED, "other terms or times"},
+        {MORE_SEGMENTS, DMB_ERR_UNSUPPORTED, "other terms or times"},
+        {KIND_OF_SEGMENT, DMB_ERR_UNSUPPORTED, "other terms or times"},
         {BEGIN_OF_STEP, DMB_ERR_UNSUPPORTED, "other terms or times"},
         {END_OF_STEP, DMB_ERR_UNSUPPORTED, "other terms or times"},
         {ROWS_OF_TABLE, DMB_ERR_UNSUPPORTED, "other terms or times"},

@@ -100,11 +100,11 @@ static void check_refused(const dmb_sim *sim, int32_t wanted)
 static void check_changing(dmb_sim *sim, int32_t wanted)
 {
     dmb_recorder recorder = dmb_recorder_default();
-    dmb_channel channel = {{{0, 0}, 0, 0, 0.0}, DMB_CHANNEL_ENERGY_ERROR, 0};
+    dmb_output output = {{{0, 0}, 0, 0, 0.0}, DMB_OUTPUT_ENERGY_ERROR, 0};
     double table[4];
     char block[64] = {0};
-    recorder.channel_count = 1;
-    recorder.channels = &channel;
+    recorder.output_count = 1;
+    recorder.outputs = &output;
     recorder.table = table;
     recorder.capacity = 2;
     assert_int_equal(dmb_sim_step(sim, 1e-3, NULL), wanted);

@@ -36,8 +36,8 @@ static void places(void **state)
     assert_int_equal(ask_all_places(sim, dmb_station(r.head, 1, 0.0)), DMB_ERR_VALUE);
     assert_int_equal(ask_all_places(sim, dmb_station(r.head, 0, 0.5)), DMB_ERR_VALUE);
     assert_int_equal(ask_all_places(sim, dmb_station(r.head, 0, (double)NAN)), DMB_ERR_NOT_FINITE);
-    const dmb_id wrong[] = {nothing,     r.feed,       r.wall,
-                            r.programme, other.string, {r.string.index + 1, r.string.generation}};
+    const dmb_id wrong[] = {nothing,         r.feed,       r.wall,
+                            r.time_function, other.string, {r.string.index + 1, r.string.generation}};
     for (int i = 0; i < 6; i++) assert_int_equal(ask_all_places(sim, dmb_station(wrong[i], 0, 0.0)), DMB_ERR_ID);
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&r.model);
@@ -85,14 +85,14 @@ static void sites(void **state)
         rig r = rig_of(&options);
         dmb_sim *sim = rig_sim(&r);
         must(dmb_model_get_info(r.model, &info));
-        if (kind != DMB_PIPE_RIGID) assert_true(info.contact_sites > 0); /* one guided body cannot reach the wall */
-        for (uint32_t i = 0; i < info.contact_sites; i++) {
+        if (kind != DMB_PIPE_RIGID) assert_true(info.contact_points > 0); /* one guided body cannot reach the wall */
+        for (uint32_t i = 0; i < info.contact_points; i++) {
             must(dmb_query_contact(sim, i, &contact));
-            assert_int_equal(contact.site, i);
+            assert_int_equal(contact.number, i);
             assert_true(contact.part.index == r.string.index || contact.part.index == r.bit.index);
             assert_true(contact.length > 0.0);
         }
-        assert_int_equal(dmb_query_contact(sim, info.contact_sites, &contact), DMB_ERR_VALUE);
+        assert_int_equal(dmb_query_contact(sim, info.contact_points, &contact), DMB_ERR_VALUE);
         assert_int_equal(dmb_query_contact(sim, UINT32_MAX, &contact), DMB_ERR_VALUE);
         dmb_sim_destroy(&sim);
         dmb_model_destroy(&r.model);
@@ -161,24 +161,24 @@ static void left_out(void **state)
     dmb_model_destroy(&r.model);
 }
 
-/* Recorder: one row at each multiple of the interval, a channel that fails adds none, a full table says so. */
+/* Recorder: one row at each multiple of the interval, a output that fails adds none, a full table says so. */
 static void recorder(void **state)
 {
     (void)state;
     rig r = rig_of(&plain_rig);
     dmb_sim *sim = rig_sim(&r);
     dmb_recorder recorder = dmb_recorder_default();
-    dmb_channel channels[DMB_CHANNEL_COUNT];
-    double table[4 * (1 + DMB_CHANNEL_COUNT)], before[4 * (1 + DMB_CHANNEL_COUNT)];
+    dmb_output outputs[DMB_OUTPUT_COUNT];
+    double table[4 * (1 + DMB_OUTPUT_COUNT)], before[4 * (1 + DMB_OUTPUT_COUNT)];
     memset(table, 0, sizeof table);
-    for (int32_t i = 0; i < DMB_CHANNEL_COUNT; i++) {
-        const int is_drive = i == DMB_CHANNEL_DRIVE_FORCE || i == DMB_CHANNEL_DRIVE_SPEED;
-        channels[i].place = dmb_station(is_drive ? r.torque : i == DMB_CHANNEL_BIT_WEIGHT ? r.bit : r.string, 1, 0.25);
-        channels[i].quantity = i;
-        channels[i].reserved = 0;
+    for (int32_t i = 0; i < DMB_OUTPUT_COUNT; i++) {
+        const int is_drive = i == DMB_OUTPUT_DRIVE_FORCE || i == DMB_OUTPUT_DRIVE_SPEED;
+        outputs[i].place = dmb_station(is_drive ? r.torque : i == DMB_OUTPUT_BIT_WEIGHT ? r.bit : r.string, 1, 0.25);
+        outputs[i].quantity = i;
+        outputs[i].reserved = 0;
     }
-    recorder.channel_count = DMB_CHANNEL_COUNT;
-    recorder.channels = channels;
+    recorder.output_count = DMB_OUTPUT_COUNT;
+    recorder.outputs = outputs;
     recorder.table = table;
     recorder.capacity = 4;
     recorder.interval = 2.5e-3;
@@ -190,13 +190,13 @@ static void recorder(void **state)
     assert_int_equal(recorder.row_count, 4);
     for (int i = 0; i < 4; i++) {
         const double wanted[] = {0.0, 3e-3, 5e-3, 8e-3};
-        assert_true(fabs(table[i * (1 + DMB_CHANNEL_COUNT)] - wanted[i]) < 1e-12);
+        assert_true(fabs(table[i * (1 + DMB_OUTPUT_COUNT)] - wanted[i]) < 1e-12);
     }
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_NOTE_FULL);
     recorder.row_count = 2;
-    channels[DMB_CHANNEL_COUNT - 1].quantity = DMB_CHANNEL_COUNT;
+    outputs[DMB_OUTPUT_COUNT - 1].quantity = DMB_OUTPUT_COUNT;
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_VALUE);
-    channels[3].place.part = r.feed;
+    outputs[3].place.part = r.feed;
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_ID);
     assert_int_equal(recorder.row_count, 2);
     recorder.struct_size = 4;

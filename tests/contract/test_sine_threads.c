@@ -18,7 +18,7 @@ typedef struct job {
     double frequency;
     dmb_model *model;
     dmb_sim *sim;
-    dmb_output output;
+    dmb_response_output output;
     dmb_stepped_sine_options options;
     int32_t status;
     double amplitudes[NUMBERS];
@@ -30,24 +30,24 @@ static void begin(job *j, double frequency)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_term sine = dmb_term_default();
+    dmb_segment sine = dmb_segment_default();
     dmb_drive_def drive = dmb_drive_def_default();
     memset(j, 0, sizeof *j);
     j->frequency = frequency;
-    sine.kind = DMB_TERM_HARMONIC;
+    sine.kind = DMB_SEGMENT_HARMONIC;
     sine.h1 = 0.05;
     sine.omega = 2.0 * 3.14159265358979323846 * frequency;
     pipe.damping_time = 1e-3;
     assert_int_equal(dmb_model_create(NULL, &j->model), DMB_OK);
     assert_int_equal(dmb_model_add_wall(j->model, &wall, NULL), DMB_OK);
     assert_int_equal(dmb_model_add_pipes(j->model, &pipe, 5, &drive.part), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(j->model, &sine, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(j->model, &sine, 1, &drive.time_function), DMB_OK);
     assert_int_equal(dmb_model_add_drive(j->model, &drive, NULL), DMB_OK);
     assert_int_equal(dmb_model_compile(j->model, NULL), DMB_OK);
     assert_int_equal(dmb_sim_create(j->model, NULL, &j->sim), DMB_OK);
     assert_int_equal(dmb_analysis_static(j->sim, NULL, NULL), DMB_OK);
-    j->output = dmb_output_default();
-    j->output.kind = DMB_OUTPUT_SECTION_FORCE;
+    j->output = dmb_response_output_default();
+    j->output.kind = DMB_RESPONSE_SECTION_FORCE;
     j->output.place = dmb_station(drive.part, 0, 0.0);
     j->options = dmb_stepped_sine_options_default();
     j->options.steps_per_period = 32;

@@ -77,7 +77,7 @@ static void add_event(work *w)
     dmb_event_def event = dmb_event_def_default();
     memcpy(event.name, "moves", sizeof "moves");
     event.output.place = dmb_station(w->parts.string, 3, 0.5);
-    event.output.quantity = DMB_CHANNEL_ROTARY_SPEED;
+    event.output.quantity = DMB_OUTPUT_ROTARY_SPEED;
     event.direction = DMB_EVENT_EITHER;
     whole_must(w->model, dmb_model_add_event(w->model, &event, NULL));
 }

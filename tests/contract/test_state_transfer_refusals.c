@@ -90,14 +90,14 @@ static void add_hole(scene *s, difference d)
     if (d != NO_WALL) (void)add_wall(&s->r, &wall);
 }
 
-static void add_ring_at(scene *s, int i, double fraction)
+static void add_stabiliser_at(scene *s, int i, double fraction)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.string = s->string;
     ring.pipe = 1;
     ring.fraction = fraction;
     ring.length = 0.2;
-    must_model(&s->r, dmb_model_add_ring(s->r.model, &ring, &s->ring[i]));
+    must_model(&s->r, dmb_model_add_stabiliser(s->r.model, &ring, &s->ring[i]));
 }
 
 static void add_strings(scene *s, difference d)
@@ -112,8 +112,8 @@ static void add_strings(scene *s, difference d)
     if (d == JOINT_LENGTH) pipe.joint_length = 0.1, pipe.joint_outer_diameter = 0.08;
     if (d == PIPE_SECTION) pipe.outer_diameter = 0.074;
     (void)add_pipes(&s->r, &pipe, 3);
-    add_ring_at(s, 0, 0.3);
-    add_ring_at(s, 1, d == RING_PLACE ? 0.5 : 0.7);
+    add_stabiliser_at(s, 0, 0.3);
+    add_stabiliser_at(s, 1, d == RING_PLACE ? 0.5 : 0.7);
     string.start_depth = 20.0;
     if (d == ONE_STRING) return;
     s->second = add_string(&s->r, &string);
@@ -146,7 +146,7 @@ static void add_bits(scene *s, difference d)
     bit = dmb_bit_def_default();
     bit.rock_law = DMB_ROCK_RATE;
     bit.bottom = 1.0;
-    bit.ring = s->ring[d == REAMER_RING];
+    bit.stabiliser = s->ring[d == REAMER_RING];
     if (d != ONE_BIT) must_model(&s->r, dmb_model_add_bit(s->r.model, &bit, &s->reamer));
 }
 
@@ -154,7 +154,7 @@ static void add_drives(scene *s, difference d)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = s->string;
-    drive.programme = add_constant(&s->r, 0.0);
+    drive.time_function = add_constant(&s->r, 0.0);
     s->drives[0] = add_drive(&s->r, &drive);
     drive.kind = d == DRIVE_KIND ? DMB_DRIVE_CONTROL : DMB_DRIVE_LOAD;
     drive.part = d == DRIVE_PART ? s->block : s->string;
@@ -168,7 +168,7 @@ static void add_drives(scene *s, difference d)
     drive.kind = DMB_DRIVE_LOAD;
     drive.part = s->arm;
     drive.component = DMB_Y;
-    drive.programme = add_constant(&s->r, 0.0);
+    drive.time_function = add_constant(&s->r, 0.0);
     drive.delay = d == DELAY ? 0.2 : 0.1;
     if (d != ONE_BODY) s->drives[2] = add_drive(&s->r, &drive);
 }
@@ -203,7 +203,7 @@ static void add_events(scene *s, difference d)
     strcpy(event.name, d == EVENT_NAME ? "down" : "up");
     event.direction = d == EVENT_DIRECTION ? DMB_EVENT_FALLING : DMB_EVENT_RISING;
     event.output.place = dmb_station(s->block, 0, 0.0);
-    event.output.quantity = d == EVENT_OUTPUT ? DMB_CHANNEL_POSITION_Y : DMB_CHANNEL_POSITION_Z;
+    event.output.quantity = d == EVENT_OUTPUT ? DMB_OUTPUT_POSITION_Y : DMB_OUTPUT_POSITION_Z;
     event.level = 9.0;
     if (d != NO_EVENT) must_model(&s->r, dmb_model_add_event(s->r.model, &event, NULL));
 }
@@ -345,7 +345,7 @@ static const struct {
     {BODY_AT_END, "body 0: attach, must be as in the sim it goes on from"},
     {BODY_ON_SECOND, "body 0: string, "},
     {BIT_ON_SECOND, "bit 0: string, "},
-    {REAMER_RING, "bit 1: ring, "},
+    {REAMER_RING, "bit 1: stabiliser, "},
     {ROCK_LAW, "bit 0: rock_law, "},
     {BLADES, "bit 0: blades, "},
     {HISTORY, "bit 0: history, "},

@@ -70,7 +70,7 @@ static void wall_that_is_stiff(void **state)
     for (int soft = 0; soft < 3; soft++) { /* then with a controller that gives all it may, which is told first */
         dmb_drive_def turn = dmb_drive_def_default();
         dmb_joint_def spring = dmb_joint_def_default();
-        dmb_term term = dmb_term_default();
+        dmb_segment term = dmb_segment_default();
         must(dmb_model_create(NULL, &model));
         wall.diameter = pipe.outer_diameter + 0.01;
         wall.stiffness = soft == 1 ? 1e6 : 1e10;
@@ -82,7 +82,7 @@ static void wall_that_is_stiff(void **state)
         pipe.elements = 1;
         must(dmb_model_add_pipes(model, &pipe, 100, NULL));
         term.h0 = 1.0;
-        must(dmb_model_add_programme(model, &term, 1, &turn.programme));
+        must(dmb_model_add_time_function(model, &term, 1, &turn.time_function));
         turn.kind = DMB_DRIVE_CONTROL;
         turn.component = DMB_RX;
         turn.gain = 100.0;
@@ -121,13 +121,13 @@ static void limit_of_a_drive(void **state)
         dmb_sim *sim;
         dmb_body_def body = dmb_body_def_default();
         dmb_drive_def drive = dmb_drive_def_default();
-        dmb_term term = dmb_term_default();
+        dmb_segment term = dmb_segment_default();
         must(dmb_model_create(NULL, &model));
         body.mass = 2.0;
         body.free_mask = 1 << DMB_Z;
         must(dmb_model_add_body(model, &body, &drive.part));
         term.h0 = weak == 2 ? -0.1 : 0.1;
-        must(dmb_model_add_programme(model, &term, 1, &drive.programme));
+        must(dmb_model_add_time_function(model, &term, 1, &drive.time_function));
         strcpy(drive.name, "winch");
         drive.kind = DMB_DRIVE_CONTROL;
         drive.component = DMB_Z;

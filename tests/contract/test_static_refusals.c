@@ -24,7 +24,7 @@ static scene turned_string(int32_t free_mask)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term torque = dmb_term_default();
+    dmb_segment torque = dmb_segment_default();
     nowhere.gravity[2] = 0.0;
     string.start_free = free_mask;
     torque.h0 = 100.0;
@@ -34,7 +34,7 @@ static scene turned_string(int32_t free_mask)
     assert_int_equal(dmb_model_set_environment(s.model, &nowhere), DMB_OK);
     assert_int_equal(dmb_model_add_string(s.model, &string, &s.string), DMB_OK);
     assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 10, NULL), DMB_OK);
-    assert_int_equal(dmb_model_add_programme(s.model, &torque, 1, &drive.programme), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(s.model, &torque, 1, &drive.time_function), DMB_OK);
     if (free_mask & DMB_FREE_RX) assert_int_equal(dmb_model_add_drive(s.model, &drive, NULL), DMB_OK);
     assert_int_equal(dmb_model_compile(s.model, NULL), DMB_OK);
     assert_int_equal(dmb_sim_create(s.model, NULL, &s.sim), DMB_OK);

@@ -1,5 +1,5 @@
 /* Statics of strings that nothing holds along or about their axis, of every kind of pipe, lying and hanging: refused,
- * the part named, the state as it was; what a guide, a drive or no force at all leaves at rest is found. */
+ * the part named, the state as it was; what a support, a drive or no force at all leaves at rest is found. */
 #include "sim_test.h"
 
 enum { LYING_IN_HOLE, HANGING, PLACES };

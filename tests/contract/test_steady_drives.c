@@ -76,7 +76,7 @@ static void drives_of_joints(void **state)
         drive.kind = controlled ? DMB_DRIVE_CONTROL : DMB_DRIVE_MOTION;
         drive.component = DMB_RX;
         drive.gain = drive.integral_gain = controlled ? 10.0 : 0.0;
-        drive.programme = add_constant(&s, 0.0);
+        drive.time_function = add_constant(&s, 0.0);
         (void)add_drive(&s, &drive);
         accepted(&s, DMB_STEADY_SLIDING, shaft, wheel);
     }
@@ -101,7 +101,7 @@ static void forces_across(void **state)
         drive.kind = DMB_DRIVE_LOAD;
         drive.component = DMB_Y;
         drive.lag = actuated ? 0.1 : 0.0;
-        drive.programme = add_constant(&s, 0.0);
+        drive.time_function = add_constant(&s, 0.0);
         (void)add_drive(&s, &drive);
         refused(&s, DMB_STEADY_SLIDING, "its force turns with its string, across the axis");
     }

@@ -32,12 +32,12 @@ static void ok(const scene *s, int32_t status)
 static void move(const scene *s, dmb_id part, int32_t component, double speed)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.h0 = speed;
     drive.kind = DMB_DRIVE_MOTION;
     drive.part = part;
     drive.component = component;
-    ok(s, dmb_model_add_programme(s->model, &term, 1, &drive.programme));
+    ok(s, dmb_model_add_time_function(s->model, &term, 1, &drive.time_function));
     ok(s, dmb_model_add_drive(s->model, &drive, NULL));
 }
 

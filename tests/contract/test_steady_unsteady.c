@@ -1,4 +1,4 @@
-/* Parts of a scene that do not let a state be steady (drives, guides, joints and springs) are refused by name; and
+/* Parts of a scene that do not let a state be steady (drives, supports, joints and springs) are refused by name; and
  * analyses that judge stiffness at rest, buckling and paths, held against states that move: refused, and answered at
  * rest. */
 #include <string.h>
@@ -43,7 +43,8 @@ static dmb_id string_of(rig *s, int32_t start_free, int32_t end_free, int32_t ki
     return pipe.string;
 }
 
-/* ---- Drives and guides ------------------------------------------------------------------------------------------- */
+/* ---- Drives and supports -------------------------------------------------------------------------------------------
+ */
 
 static void drives_that_disagree(void **state)
 {
@@ -71,7 +72,7 @@ static void forces_that_turn(void **state)
     refused(&s, DMB_STEADY_SLIDING, "its force turns with its string");
 }
 
-static void guides_that_hold(void **state)
+static void supports_that_hold(void **state)
 {
     (void)state;
     rig s;
@@ -86,7 +87,7 @@ static void guides_that_hold(void **state)
     string = string_of(&s, DMB_FREE_RZ, DMB_FREE_X | DMB_FREE_RX, DMB_PIPE_FLEXIBLE); /* swung, its far end held */
     (void)constant_drive(&s, DMB_DRIVE_MOTION, string, DMB_RZ, 3.0);
     (void)rig_start(&s, NULL);
-    refused(&s, DMB_STEADY_RIGID, "its guide or drive holds");
+    refused(&s, DMB_STEADY_RIGID, "its support or drive holds");
 }
 
 static void pipes_that_only_slide(void **state)
@@ -279,7 +280,7 @@ static void actuator_of_what_stands_still(void **state)
     push.kind = DMB_DRIVE_LOAD;
     push.component = DMB_X;
     push.drag = 2.0;
-    push.programme = add_constant(&s, 100.0);
+    push.time_function = add_constant(&s, 100.0);
     (void)add_drive(&s, &push);
     (void)rig_start(&s, NULL);
     dmb_static_options options = dmb_static_options_default();
@@ -356,7 +357,7 @@ static void loads_on_what_turns(void **state)
         load.force[0] = k == 0 || k == 2 ? 5.0 : 0.0;
         load.force[1] = k == 1 || k == 3 ? 5.0 : 0.0;
         load.moment[2] = k == 4 ? 5.0 : 0.0;
-        if (k == 3) load.programme = add_constant(&s, 0.0);
+        if (k == 3) load.time_function = add_constant(&s, 0.0);
         (void)add_load(&s, &load);
         if (k == 1 || k == 4)
             not_accepted(&s, DMB_STEADY_RIGID, "load 0: it does not turn with the whole");
@@ -365,8 +366,8 @@ static void loads_on_what_turns(void **state)
     }
 }
 
-/* A body that its guide holds on the axis does not meet the wall; one that may meet it turns steadily about the axis of
- * a straight hole only: not beside it, not in an arc. */
+/* A body that its support holds on the axis does not meet the wall; one that may meet it turns steadily about the axis
+ * of a straight hole only: not beside it, not in an arc. */
 static void holes_of_what_turns(void **state)
 {
     static const double arc[3][3] = {{0.0, 0.5 * PI, 0.0}, {5.0, 0.5 * PI, 0.02}, {60.0, 0.5 * PI, 0.3}};
@@ -603,7 +604,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drives_that_disagree),
         cmocka_unit_test(forces_that_turn),
-        cmocka_unit_test(guides_that_hold),
+        cmocka_unit_test(supports_that_hold),
         cmocka_unit_test(pipes_that_only_slide),
         cmocka_unit_test(joints_that_are_driven),
         cmocka_unit_test(springs_to_the_ground),

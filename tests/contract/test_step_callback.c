@@ -1,4 +1,4 @@
-/* Programmes of the caller's own functions: whatever such a function does wrong, the call that needed it fails with
+/* Time functions of the caller's own functions: whatever such a function does wrong, the call that needed it fails with
  * DMB_ERR_CALLBACK and changes nothing; what it did not announce is not asked of it. */
 #include "whole_scene.h"
 
@@ -48,7 +48,7 @@ static int32_t value_of_time(void *context, double time, double out[3])
     return misdeed == REFUSES ? 7 : misdeed == REFUSES_WITH_MINUS_ONE ? -1 : 0;
 }
 
-/* The use of the programme. */
+/* The use of the time function. */
 enum { MOTION, MOTION_EXCITATION, CONTROL, LOAD_DRIVE, LOAD_EXCITATION, LOAD_FACTOR, BIT_LOAD, USES };
 
 typedef struct scene {
@@ -59,31 +59,31 @@ typedef struct scene {
 
 static dmb_id add_source(scene *s, int32_t provides)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
-    term.kind = DMB_TERM_CALLBACK;
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.provides = provides;
     term.callback = value_of_time;
     term.callback_context = &s->source;
-    whole_must(s->model, dmb_model_add_programme(s->model, &term, 1, &id));
+    whole_must(s->model, dmb_model_add_time_function(s->model, &term, 1, &id));
     return id;
 }
 
 static dmb_id add_constant(scene *s)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
     term.h0 = 0.5;
-    whole_must(s->model, dmb_model_add_programme(s->model, &term, 1, &id));
+    whole_must(s->model, dmb_model_add_time_function(s->model, &term, 1, &id));
     return id;
 }
 
-static void add_drive(scene *s, int use, dmb_id programme)
+static void add_drive(scene *s, int use, dmb_id time_function)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     const int excites = use == MOTION_EXCITATION || use == LOAD_EXCITATION;
-    drive.programme = excites ? add_constant(s) : programme;
-    if (excites) drive.excitation = programme;
+    drive.time_function = excites ? add_constant(s) : time_function;
+    if (excites) drive.excitation = time_function;
     if (use == LOAD_DRIVE || use == LOAD_EXCITATION) drive.kind = DMB_DRIVE_LOAD;
     if (use == CONTROL) {
         drive.kind = DMB_DRIVE_CONTROL;
@@ -93,12 +93,12 @@ static void add_drive(scene *s, int use, dmb_id programme)
     whole_must(s->model, dmb_model_add_drive(s->model, &drive, NULL));
 }
 
-static void add_load(scene *s, dmb_id string, dmb_id programme)
+static void add_load(scene *s, dmb_id string, dmb_id time_function)
 {
     dmb_load_def load = dmb_load_def_default();
     load.place = dmb_station(string, 1, 1.0);
     load.force[0] = 100.0;
-    load.programme = programme;
+    load.time_function = time_function;
     whole_must(s->model, dmb_model_add_load(s->model, &load, NULL));
 }
 
@@ -113,11 +113,11 @@ static void describe(scene *s, int use, int32_t provides)
     assert_int_equal(dmb_model_create(NULL, &s->model), DMB_OK);
     whole_must(s->model, dmb_model_add_wall(s->model, &wall, NULL));
     whole_must(s->model, dmb_model_add_pipes(s->model, &pipe, 3, &string));
-    const dmb_id programme = add_source(s, provides);
-    if (use == BIT_LOAD) bit.load = programme;
+    const dmb_id time_function = add_source(s, provides);
+    if (use == BIT_LOAD) bit.load = time_function;
     whole_must(s->model, dmb_model_add_bit(s->model, &bit, NULL));
-    if (use == LOAD_FACTOR) add_load(s, string, programme);
-    if (use < LOAD_FACTOR) add_drive(s, use, programme);
+    if (use == LOAD_FACTOR) add_load(s, string, time_function);
+    if (use < LOAD_FACTOR) add_drive(s, use, time_function);
     whole_must(s->model, dmb_model_compile(s->model, NULL));
 }
 
@@ -163,7 +163,7 @@ static void must_fail(scene *s, int use, int misdeed)
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
-/* Wrong values, in every place where a programme can be used; afterwards the run goes on as if it had not been. */
+/* Wrong values, in every place where a time function can be used; afterwards the run goes on as if it had not been. */
 static void misdeeds_stop_the_step(void **state)
 {
     (void)state;

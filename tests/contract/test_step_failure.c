@@ -131,11 +131,11 @@ static void bounded_work_accepts_and_tells(void **state)
 
 static dmb_id torque(dmb_model *model)
 {
-    dmb_term term = dmb_term_default();
-    dmb_id programme = {0, 0};
+    dmb_segment term = dmb_segment_default();
+    dmb_id time_function = {0, 0};
     term.h0 = 50.0;
-    whole_must(model, dmb_model_add_programme(model, &term, 1, &programme));
-    return programme;
+    whole_must(model, dmb_model_add_time_function(model, &term, 1, &time_function));
+    return time_function;
 }
 
 /* One pipe that hardly resists torsion, held at the rig and twisted at its end. */
@@ -152,7 +152,7 @@ static void soft_torsion(scene *s)
     load.frame = DMB_FRAME_BODY;
     load.place = dmb_station(s->string, 0, 1.0);
     load.moment[0] = 1.0;
-    load.programme = torque(s->model);
+    load.time_function = torque(s->model);
     whole_must(s->model, dmb_model_add_load(s->model, &load, NULL));
     start(s, NULL);
 }
@@ -196,21 +196,21 @@ static int32_t refuse_late(void *context, double time, double out[3])
 /* A motion drive of a callback and a STEP whose corners divide the step. */
 static void driven_scene(scene *s)
 {
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     dmb_drive_def drive = dmb_drive_def_default();
     const dmb_wall_def wall = dmb_wall_def_default();
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     open_scene(s);
-    terms[0].kind = DMB_TERM_STEP;
+    terms[0].kind = DMB_SEGMENT_STEP;
     terms[0].x0 = 0.002;
     terms[0].x1 = 0.007;
     terms[0].h1 = 0.05;
-    terms[1].kind = DMB_TERM_CALLBACK;
+    terms[1].kind = DMB_SEGMENT_CALLBACK;
     terms[1].callback = refuse_late;
     terms[1].callback_context = s;
     whole_must(s->model, dmb_model_add_wall(s->model, &wall, NULL));
     whole_must(s->model, dmb_model_add_pipes(s->model, &pipe, 4, &s->string));
-    whole_must(s->model, dmb_model_add_programme(s->model, terms, 2, &drive.programme));
+    whole_must(s->model, dmb_model_add_time_function(s->model, terms, 2, &drive.time_function));
     whole_must(s->model, dmb_model_add_drive(s->model, &drive, NULL));
     start(s, NULL);
 }
@@ -331,7 +331,7 @@ static void open_drilling(scene *s, int32_t law, double speed)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     open_scene(s);
     pipe.length = 3.0;
     whole_must(s->model, dmb_model_add_pipes(s->model, &pipe, 4, &s->string));
@@ -339,10 +339,10 @@ static void open_drilling(scene *s, int32_t law, double speed)
     bit.diameter = 0.0;
     whole_must(s->model, dmb_model_add_bit(s->model, &bit, NULL));
     for (int i = 0; i < 2; i++) {
-        term.kind = DMB_TERM_STEP;
+        term.kind = DMB_SEGMENT_STEP;
         term.h1 = i == 0 ? 0.1 : speed; /* [m/s, rad/s] */
         drive.component = i == 0 ? DMB_X : DMB_RX;
-        whole_must(s->model, dmb_model_add_programme(s->model, &term, 1, &drive.programme));
+        whole_must(s->model, dmb_model_add_time_function(s->model, &term, 1, &drive.time_function));
         whole_must(s->model, dmb_model_add_drive(s->model, &drive, NULL));
     }
     start(s, NULL);

@@ -1,8 +1,8 @@
 /* A scene with every kind of part, for the contract tests: a curved hole that the bit widens, a string of all three
  * kinds of pipes with tool joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own,
- * drives of all kinds with programmes of all kinds, dead and follower loads; an arm hinged to the body and hung from
- * the string by springs, with a wheel that is geared and driven, and a function that watches. Small enough to be run
- * some thousand times. */
+ * drives of all kinds with time functions of all kinds, dead and follower loads; an arm hinged to the body and hung
+ * from the string by springs, with a wheel that is geared and driven, and a function that watches. Small enough to be
+ * run some thousand times. */
 #ifndef DMB_TESTS_WHOLE_SCENE_H
 #define DMB_TESTS_WHOLE_SCENE_H
 
@@ -17,7 +17,7 @@
 
 #include "drillmbd/drillmbd.h"
 
-enum { WHOLE_PIPES = 8, WHOLE_CHANNELS = 4, WHOLE_ROWS = 8 };
+enum { WHOLE_PIPES = 8, WHOLE_OUTPUTS = 4, WHOLE_ROWS = 8 };
 
 /* The parts, and what the scene's callbacks look at. Has to outlive model and sims. */
 typedef struct whole_parts {
@@ -28,7 +28,8 @@ typedef struct whole_parts {
     int32_t callback_status; /* what the callbacks return; not 0: they fail */
 } whole_parts;
 
-/* ---- Programmes -------------------------------------------------------------------------------------------------- */
+/* ---- Time functions
+ * -------------------------------------------------------------------------------------------------- */
 
 /* 2 sin(3 t) with all that can be told */
 static inline int32_t whole_smooth(void *context, double time, double out[3])
@@ -48,78 +49,78 @@ static inline int32_t whole_plain(void *context, double time, double out[3])
     return parts->callback_status;
 }
 
-static inline int32_t whole_add_term(dmb_model *model, const dmb_term *term, dmb_id *id)
+static inline int32_t whole_add_segment(dmb_model *model, const dmb_segment *term, dmb_id *id)
 {
-    return dmb_model_add_programme(model, term, 1, id);
+    return dmb_model_add_time_function(model, term, 1, id);
 }
 
 static inline int32_t whole_add_constant(dmb_model *model, whole_parts *parts)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.h0 = 4.0;
-    return whole_add_term(model, &term, &parts->constant);
+    return whole_add_segment(model, &term, &parts->constant);
 }
 
 /* Up, and down again before the end of a run. */
 static inline int32_t whole_add_step(dmb_model *model, whole_parts *parts)
 {
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
-    terms[0].kind = terms[1].kind = DMB_TERM_STEP;
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
+    terms[0].kind = terms[1].kind = DMB_SEGMENT_STEP;
     terms[0].x1 = 0.0107;
     terms[0].h1 = 0.02;
     terms[1].x0 = 0.0153;
     terms[1].x1 = 0.0254;
     terms[1].h1 = -0.01;
-    return dmb_model_add_programme(model, terms, 2, &parts->step);
+    return dmb_model_add_time_function(model, terms, 2, &parts->step);
 }
 
 static inline int32_t whole_add_step5(dmb_model *model, whole_parts *parts)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP5;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP5;
     term.x1 = 0.02;
     term.h1 = 8.0;
-    return whole_add_term(model, &term, &parts->step5);
+    return whole_add_segment(model, &term, &parts->step5);
 }
 
 static inline int32_t whole_add_harmonic(dmb_model *model, whole_parts *parts)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_HARMONIC;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = 1e-3;
     term.omega = 300.0;
     term.phase = 0.2;
-    return whole_add_term(model, &term, &parts->harmonic);
+    return whole_add_segment(model, &term, &parts->harmonic);
 }
 
 static inline int32_t whole_add_table(dmb_model *model, whole_parts *parts)
 {
     static const double time[4] = {0.0, 0.0042, 0.0131, 0.5}, value[4] = {0.0, 60.0, -30.0, 10.0};
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_TABLE;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = value;
     term.table_count = 4;
-    return whole_add_term(model, &term, &parts->table);
+    return whole_add_segment(model, &term, &parts->table);
 }
 
 static inline int32_t whole_add_smooth(dmb_model *model, whole_parts *parts)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     term.callback = whole_smooth;
     term.callback_context = parts;
-    return whole_add_term(model, &term, &parts->smooth);
+    return whole_add_segment(model, &term, &parts->smooth);
 }
 
 static inline int32_t whole_add_plain(dmb_model *model, whole_parts *parts)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.callback = whole_plain;
     term.callback_context = parts;
-    return whole_add_term(model, &term, &parts->plain);
+    return whole_add_segment(model, &term, &parts->plain);
 }
 
 /* ---- Hole, strings, bodies --------------------------------------------------------------------------------------- */
@@ -260,7 +261,7 @@ static inline int32_t whole_add_feed(dmb_model *model, whole_parts *parts)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = parts->string;
-    drive.programme = parts->step;
+    drive.time_function = parts->step;
     drive.excitation = parts->harmonic;
     return dmb_model_add_drive(model, &drive, &parts->feed);
 }
@@ -271,7 +272,7 @@ static inline int32_t whole_add_turning(dmb_model *model, whole_parts *parts)
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = parts->string;
     drive.component = DMB_RX;
-    drive.programme = parts->step5;
+    drive.time_function = parts->step5;
     drive.gain = 200.0;
     drive.integral_gain = 50.0;
     drive.limit_low = -3000.0;
@@ -284,7 +285,7 @@ static inline int32_t whole_add_pushing(dmb_model *model, whole_parts *parts)
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_LOAD;
     drive.part = parts->body;
-    drive.programme = parts->plain;
+    drive.time_function = parts->plain;
     drive.excitation = parts->constant;
     return dmb_model_add_drive(model, &drive, &parts->pushing);
 }
@@ -294,7 +295,7 @@ static inline int32_t whole_add_spinning(dmb_model *model, whole_parts *parts)
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = parts->second;
     drive.component = DMB_RX;
-    drive.programme = parts->smooth;
+    drive.time_function = parts->smooth;
     return dmb_model_add_drive(model, &drive, &parts->spinning);
 }
 
@@ -303,7 +304,7 @@ static inline int32_t whole_add_dead_load(dmb_model *model, whole_parts *parts)
     dmb_load_def load = dmb_load_def_default();
     load.place = dmb_station(parts->string, 3, 1.0);
     load.force[1] = 1.0;
-    load.programme = parts->table;
+    load.time_function = parts->table;
     return dmb_model_add_load(model, &load, NULL);
 }
 
@@ -314,7 +315,7 @@ static inline int32_t whole_add_follower(dmb_model *model, whole_parts *parts)
     load.place = dmb_station(parts->body, 0, 0.0);
     load.force[2] = -2.0;
     load.moment[0] = 0.01;
-    load.programme = parts->plain;
+    load.time_function = parts->plain;
     return dmb_model_add_load(model, &load, NULL);
 }
 
@@ -423,13 +424,13 @@ static inline int32_t whole_force(void *context, double time, uint32_t count, co
 }
 
 /* Inside an element. */
-static inline int32_t whole_add_ring(dmb_model *model, whole_parts *parts)
+static inline int32_t whole_add_stabiliser(dmb_model *model, whole_parts *parts)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.string = parts->second;
     ring.pipe = 1;
     ring.fraction = 0.37;
-    return dmb_model_add_ring(model, &ring, NULL);
+    return dmb_model_add_stabiliser(model, &ring, NULL);
 }
 
 static inline int32_t whole_add_force(dmb_model *model, whole_parts *parts)
@@ -497,7 +498,7 @@ static inline int32_t whole_add_winding(dmb_model *model, whole_parts *parts)
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = parts->axle;
     drive.component = DMB_RX;
-    drive.programme = parts->smooth;
+    drive.time_function = parts->smooth;
     return dmb_model_add_drive(model, &drive, &parts->winding);
 }
 
@@ -513,14 +514,14 @@ typedef int32_t (*whole_call)(dmb_model *model, whole_parts *parts);
 
 /* Every call of the description, compile last. */
 static const whole_call whole_calls[] = {
-    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,     whole_add_harmonic,
-    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,      whole_add_string,
-    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,
-    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,       whole_add_feed,
-    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
-    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
-    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,      whole_add_guy,
-    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_add_ring,      whole_compile};
+    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,      whole_add_harmonic,
+    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,       whole_add_string,
+    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe,  whole_add_second,
+    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,        whole_add_feed,
+    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load,  whole_add_follower,
+    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,       whole_add_spring,
+    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,       whole_add_guy,
+    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_add_stabiliser, whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)
@@ -587,15 +588,15 @@ typedef struct whole_answers {
     dmb_statistics statistics;
     double rotation, kinetic_energy, reaction[6], multipliers[6];
     uint32_t multiplier_count, reserved;
-    dmb_channel channels[WHOLE_CHANNELS];
-    double table[WHOLE_ROWS * (1 + WHOLE_CHANNELS)];
+    dmb_output outputs[WHOLE_OUTPUTS];
+    double table[WHOLE_ROWS * (1 + WHOLE_OUTPUTS)];
     dmb_recorder recorder;
 } whole_answers;
 
 static inline void whole_answers_init(whole_answers *a, const whole_parts *parts)
 {
-    static const int32_t quantities[WHOLE_CHANNELS] = {DMB_CHANNEL_POSITION_Z, DMB_CHANNEL_AXIAL_FORCE,
-                                                       DMB_CHANNEL_DRIVE_FORCE, DMB_CHANNEL_BIT_WEIGHT};
+    static const int32_t quantities[WHOLE_OUTPUTS] = {DMB_OUTPUT_POSITION_Z, DMB_OUTPUT_AXIAL_FORCE,
+                                                      DMB_OUTPUT_DRIVE_FORCE, DMB_OUTPUT_BIT_WEIGHT};
     memset(a, 0, sizeof *a);
     for (uint32_t i = 0; i < WHOLE_PIPES; i++) a->pose[i] = dmb_pose_default();
     a->motion = dmb_motion_default();
@@ -608,13 +609,13 @@ static inline void whole_answers_init(whole_answers *a, const whole_parts *parts
     a->joint = dmb_joint_state_default();
     a->bit = dmb_bit_state_default();
     a->statistics = dmb_statistics_default();
-    for (uint32_t i = 0; i < WHOLE_CHANNELS; i++) a->channels[i].quantity = quantities[i];
-    a->channels[0].place = a->channels[1].place = dmb_station(parts->string, 3, 0.3);
-    a->channels[2].place = dmb_station(parts->feed, 0, 0.0);
-    a->channels[3].place = dmb_station(parts->bit, 0, 0.0);
+    for (uint32_t i = 0; i < WHOLE_OUTPUTS; i++) a->outputs[i].quantity = quantities[i];
+    a->outputs[0].place = a->outputs[1].place = dmb_station(parts->string, 3, 0.3);
+    a->outputs[2].place = dmb_station(parts->feed, 0, 0.0);
+    a->outputs[3].place = dmb_station(parts->bit, 0, 0.0);
     a->recorder = dmb_recorder_default();
-    a->recorder.channels = a->channels;
-    a->recorder.channel_count = WHOLE_CHANNELS;
+    a->recorder.outputs = a->outputs;
+    a->recorder.output_count = WHOLE_OUTPUTS;
     a->recorder.table = a->table;
     a->recorder.capacity = WHOLE_ROWS;
 }

@@ -23,15 +23,15 @@ static int32_t describe(void)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     wall.friction_law = DMB_FRICTION_STRIBECK;
     int32_t status = dmb_model_add_wall(model, &wall, NULL);
     if (status >= 0) status = dmb_model_add_pipes(model, &pipe, PIPES, NULL);
     if (status >= 0) status = dmb_model_add_bit(model, &bit, NULL);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.05;
     term.h1 = 10.0;
-    if (status >= 0) status = dmb_model_add_programme(model, &term, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_time_function(model, &term, 1, &drive.time_function);
     drive.component = DMB_RX;
     if (status >= 0) status = dmb_model_add_drive(model, &drive, NULL);
     return status < 0 ? status : dmb_model_compile(model, NULL);

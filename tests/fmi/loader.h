@@ -27,7 +27,7 @@ typedef struct rig {
     char folder[64];
     dmb_model *model;
     dmb_id speed, friction;
-    dmb_channel outputs[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
 } rig;
 
 static inline void must(int32_t status, const char *message)
@@ -70,7 +70,7 @@ static inline dmb_id describe_rig(rig *r, scene_book *book)
     dmb_wall_def wall = dmb_wall_def_default();
     wall.survey_count = 3;
     wall.survey = depths;
-    dmb_id hole, string, programme, head;
+    dmb_id hole, string, time_function, head;
     DESCRIBE(r, book, add_wall, wall, &hole);
     dmb_hole_section section = dmb_hole_section_default();
     section.depth = 3.0;
@@ -81,23 +81,23 @@ static inline dmb_id describe_rig(rig *r, scene_book *book)
     pipe.eccentricity = 1e-3;
     must(dmb_model_add_pipes(r->model, &pipe, 5, &string), dmb_model_message(r->model));
     scene_note(book, "add_pipes", &pipe, sizeof pipe, 1, 5);
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     terms[0].h0 = 0.5;
-    terms[1].kind = DMB_TERM_TABLE;
+    terms[1].kind = DMB_SEGMENT_TABLE;
     terms[1].table_count = 3;
     terms[1].table_time = times;
     terms[1].table_value = speeds;
-    must(dmb_model_add_programme(r->model, terms, 2, &programme), dmb_model_message(r->model));
-    scene_note(book, "add_programme", terms, sizeof *terms, 2, 1);
+    must(dmb_model_add_time_function(r->model, terms, 2, &time_function), dmb_model_message(r->model));
+    scene_note(book, "add_time_function", terms, sizeof *terms, 2, 1);
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = string;
     drive.component = DMB_RX;
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 300.0;
-    drive.programme = programme;
+    drive.time_function = time_function;
     DESCRIBE(r, book, add_drive, drive, &head);
-    r->outputs[0] = (dmb_channel){{head, 0, 0, 0.0}, DMB_CHANNEL_DRIVE_FORCE, 0};
-    r->outputs[1] = (dmb_channel){{string, 0, 0, 0.0}, DMB_CHANNEL_BIT_SPEED, 0};
+    r->outputs[0] = (dmb_output){{head, 0, 0, 0.0}, DMB_OUTPUT_DRIVE_FORCE, 0};
+    r->outputs[1] = (dmb_output){{string, 0, 0, 0.0}, DMB_OUTPUT_BIT_SPEED, 0};
     return head;
 }
 
@@ -140,7 +140,7 @@ static inline dmb_sim *sim_of(const rig *r)
 
 static inline void ask(const rig *r, const dmb_sim *sim, double outputs[OUTPUTS])
 {
-    for (int i = 0; i < OUTPUTS; ++i) must(dmb_query_channel(sim, &r->outputs[i], &outputs[i]), "channel");
+    for (int i = 0; i < OUTPUTS; ++i) must(dmb_query_output(sim, &r->outputs[i], &outputs[i]), "output");
 }
 
 /* The speed that a controller might ask for. */

@@ -145,7 +145,7 @@ static void test_bits_of_the_library(void **state)
     }
 }
 
-/* Reset: the same run again, without what was set. Programmes hold while an input is not set. */
+/* Reset: the same run again, without what was set. Time functions hold while an input is not set. */
 static void test_reset_and_start_values(void **state)
 {
     (void)state;

@@ -116,13 +116,13 @@ static inline void act_event(dmb_sim *sim, random_scene *c)
 /* ---- Windows and recorders ----------------------------------------------------------------------------------------
  */
 
-static inline void take_rows(dmb_sim *sim, random_scene *c, dmb_window *window, const dmb_channel *channels)
+static inline void take_rows(dmb_sim *sim, random_scene *c, dmb_window *window, const dmb_output *outputs)
 {
     enum { ROWS = 2 };
     double table[ROWS * 3 + 1];
     dmb_recorder recorder = dmb_recorder_default();
-    recorder.channels = channels;
-    recorder.channel_count = 2;
+    recorder.outputs = outputs;
+    recorder.output_count = 2;
     recorder.table = table;
     recorder.capacity = ROWS;
     recorder.window = draw_chance(&c->source, 128) ? window : NULL;
@@ -143,14 +143,14 @@ static inline void act_window(dmb_sim *sim, random_scene *c)
     dmb_window_options options = dmb_window_options_default();
     dmb_window_result result = dmb_window_result_default();
     dmb_window *window = NULL;
-    dmb_channel channels[2] = {draw_channel(c), draw_channel(c)};
+    dmb_output outputs[2] = {draw_output(c), draw_output(c)};
     options.slots = 1 + draw_below(s, 6);
     options.length = draw_chance(s, 128) ? draw_size(s, 1e-5, 1e-2) : 0.0;
-    const int32_t status = dmb_window_create(sim, &options, channels, 2, &window);
+    const int32_t status = dmb_window_create(sim, &options, outputs, 2, &window);
     must_be_known(status);
     MUST((status >= 0) == (window != NULL));
-    if (draw_chance(s, 60)) channels[1].quantity = DMB_CHANNEL_WINDOW_MEAN;
-    take_rows(sim, c, window, channels);
+    if (draw_chance(s, 60)) outputs[1].quantity = DMB_OUTPUT_WINDOW_MEAN;
+    take_rows(sim, c, window, outputs);
     if (window != NULL) must_be_known(dmb_window_get(window, draw_below(s, 3), &result));
     if (window != NULL) MUST(dmb_window_reset(window) == DMB_OK);
     dmb_window_destroy(&window);
@@ -257,11 +257,11 @@ static inline void nudge(dmb_sim *sim, random_scene *c, double by)
 
 static inline void ask_sensitivity(dmb_sensitivity *sensitivity, random_scene *c)
 {
-    const dmb_channel channels[2] = {draw_channel(c), draw_channel(c)};
+    const dmb_output outputs[2] = {draw_output(c), draw_output(c)};
     double values[2], derivatives[2];
     uint64_t kinks = 0;
     uint32_t rows = 0;
-    must_be_known(dmb_sensitivity_channels(sensitivity, channels, 2, values, derivatives));
+    must_be_known(dmb_sensitivity_outputs(sensitivity, outputs, 2, values, derivatives));
     must_be_known(dmb_sensitivity_rows(sensitivity, 0, NULL, NULL, &rows));
     must_be_known(dmb_sensitivity_kinks(sensitivity, draw_below(&c->source, 2), &kinks));
 }

@@ -14,35 +14,35 @@ static inline dmb_id part_of_kind(const random_scene *c, uint32_t kind)
     return none;
 }
 
-static inline dmb_output draw_any_output(random_scene *c)
+static inline dmb_response_output draw_any_output(random_scene *c)
 {
     byte_source *s = &c->source;
-    const dmb_channel channel = draw_channel(c);
-    dmb_output output = dmb_output_default();
-    output.kind = draw_chance(s, 60) ? DMB_OUTPUT_CHANNEL : (int32_t)draw_choice(s, 15);
-    output.place = channel.place;
-    output.component = output.kind == DMB_OUTPUT_CHANNEL ? channel.quantity : (int32_t)draw_below(s, 6);
+    const dmb_output reading = draw_output(c);
+    dmb_response_output output = dmb_response_output_default();
+    output.kind = draw_chance(s, 60) ? DMB_RESPONSE_OUTPUT : (int32_t)draw_choice(s, 15);
+    output.place = reading.place;
+    output.component = output.kind == DMB_RESPONSE_OUTPUT ? reading.quantity : (int32_t)draw_below(s, 6);
     output.frame = (int32_t)draw_below(s, 2);
-    if (output.kind < DMB_OUTPUT_CONTACT) output.place = draw_place(c);
-    if (output.kind == DMB_OUTPUT_DRIVE) output.place.part = part_of_kind(c, DMB_PART_DRIVE);
-    if (output.kind >= DMB_OUTPUT_JOINT_POSITION && output.kind <= DMB_OUTPUT_MULTIPLIER)
+    if (output.kind < DMB_RESPONSE_CONTACT) output.place = draw_place(c);
+    if (output.kind == DMB_RESPONSE_DRIVE) output.place.part = part_of_kind(c, DMB_PART_DRIVE);
+    if (output.kind >= DMB_RESPONSE_JOINT_POSITION && output.kind <= DMB_RESPONSE_MULTIPLIER)
         output.place.part = part_of_kind(c, DMB_PART_JOINT);
     return output;
 }
 
-static inline dmb_input draw_any_input(random_scene *c)
+static inline dmb_excitation draw_any_input(random_scene *c)
 {
     byte_source *s = &c->source;
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.kind = (int32_t)draw_choice(s, 8);
     input.place = draw_place(c);
     input.component = (int32_t)draw_below(s, 6);
     input.frame = (int32_t)draw_below(s, 2);
-    const uint32_t kind = input.kind == DMB_INPUT_SETTING    ? DMB_PART_INPUT
-                          : input.kind == DMB_INPUT_DRIVE    ? DMB_PART_DRIVE
-                          : input.kind == DMB_INPUT_LOAD     ? DMB_PART_LOAD
-                          : input.kind == DMB_INPUT_BIT_LOAD ? DMB_PART_BIT
-                                                             : 0;
+    const uint32_t kind = input.kind == DMB_EXCITATION_SETTING    ? DMB_PART_INPUT
+                          : input.kind == DMB_EXCITATION_DRIVE    ? DMB_PART_DRIVE
+                          : input.kind == DMB_EXCITATION_LOAD     ? DMB_PART_LOAD
+                          : input.kind == DMB_EXCITATION_BIT_LOAD ? DMB_PART_BIT
+                                                                  : 0;
     if (kind != 0) input.place = dmb_station(part_of_kind(c, kind), 0, 0.0);
     return input;
 }
@@ -130,8 +130,8 @@ static inline void act_response_in_axes(dmb_sim *sim, random_scene *c)
     byte_source *s = &c->source;
     const double frequencies[3] = {1.0, 2.0, 30.0};
     dmb_response_options options = dmb_response_options_default();
-    const dmb_input inputs[2] = {draw_any_input(c), draw_any_input(c)};
-    const dmb_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
+    const dmb_excitation inputs[2] = {draw_any_input(c), draw_any_input(c)};
+    const dmb_response_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
     dmb_response *response = NULL;
     const uint64_t before = hash_of(sim);
     options.points = 3;
@@ -194,8 +194,8 @@ static inline void act_state_space(dmb_sim *sim, random_scene *c)
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_state_space_info info = dmb_state_space_info_default();
     dmb_modes_options of_modes = dmb_modes_options_default();
-    const dmb_input inputs[2] = {draw_any_input(c), draw_any_input(c)};
-    const dmb_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
+    const dmb_excitation inputs[2] = {draw_any_input(c), draw_any_input(c)};
+    const dmb_response_output outputs[2] = {draw_any_output(c), draw_any_output(c)};
     dmb_state_space *space = NULL;
     dmb_modes *modes = NULL;
     const uint64_t before = hash_of(sim);

@@ -115,21 +115,21 @@ static inline int32_t draw_quantity(byte_source *s)
     static int32_t named[512];
     static uint32_t count;
     if (count == 0)
-        for (int32_t q = dmb_channel_next(-1); q >= 0 && count < 512; q = dmb_channel_next(q)) named[count++] = q;
+        for (int32_t q = dmb_output_next(-1); q >= 0 && count < 512; q = dmb_output_next(q)) named[count++] = q;
     const uint32_t drawn = draw_byte(s) << 8 | draw_byte(s);
     return draw_chance(s, 6) ? (int32_t)drawn : named[drawn % count];
 }
 
 /* Of any part, or at a station of a string. */
-static inline dmb_channel draw_channel(random_scene *c)
+static inline dmb_output draw_output(random_scene *c)
 {
     byte_source *s = &c->source;
-    dmb_channel channel = {.quantity = draw_quantity(s)};
-    channel.place = draw_place(c);
-    if (draw_chance(s, 160) && c->anys > 0) channel.place.part = c->any[draw_below(s, c->anys)];
-    if (channel.place.part.index >> 24 != DMB_PART_STRING) channel.place.fraction = 0.0;
-    if (draw_chance(s, 10)) channel.place.fraction = draw_nonsense(s);
-    return channel;
+    dmb_output output = {.quantity = draw_quantity(s)};
+    output.place = draw_place(c);
+    if (draw_chance(s, 160) && c->anys > 0) output.place.part = c->any[draw_below(s, c->anys)];
+    if (output.place.part.index >> 24 != DMB_PART_STRING) output.place.fraction = 0.0;
+    if (draw_chance(s, 10)) output.place.fraction = draw_nonsense(s);
+    return output;
 }
 
 static inline void draw_event(random_scene *c)
@@ -143,7 +143,7 @@ static inline void draw_event(random_scene *c)
     def.level = draw_number(s, -1.0, 1.0);
     def.hold = draw_chance(s, 60) ? 1e-4 : 0.0;
     if (has_more(c)) {
-        if (draw_chance(s, 200)) def.output = draw_channel(c);
+        if (draw_chance(s, 200)) def.output = draw_output(c);
         def.direction = (int32_t)draw_below(s, 3);
         def.level *= draw_size(s, 1e-6, 1e6);
         draw_spoil(s, &def.level, 3);
@@ -188,10 +188,10 @@ static inline void draw_sections(random_scene *c)
 }
 
 /* With a cutting surface of its own at times: a reamer. */
-static inline void draw_ring(random_scene *c)
+static inline void draw_stabiliser(random_scene *c)
 {
     byte_source *s = &c->source;
-    dmb_ring_def def = dmb_ring_def_default();
+    dmb_stabiliser_def def = dmb_stabiliser_def_default();
     dmb_id id = {0, 0};
     if (c->strings > 0) def.string = c->string[draw_below(s, c->strings)];
     def.pipe = fitting_pipe(c, def.string, draw_below(s, 3));
@@ -200,11 +200,11 @@ static inline void draw_ring(random_scene *c)
     def.length = draw_size(s, 0.01, 0.5);
     draw_name(s, def.name);
     draw_spoil(s, &def.fraction, 6);
-    const int32_t status = dmb_model_add_ring(c->model, &def, &id);
+    const int32_t status = dmb_model_add_stabiliser(c->model, &def, &id);
     (void)keep_known(c, status, id);
     if (status < 0 || !draw_chance(s, 80)) return;
     dmb_bit_def reamer = dmb_bit_def_default();
-    reamer.ring = id;
+    reamer.stabiliser = id;
     reamer.rock_law = (int32_t)draw_below(s, 3);
     reamer.history = 64;
     reamer.inner_radius = draw_number(s, 0.0, 0.04);
@@ -247,7 +247,7 @@ static inline void draw_more_parts(random_scene *c)
     byte_source *s = &c->source;
     swap_sources(c);
     if (draw_chance(s, c->has_wall ? 80 : 2)) draw_sections(c);
-    for (uint32_t i = draw_below(s, 3); i > 0; i--) draw_ring(c);
+    for (uint32_t i = draw_below(s, 3); i > 0; i--) draw_stabiliser(c);
     if (draw_chance(s, 50)) draw_force(c);
     draw_rest(c);
     draw_new_name(c);

@@ -11,17 +11,17 @@ static inline dmb_id draw_any(random_scene *c)
     return c->anys > 0 ? c->any[draw_below(&c->source, c->anys)] : none;
 }
 
-static inline void ask_channel(dmb_sim *sim, random_scene *c)
+static inline void ask_output(dmb_sim *sim, random_scene *c)
 {
-    const dmb_channel channel = draw_channel(c);
+    const dmb_output output = draw_output(c);
     double value = 0.5;
-    const int32_t status = dmb_query_channel(sim, &channel, &value);
-    const char *name = dmb_channel_name(channel.quantity, NULL);
+    const int32_t status = dmb_query_output(sim, &output, &value);
+    const char *name = dmb_output_name(output.quantity, NULL);
     int32_t quantity = -1;
     must_be_known(status);
     MUST(status >= 0 || value == 0.5);
-    MUST((dmb_channel_check(sim, &channel, 1) >= 0) == (status >= 0));
-    if (name != NULL) MUST(dmb_channel_quantity(name, &quantity) == DMB_OK && quantity == channel.quantity);
+    MUST((dmb_output_check(sim, &output, 1) >= 0) == (status >= 0));
+    if (name != NULL) MUST(dmb_output_quantity(name, &quantity) == DMB_OK && quantity == output.quantity);
 }
 
 /* In the places that strides say, with what is between them left alone. */
@@ -176,8 +176,8 @@ static inline void ask_pictures(dmb_sim *sim, random_scene *c)
 static inline void ask_anything(dmb_sim *sim, random_scene *c)
 {
     static void (*const questions[])(dmb_sim * sim, random_scene * c) = {
-        ask_channel, ask_profile, ask_reactions, ask_springs, ask_hole,
-        ask_places,  ask_arrays,  ask_names,     ask_channel, ask_pictures,
+        ask_output, ask_profile, ask_reactions, ask_springs, ask_hole,
+        ask_places, ask_arrays,  ask_names,     ask_output,  ask_pictures,
     };
     questions[draw_below(&c->source, sizeof questions / sizeof questions[0])](sim, c);
 }

@@ -21,7 +21,7 @@ enum {
 #else
 enum { DRAW_PIPES = 24, DRAW_ELEMENTS = 3, DRAW_ITERATIONS = 30, DRAW_CUTS = 8, DRAW_STEPS = 1000 };
 #endif
-enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_INPUTS = 4, DRAW_ANY = 40 };
+enum { DRAW_TIME_FUNCTIONS = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_INPUTS = 4, DRAW_ANY = 40 };
 /* Bits of `more`. */
 enum { MORE_PARTS = 1, MORE_ACTIONS = 6 };
 
@@ -30,9 +30,9 @@ typedef struct random_scene {
     uint32_t
         more; /* last byte of the input: what there is beyond what inputs without it have, which stay what they are */
     dmb_model *model;
-    dmb_id programme[DRAW_PROGRAMMES], string[DRAW_STRINGS + 1], body[DRAW_BODIES], bit, drive[DRAW_DRIVES + 1];
+    dmb_id time_function[DRAW_TIME_FUNCTIONS], string[DRAW_STRINGS + 1], body[DRAW_BODIES], bit, drive[DRAW_DRIVES + 1];
     dmb_id input[DRAW_INPUTS], event, any[DRAW_ANY]; /* any: of all kinds, to ask about */
-    uint32_t programmes, strings, bodies, bits, drives, pipes, inputs, events, anys;
+    uint32_t time_functions, strings, bodies, bits, drives, pipes, inputs, events, anys;
     uint32_t pipes_of[DRAW_STRINGS + 1];
     int32_t free_of[DRAW_STRINGS + 1];
     int32_t has_wall;
@@ -83,12 +83,12 @@ static inline void draw_environment(random_scene *scene)
     (void)dmb_model_set_environment(scene->model, &def);
 }
 
-static inline dmb_term draw_term(random_scene *scene, double scale)
+static inline dmb_segment draw_segment(random_scene *scene, double scale)
 {
     static const double time[3] = {0.0, 0.003, 0.02};
     static const double value[3] = {0.0, 1.0, -0.5};
     byte_source *s = &scene->source;
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.kind = (int32_t)draw_below(s, 6);
     term.x0 = draw_number(s, -0.01, 0.02);
     term.x1 = term.x0 + draw_size(s, 1e-6, 0.1);
@@ -97,12 +97,12 @@ static inline dmb_term draw_term(random_scene *scene, double scale)
     term.omega = draw_number(s, 0.0, 500.0);
     term.phase = draw_number(s, -4.0, 4.0);
     draw_spoil(s, &term.x0, 6);
-    if (term.kind == DMB_TERM_TABLE) {
+    if (term.kind == DMB_SEGMENT_TABLE) {
         term.table_time = time;
         term.table_value = value;
         term.table_count = 1 + draw_below(s, 3);
     }
-    if (term.kind == DMB_TERM_CALLBACK) {
+    if (term.kind == DMB_SEGMENT_CALLBACK) {
         term.callback = draw_callback;
         term.callback_context = scene;
         scene->callback_scale = scale;
@@ -110,26 +110,26 @@ static inline dmb_term draw_term(random_scene *scene, double scale)
     return term;
 }
 
-static inline void draw_programmes(random_scene *scene)
+static inline void draw_time_functions(random_scene *scene)
 {
     byte_source *s = &scene->source;
-    const uint32_t count = 1 + draw_below(s, DRAW_PROGRAMMES);
+    const uint32_t count = 1 + draw_below(s, DRAW_TIME_FUNCTIONS);
     for (uint32_t i = 0; i < count; i++) {
         const double scale = draw_size(s, 1e-3, 1e3);
-        dmb_term terms[3];
+        dmb_segment terms[3];
         const uint32_t n = 1 + draw_below(s, 3);
-        for (uint32_t k = 0; k < n; k++) terms[k] = draw_term(scene, scale);
-        if (dmb_model_add_programme(scene->model, terms, n, &scene->programme[scene->programmes]) >= 0)
-            scene->programmes++;
+        for (uint32_t k = 0; k < n; k++) terms[k] = draw_segment(scene, scale);
+        if (dmb_model_add_time_function(scene->model, terms, n, &scene->time_function[scene->time_functions]) >= 0)
+            scene->time_functions++;
     }
 }
 
-/* One of the programmes, or none. */
-static inline dmb_id draw_programme(random_scene *scene)
+/* One of the time functions, or none. */
+static inline dmb_id draw_time_function(random_scene *scene)
 {
-    const uint32_t i = draw_below(&scene->source, DRAW_PROGRAMMES + 1);
+    const uint32_t i = draw_below(&scene->source, DRAW_TIME_FUNCTIONS + 1);
     const dmb_id none = {0, 0};
-    return i < scene->programmes ? scene->programme[i] : none;
+    return i < scene->time_functions ? scene->time_function[i] : none;
 }
 
 static inline void draw_wall(random_scene *scene)
@@ -199,7 +199,7 @@ static inline void draw_motor(random_scene *scene, dmb_id joint)
     byte_source *s = &scene->source;
     dmb_motor motor = dmb_motor_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     motor.brakes = (int32_t)draw_below(s, 2);
     motor.stall_torque = draw_size(s, 1.0, 1e4);
     motor.displacement = draw_size(s, 1e-4, 1e-1);
@@ -207,7 +207,7 @@ static inline void draw_motor(random_scene *scene, dmb_id joint)
     draw_spoil(s, &motor.stall_torque, 7);
     drive.part = joint;
     if (dmb_motor_drive(&motor, &drive, &term.h0) < 0) return;
-    if (dmb_model_add_programme(scene->model, &term, 1, &drive.programme) < 0) return;
+    if (dmb_model_add_time_function(scene->model, &term, 1, &drive.time_function) < 0) return;
     dmb_id *id = &scene->drive[scene->drives];
     scene->drives += keep_id(scene, dmb_model_add_drive(scene->model, &drive, id), *id);
 }
@@ -295,7 +295,7 @@ static inline void draw_bit(random_scene *scene)
     if (draw_chance(s, 100)) return;
     bit.rock_law = (int32_t)draw_below(s, 3);
     if (scene->strings > 0) bit.string = scene->string[draw_below(s, scene->strings)];
-    bit.load = draw_programme(scene);
+    bit.load = draw_time_function(scene);
     bit.diameter = draw_chance(s, 200) ? draw_number(s, 0.05, 0.09) : 0.0;
     bit.intrinsic_energy = draw_size(s, 1e5, 1e9);
     bit.bottom = draw_chance(s, 60) ? draw_size(s, 1e-7, 1e-2) : 0.0;
@@ -347,8 +347,8 @@ static inline void draw_drives(random_scene *scene)
         drive.kind = (int32_t)draw_below(s, 3);
         drive.part = draw_part(scene);
         drive.component = draw_component(scene, drive.part);
-        drive.programme = draw_programme(scene);
-        drive.excitation = draw_programme(scene);
+        drive.time_function = draw_time_function(scene);
+        drive.excitation = draw_time_function(scene);
         drive.gain = draw_number(s, 0.0, 1e4);
         drive.integral_gain = draw_number(s, 0.0, 1e4);
         draw_spoil(s, &drive.gain, 4);
@@ -368,7 +368,7 @@ static inline void draw_loads(random_scene *scene)
         load.place = dmb_station(draw_part(scene), draw_below(s, 3), draw_below(s, 2));
         load.force[draw_below(s, 3)] = draw_number(s, -1.0, 1.0) * draw_size(s, 1.0, 1e4);
         load.moment[draw_below(s, 3)] = draw_number(s, -1.0, 1.0) * draw_size(s, 1.0, 1e3);
-        load.programme = draw_programme(scene);
+        load.time_function = draw_time_function(scene);
         draw_spoil(s, load.force, 6);
         if (has_more(scene)) {
             load.place.pipe = fitting_pipe(scene, load.place.part, load.place.pipe);
@@ -391,7 +391,7 @@ static inline void draw_scene(random_scene *scene, const uint8_t *data, size_t s
     scene->other.backward = 1;
     if (dmb_model_create(NULL, &scene->model) < 0) return;
     draw_environment(scene);
-    draw_programmes(scene);
+    draw_time_functions(scene);
     draw_wall(scene);
     draw_strings(scene);
     draw_bodies(scene);

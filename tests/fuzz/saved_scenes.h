@@ -31,22 +31,22 @@ typedef struct saved_scene {
 
 static inline dmb_id saved_constant(saved_scene *s, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id;
     term.h0 = value;
-    SAVED_MUST(s, dmb_model_add_programme(s->model, &term, 1, &id));
+    SAVED_MUST(s, dmb_model_add_time_function(s->model, &term, 1, &id));
     return id;
 }
 
 static inline dmb_id saved_ramp(saved_scene *s, double x0, double x1, double h1)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id;
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = x0;
     term.x1 = x1;
     term.h1 = h1;
-    SAVED_MUST(s, dmb_model_add_programme(s->model, &term, 1, &id));
+    SAVED_MUST(s, dmb_model_add_time_function(s->model, &term, 1, &id));
     return id;
 }
 
@@ -76,7 +76,7 @@ static inline void saved_hole(saved_scene *s)
 static inline void saved_pipes(saved_scene *s)
 {
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     SAVED_MUST(s, dmb_model_add_pipes(s->model, &pipe, 1, &s->string));
     pipe.kind = DMB_PIPE_FLEXIBLE;
@@ -87,14 +87,14 @@ static inline void saved_pipes(saved_scene *s)
     SAVED_MUST(s, dmb_model_add_pipes(s->model, &pipe, 1, NULL));
     ring.pipe = 2;
     ring.fraction = 0.4;
-    SAVED_MUST(s, dmb_model_add_ring(s->model, &ring, NULL));
+    SAVED_MUST(s, dmb_model_add_stabiliser(s->model, &ring, NULL));
 }
 
 static inline void saved_feed(saved_scene *s, dmb_id part)
 {
     dmb_drive_def feed = dmb_drive_def_default();
     feed.part = part;
-    feed.programme = saved_ramp(s, 0.0, 0.02, 0.05);
+    feed.time_function = saved_ramp(s, 0.0, 0.02, 0.05);
     SAVED_MUST(s, dmb_model_add_drive(s->model, &feed, NULL));
 }
 
@@ -109,7 +109,7 @@ static inline void saved_head(saved_scene *s, dmb_id part)
     head.integral_gain = 50.0;
     head.limit_low = -3000.0;
     head.limit_high = 3000.0;
-    head.programme = saved_ramp(s, 0.0, 0.02, 10.0);
+    head.time_function = saved_ramp(s, 0.0, 0.02, 10.0);
     head.delay = 2e-3;
     head.lag = 1e-3;
     head.force_rate = 1e6;
@@ -218,7 +218,7 @@ static inline void saved_describe_string(saved_scene *s)
     const dmb_id load = saved_load(s), stuck = saved_stuck(s);
     saved_force(s, s->string, 2);
     saved_inputs(s, bit, load, stuck);
-    saved_events(s, s->turning, DMB_CHANNEL_DRIVE_SPEED);
+    saved_events(s, s->turning, DMB_OUTPUT_DRIVE_SPEED);
 }
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
@@ -300,7 +300,7 @@ static inline void saved_describe_joints(saved_scene *s)
     (void)saved_add_joint(s, &joint);
     saved_force(s, hand, 0);
     saved_input(s, DMB_TARGET_SET_POINT, s->turning);
-    saved_events(s, s->turning, DMB_CHANNEL_DRIVE_SPEED);
+    saved_events(s, s->turning, DMB_OUTPUT_DRIVE_SPEED);
 }
 
 /* ---- Sideways ---------------------------------------------------------------------------------------------------- */
@@ -325,10 +325,10 @@ static inline void saved_describe_sideways(saved_scene *s)
     bit.side_cutting = 0.1;
     bit.walk_angle = 0.2;
     SAVED_MUST(s, dmb_model_add_bit(s->model, &bit, NULL));
-    drive.programme = saved_constant(s, 0.0);
+    drive.time_function = saved_constant(s, 0.0);
     SAVED_MUST(s, dmb_model_add_drive(s->model, &drive, NULL));
     drive.component = DMB_RX;
-    drive.programme = saved_ramp(s, 0.0, 0.02, 10.0);
+    drive.time_function = saved_ramp(s, 0.0, 0.02, 10.0);
     SAVED_MUST(s, dmb_model_add_drive(s->model, &drive, &s->turning));
 }
 

@@ -46,7 +46,7 @@ static void known(int32_t status)
     if (strcmp(dmb_status_name(status), "DMB_UNKNOWN") == 0) fail_msg("status %d", (int)status);
 }
 
-/* All channels now and then: there are 200. */
+/* All outputs now and then: there are 200. */
 static void use(subject *s)
 {
     dmb_energy energy = dmb_energy_default();
@@ -56,9 +56,9 @@ static void use(subject *s)
     known(dmb_sim_advance(s->sim, dmb_sim_time(s->sim) + 1e-4, NULL));
     known(dmb_query_energy(s->sim, &energy));
     for (uint32_t i = 0; dmb_query_contact(s->sim, i, &contact) == DMB_OK; i++) continue;
-    for (int32_t q = 0; taken % 16 == 0 && (q = dmb_channel_next(q)) > 0;) {
-        dmb_channel channel = {.quantity = q, .place = dmb_station(s->scene.turning, 0, 0.0)};
-        known(dmb_query_channel(s->sim, &channel, &value));
+    for (int32_t q = 0; taken % 16 == 0 && (q = dmb_output_next(q)) > 0;) {
+        dmb_output output = {.quantity = q, .place = dmb_station(s->scene.turning, 0, 0.0)};
+        known(dmb_query_output(s->sim, &output, &value));
     }
     if (s->scene.event.generation != 0)
         known(dmb_sim_advance_to_event(s->sim, dmb_sim_time(s->sim) + 1e-4, NULL, NULL));

@@ -14,9 +14,9 @@ enum { LOW_OF_FIRST, HIGH_OF_SECOND, GAIN_OF_FIRST, GIVEN, FACTOR, INPUTS };
 static dmb_id add_drive(subject *s, dmb_id body, int32_t component)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term zero = dmb_term_default();
+    dmb_segment zero = dmb_segment_default();
     dmb_id id;
-    SAVED_MUST(&s->scene, dmb_model_add_programme(s->scene.model, &zero, 1, &drive.programme));
+    SAVED_MUST(&s->scene, dmb_model_add_time_function(s->scene.model, &zero, 1, &drive.time_function));
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = body;
     drive.component = component;
@@ -37,7 +37,7 @@ static dmb_input_def of(const char *name, int32_t target, dmb_id part)
 }
 
 /* Two drives of one body, each with one limit as input; a gain below the bounds of its input; one that is given; and
- * the factor of a load without a programme. */
+ * the factor of a load without a time function. */
 static subject open_drives(void)
 {
     subject s = {.sim = NULL};
@@ -69,7 +69,7 @@ static void own_are_taken(void **state)
     subject s = open_drives();
     assert_true(got(&s, "input_value", GAIN_OF_FIRST) == 20.0);
     put(&s, "input_value", FACTOR, (double)NAN);
-    assert_true(harmless(&s, "the factor without a programme") == 3);
+    assert_true(harmless(&s, "the factor without a time function") == 3);
     assert_true(harmless(&s, "inputs as described") == 3);
     put(&s, "input_value", GAIN_OF_FIRST, 50.0);
     put(&s, "input_value", HIGH_OF_SECOND, 1000.0);

@@ -38,16 +38,16 @@ static void rotations_are_rotations(void **state)
 /* ---- Refused: what is held moves --------------------------------------------------------------------------------- */
 
 /* A body that only slides, and one that hangs on it by a joint. */
-static subject open_guided(void)
+static subject open_supportd(void)
 {
     dmb_body_def slide = dmb_body_def_default();
     subject s = {.sim = NULL};
-    dmb_id guided;
+    dmb_id supportd;
     SAVED_MUST(&s.scene, dmb_model_create(NULL, &s.scene.model));
     slide.free_mask = DMB_FREE_X | DMB_FREE_RX;
-    SAVED_MUST(&s.scene, dmb_model_add_body(s.scene.model, &slide, &guided));
+    SAVED_MUST(&s.scene, dmb_model_add_body(s.scene.model, &slide, &supportd));
     const dmb_id hanging = saved_body(&s.scene, 0.0, 0.3);
-    dmb_joint_def joint = saved_joint(DMB_JOINT_REVOLUTE, guided, hanging);
+    dmb_joint_def joint = saved_joint(DMB_JOINT_REVOLUTE, supportd, hanging);
     (void)saved_add_joint(&s.scene, &joint);
     SAVED_MUST(&s.scene, dmb_model_compile(s.scene.model, NULL));
     s.sim = saved_sim(&s.scene);
@@ -68,7 +68,7 @@ static uint32_t held_column(const dmb_scene *scene)
 static void held_rows_stand_still(void **state)
 {
     (void)state;
-    subject s = open_guided();
+    subject s = open_supportd();
     const uint32_t row = dmb_held_row(s.sim->scene, 0);
     put(&s, "velocity", row, 0.1);
     refused(&s, "velocity");
@@ -340,7 +340,7 @@ static void states_of_a_run_are_taken(void **state)
         }
     assert_true(switched > 10);
     close_subject(&s);
-    s = open_guided();
+    s = open_supportd();
     for (int i = 0; i < 20; i++) {
         assert_true(dmb_sim_advance(s.sim, dmb_sim_time(s.sim) + 3.3e-3, NULL) >= 0);
         own(&s);

@@ -16,7 +16,7 @@ enum { INPUTS = 60, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30, 
 #endif
 
 typedef struct scene {
-    random_scene parts; /* first: callbacks of programmes look at it */
+    random_scene parts; /* first: callbacks of time functions look at it */
     dmb_id joint[JOINTS];
     uint32_t joints, constraints, couplings;
 } scene;
@@ -82,7 +82,7 @@ static void draw_joint_drive(scene *c)
     drive.kind = (int32_t)draw_below(s, 3);
     drive.part = c->joint[0];
     drive.component = (int32_t)draw_below(s, 6);
-    drive.programme = draw_programme(&c->parts);
+    drive.time_function = draw_time_function(&c->parts);
     drive.gain = draw_number(s, 0.0, 1e4);
     draw_more_drive(s, &drive);
     dmb_id *id = &c->parts.drive[c->parts.drives];
@@ -180,31 +180,31 @@ static void act_modes(dmb_sim *sim, scene *c)
     MUST(hash_of(sim) == before);
 }
 
-static dmb_output draw_output(scene *c)
+static dmb_response_output draw_response_output(scene *c)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.kind = (int32_t)draw_below(&c->parts.source, 16);
     output.place = draw_place(&c->parts);
     output.component = (int32_t)draw_below(&c->parts.source, 6);
-    if (output.kind >= DMB_OUTPUT_JOINT_POSITION) output.place.part = c->joint[0];
+    if (output.kind >= DMB_RESPONSE_JOINT_POSITION) output.place.part = c->joint[0];
     return output;
 }
 
-static dmb_input draw_input(scene *c)
+static dmb_excitation draw_input(scene *c)
 {
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.kind = (int32_t)draw_below(&c->parts.source, 7);
     input.place = draw_place(&c->parts);
     input.component = (int32_t)draw_below(&c->parts.source, 6);
-    if (input.kind == DMB_INPUT_DRIVE && c->parts.drives > 0) input.place.part = c->parts.drive[0];
+    if (input.kind == DMB_EXCITATION_DRIVE && c->parts.drives > 0) input.place.part = c->parts.drive[0];
     return input;
 }
 
 static void act_response(dmb_sim *sim, scene *c)
 {
     dmb_response_options options = dmb_response_options_default();
-    const dmb_input inputs[2] = {draw_input(c), draw_input(c)};
-    const dmb_output outputs[2] = {draw_output(c), draw_output(c)};
+    const dmb_excitation inputs[2] = {draw_input(c), draw_input(c)};
+    const dmb_response_output outputs[2] = {draw_response_output(c), draw_response_output(c)};
     dmb_response *response = NULL;
     const uint64_t before = hash_of(sim);
     options.points = 3;
@@ -224,7 +224,7 @@ static void act_speeds(dmb_sim *sim, scene *c)
 {
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order order = dmb_order_default();
-    const dmb_output output = draw_output(c);
+    const dmb_response_output output = draw_response_output(c);
     const double limit = 1e-4;
     dmb_speed_band bands[2] = {dmb_speed_band_default(), dmb_speed_band_default()};
     uint32_t count = 2;
@@ -232,7 +232,7 @@ static void act_speeds(dmb_sim *sim, scene *c)
     options.points = 4;
     options.refinement = 1;
     options.equilibrium_tolerance = 1.0;
-    if (draw_chance(&c->parts.source, 128)) order.input = draw_input(c);
+    if (draw_chance(&c->parts.source, 128)) order.excitation = draw_input(c);
     must_be_told(dmb_analysis_speeds(sim, &options, &order, 1, &output, &limit, 1, bands, &count, NULL));
     MUST(hash_of(sim) == before);
 }
@@ -240,7 +240,7 @@ static void act_speeds(dmb_sim *sim, scene *c)
 static void act_sine(dmb_sim *sim, scene *c)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    const dmb_output output = draw_output(c);
+    const dmb_response_output output = draw_response_output(c);
     double amplitudes[4];
     options.steps_per_period = 16;
     options.periods = options.harmonics = 1;

@@ -85,7 +85,7 @@ static void ask_contacts(const dmb_sim *sim, const dmb_model *model)
 {
     dmb_model_info info = dmb_model_info_default();
     MUST(dmb_model_get_info(model, &info) == DMB_OK);
-    for (uint32_t i = 0; i < info.contact_sites; i++) {
+    for (uint32_t i = 0; i < info.contact_points; i++) {
         dmb_contact contact = dmb_contact_default();
         MUST(dmb_query_contact(sim, i, &contact) == DMB_OK);
         must_be_finite(&contact.length, 11);

@@ -65,23 +65,23 @@ static void must(int32_t status)
 
 static dmb_id add_step(double end, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = end;
     term.h1 = value;
-    must(dmb_model_add_programme(run.model, &term, 1, &id));
+    must(dmb_model_add_time_function(run.model, &term, 1, &id));
     return id;
 }
 
 static dmb_id add_harmonic(void)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
-    term.kind = DMB_TERM_HARMONIC;
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = 0.002;
     term.omega = 60.0;
-    must(dmb_model_add_programme(run.model, &term, 1, &id));
+    must(dmb_model_add_time_function(run.model, &term, 1, &id));
     return id;
 }
 
@@ -121,13 +121,13 @@ static void add_bit(void)
 static void add_drives(void)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    drive.programme = add_step(0.2, 0.02);
+    drive.time_function = add_step(0.2, 0.02);
     drive.excitation = add_harmonic();
     must(dmb_model_add_drive(run.model, &drive, &run.feed));
     drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_CONTROL;
     drive.component = DMB_RX;
-    drive.programme = add_step(0.3, 20.0);
+    drive.time_function = add_step(0.3, 20.0);
     drive.gain = 300.0;
     drive.integral_gain = 100.0;
     must(dmb_model_add_drive(run.model, &drive, &run.turning));

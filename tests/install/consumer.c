@@ -18,20 +18,20 @@ static int describe(dmb_model *model)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term step = dmb_term_default();
+    dmb_segment step = dmb_segment_default();
     dmb_id string;
 
     wall.diameter = 0.094;
     pipe.outer_diameter = 0.073;
     pipe.inner_diameter = 0.061;
     bit.mass = 5.0;
-    step.kind = DMB_TERM_STEP;
+    step.kind = DMB_SEGMENT_STEP;
     step.h1 = 0.01;
     drive.component = DMB_X;
     return fails("wall", dmb_model_add_wall(model, &wall, NULL), model) ||
            fails("pipes", dmb_model_add_pipes(model, &pipe, 3, &string), model) ||
            fails("bit", dmb_model_add_bit(model, &bit, NULL), model) ||
-           fails("programme", dmb_model_add_programme(model, &step, 1, &drive.programme), model) ||
+           fails("time_function", dmb_model_add_time_function(model, &step, 1, &drive.time_function), model) ||
            fails("drive", dmb_model_add_drive(model, &drive, NULL), model) ||
            fails("compile", dmb_model_compile(model, NULL), model);
 }

@@ -11,13 +11,13 @@ void build_and_run()
 {
     drillmbd::model model;
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term turning = dmb_term_default();
+    dmb_segment turning = dmb_segment_default();
 
     model.add_wall(dmb_wall_def_default());
     const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 4);
     model.add_bit(dmb_bit_def_default());
     turning.h0 = 10.0;
-    drive.programme = model.add_programme(turning);
+    drive.time_function = model.add_time_function(turning);
     drive.component = DMB_RX;
     model.add_drive(drive);
     model.compile();

@@ -35,10 +35,10 @@ typedef struct turner {
 
 static dmb_id constant(dmb_model *model, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id;
     term.h0 = value;
-    must(dmb_model_add_programme(model, &term, 1, &id));
+    must(dmb_model_add_time_function(model, &term, 1, &id));
     return id;
 }
 
@@ -62,7 +62,7 @@ static void describe(turner *t, dmb_drive_def *def)
     }
     def->part = t->body;
     def->component = DMB_RX;
-    if (def->programme.generation == 0) def->programme = constant(t->model, 0.0);
+    if (def->time_function.generation == 0) def->time_function = constant(t->model, 0.0);
 }
 
 static void start(turner *t, const dmb_drive_def *def)
@@ -184,17 +184,17 @@ static void edges_of_a_table_pass_a_delay(void **state)
     (void)state;
     for (uint32_t k = 0; k < 3; k++) {
         dmb_drive_def def = load_drive();
-        dmb_term term = dmb_term_default();
+        dmb_segment term = dmb_segment_default();
         double value[9];
         turner t = {0};
         for (int i = 0; i < 9; i++) value[i] = c * share[i];
-        term.kind = DMB_TERM_TABLE;
+        term.kind = DMB_SEGMENT_TABLE;
         term.table_count = 9;
         term.table_time = time;
         term.table_value = value;
         def.delay = T;
         describe(&t, &def);
-        must(dmb_model_add_programme(t.model, &term, 1, &def.programme));
+        must(dmb_model_add_time_function(t.model, &term, 1, &def.time_function));
         start(&t, &def);
         while (dmb_sim_time(t.sim) < 0.5 - 1e-9) steps(&t, lengths[k], 1);
         check_below("delay: speed after edges of a table", fabs(ask(&t).speed * J / exact - 1.0), 1e-8);
@@ -216,7 +216,7 @@ static void delayed_control_is_of_second_order(void **state)
         def.gain = k * J;
         def.delay = T;
         describe(&t, &def);
-        def.programme = constant(t.model, 1.0);
+        def.time_function = constant(t.model, 1.0);
         start(&t, &def);
         steps(&t, (T + s) / count, count);
         error[i] = fabs(ask(&t).speed / exact - 1.0);
@@ -303,9 +303,9 @@ static void back_spin_is_the_integration(void **state)
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t count = 110u << k;
         dmb_drive_def def = load_drive();
-        dmb_term fall = dmb_term_default();
+        dmb_segment fall = dmb_segment_default();
         turner t = {.spring = b.spring, .wound = b.held / b.spring};
-        fall.kind = DMB_TERM_STEP;
+        fall.kind = DMB_SEGMENT_STEP;
         fall.x0 = 0.1;
         fall.x1 = 0.3;
         fall.h0 = b.held;
@@ -314,7 +314,7 @@ static void back_spin_is_the_integration(void **state)
         def.drag = b.drag[0];
         def.back_drag = b.drag[1];
         describe(&t, &def);
-        must(dmb_model_add_programme(t.model, &fall, 1, &def.programme));
+        must(dmb_model_add_time_function(t.model, &fall, 1, &def.time_function));
         start(&t, &def);
         steps(&t, end / count, count);
         const dmb_drive_state s = ask(&t);
@@ -411,7 +411,7 @@ static void statics_settle(void **state)
     def.lag = 0.1;
     def.delay = 0.05;
     describe(&t, &def);
-    def.programme = constant(t.model, 30.0);
+    def.time_function = constant(t.model, 30.0);
     start(&t, &def);
     must(dmb_sim_set_drive(t.sim, t.drive, 60.0));
     assert_true(ask(&t).made == 30.0);
@@ -434,7 +434,7 @@ static turner open_joint(dmb_drive_def def)
     joint.place_b = dmb_station(t.body, 0, 0.0);
     joint.state = DMB_JOINT_OPEN;
     must(dmb_model_add_joint(t.model, &joint, &def.part));
-    def.programme = constant(t.model, 30.0);
+    def.time_function = constant(t.model, 30.0);
     t.body = def.part; /* what the test closes */
     start(&t, &def);
     return t;
@@ -526,8 +526,8 @@ static void analyses_know_or_refuse(void **state)
     dmb_modes *modes = NULL;
     dmb_response *response = NULL;
     dmb_response_options frequencies = dmb_response_options_default();
-    dmb_input input = dmb_input_default();
-    dmb_output output = dmb_output_default();
+    dmb_excitation input = dmb_excitation_default();
+    dmb_response_output output = dmb_response_output_default();
     assert_int_equal(dmb_analysis_modes(t.sim, NULL, &modes), DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_sim_message(t.sim), "modes: drive 0 has an actuator (delay, force_rate or lag)"));
     input.place = output.place = dmb_station(t.body, 0, 0.0);

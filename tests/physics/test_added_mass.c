@@ -206,7 +206,7 @@ static void frequencies_of(const ringed *of, double bending[3], double *axial)
     rig s;
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_wall_def wall = s1_hole();
     dmb_environment_def e = dmb_environment_def_default();
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -228,7 +228,7 @@ static void frequencies_of(const ringed *of, double bending[3], double *axial)
     ring.inertia[1] = of->inertia;
     ring.outer_diameter = 0.09;
     memcpy(ring.added_mass, of->added, sizeof ring.added_mass);
-    must_model(&s, dmb_model_add_ring(s.model, &ring, NULL));
+    must_model(&s, dmb_model_add_stabiliser(s.model, &ring, NULL));
     (void)mechanism_start(&s, NULL);
     dmb_modes *modes = all_modes(&s, 0);
     for (uint32_t i = 0; i < 3; i++) bending[i] = frequency_of_kind(modes, 2, 2 * i);
@@ -394,7 +394,7 @@ static void what_it_cannot_is_refused(void **state)
     rig s;
     dmb_body_def body = dmb_body_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     (void)state;
     rig_open(&s, 0.0, 0.0, 0.0);
     body.added_mass[0] = -1.0;
@@ -405,10 +405,10 @@ static void what_it_cannot_is_refused(void **state)
     bit.added_mass[1] = -0.5;
     check_refused(&s, dmb_model_add_bit(s.model, &bit, NULL), "added_mass");
     ring.added_mass[0] = -1.0;
-    check_refused(&s, dmb_model_add_ring(s.model, &ring, NULL), "added_mass along");
+    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass along");
     ring.added_mass[0] = 0.0;
     ring.added_mass[1] = -0.5;
-    check_refused(&s, dmb_model_add_ring(s.model, &ring, NULL), "added_mass across");
+    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass across");
     body.added_mass[1] = 0.0;
     body.added_mass[0] = (double)NAN;
     assert_int_equal(dmb_model_add_body(s.model, &body, NULL), DMB_ERR_NOT_FINITE);
@@ -423,7 +423,7 @@ static void what_does_not_fit_is_refused(void **state)
         rig s;
         dmb_string_def string = dmb_string_def_default();
         dmb_pipe_def pipe = s1_pipe();
-        dmb_ring_def ring = dmb_ring_def_default();
+        dmb_stabiliser_def ring = dmb_stabiliser_def_default();
         dmb_input_def input = dmb_input_def_default();
         dmb_wall_def wall = s1_hole();
         rig_open(&s, 0.0, 0.0, 0.0);
@@ -433,7 +433,7 @@ static void what_does_not_fit_is_refused(void **state)
         (void)add_pipes(&s, &pipe, 1);
         ring.outer_diameter = k ? 0.09 : wall.diameter;
         ring.added_mass[1] = k ? 2.0 : -1.0;
-        must_model(&s, dmb_model_add_ring(s.model, &ring, NULL));
+        must_model(&s, dmb_model_add_stabiliser(s.model, &ring, NULL));
         strcpy(input.name, "density");
         input.target = DMB_TARGET_FLUID_DENSITY;
         if (k) must_model(&s, dmb_model_add_input(s.model, &input, NULL));

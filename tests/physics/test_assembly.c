@@ -178,8 +178,8 @@ static void chains_of_strings_come_together(void **state)
         }
 }
 
-/* Strings that guides let slide and turn come together along their guides. */
-static void guided_strings_slide_together(void **state)
+/* Strings that supports let slide and turn come together along their supports. */
+static void supportd_strings_slide_together(void **state)
 {
     static const int32_t fixed[] = {DMB_JOINT_FIXED};
     static const uint32_t counts[] = {2, 3, 20};
@@ -296,7 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_move_by_any_distance),     cmocka_unit_test(strings_move_as_rigid_bodies),
-        cmocka_unit_test(chains_of_strings_come_together), cmocka_unit_test(guided_strings_slide_together),
+        cmocka_unit_test(chains_of_strings_come_together), cmocka_unit_test(supportd_strings_slide_together),
         cmocka_unit_test(strain_needs_the_callers_leave),  cmocka_unit_test(scattered_fourbars_are_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

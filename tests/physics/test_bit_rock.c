@@ -12,16 +12,16 @@ typedef struct drilling {
     dmb_id bit, feed, turn;
 } drilling;
 
-static dmb_id motion(drilling *r, int32_t component, const dmb_term *terms, uint32_t count)
+static dmb_id motion(drilling *r, int32_t component, const dmb_segment *terms, uint32_t count)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.component = component;
-    drive.programme = add_programme(&r->scene, terms, count);
+    drive.time_function = add_time_function(&r->scene, terms, count);
     return add_drive(&r->scene, &drive);
 }
 
 /* Feed and rotation by the sums of `count` terms each, feed first. */
-static void build_with(drilling *r, const dmb_bit_def *bit, int32_t pipe_kind, const dmb_term *terms, uint32_t count)
+static void build_with(drilling *r, const dmb_bit_def *bit, int32_t pipe_kind, const dmb_segment *terms, uint32_t count)
 {
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
@@ -42,7 +42,7 @@ static void build_with(drilling *r, const dmb_bit_def *bit, int32_t pipe_kind, c
 static void build(drilling *r, int32_t rock_law, double bottom)
 {
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     bit.rock_law = rock_law;
     bit.bottom = bottom;
     terms[0].h0 = feed;
@@ -145,11 +145,11 @@ static void off_bottom(void **state)
     rig_close(&r.scene);
 }
 
-/* The bottom-hole load is a force against the feed from its programme, with or without rock. */
+/* The bottom-hole load is a force against the feed from its time function, with or without rock. */
 static void bottom_hole_load(void **state)
 {
     dmb_bit_def def = dmb_bit_def_default();
-    dmb_term step = scene_step_term(0.0, 0.0, 1.0, 2960.0);
+    dmb_segment step = scene_step_segment(0.0, 0.0, 1.0, 2960.0);
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     drilling r;
@@ -160,7 +160,7 @@ static void bottom_hole_load(void **state)
     add_string(&r.scene, &string);
     pipe.kind = DMB_PIPE_RIGID;
     const dmb_id id = add_pipes(&r.scene, &pipe, 2);
-    def.load = add_programme(&r.scene, &step, 1);
+    def.load = add_time_function(&r.scene, &step, 1);
     r.bit = scene_add_bit(&r.scene, &def);
     rig_start_with(&r.scene, NULL, NULL);
     for (int i = 1; i <= 12; i++) {
@@ -183,10 +183,10 @@ static void reverse_rotation(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         dmb_bit_def bit = dmb_bit_def_default();
-        const dmb_term terms[6] = {
-            scene_step_term(1.0, feed, 1.5, 0.0),       scene_step_term(1.5, 0.0, 2.0, -feed),
-            scene_step_term(3.0, 0.0, 3.5, 2.0 * feed), scene_step_term(1.0, turning, 1.5, 0.0),
-            scene_step_term(1.5, 0.0, 2.0, -turning),   scene_step_term(3.0, 0.0, 3.5, 2.0 * turning)};
+        const dmb_segment terms[6] = {
+            scene_step_segment(1.0, feed, 1.5, 0.0),       scene_step_segment(1.5, 0.0, 2.0, -feed),
+            scene_step_segment(3.0, 0.0, 3.5, 2.0 * feed), scene_step_segment(1.0, turning, 1.5, 0.0),
+            scene_step_segment(1.5, 0.0, 2.0, -turning),   scene_step_segment(3.0, 0.0, 3.5, 2.0 * turning)};
         double deepest = 0.0;
         int met = 0;
         drilling r;
@@ -217,7 +217,7 @@ static void reverse_rotation(void **state)
 static void reverse_on_bottom(void **state)
 {
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     drilling r;
     (void)state;
     bit.rock_law = DMB_ROCK_RATE;
@@ -238,7 +238,8 @@ static void through_a_flexible_pipe(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         dmb_bit_def bit = dmb_bit_def_default();
-        const dmb_term terms[2] = {scene_step_term(0.0, 0.0, 0.5, feed), scene_step_term(0.0, 0.0, 0.2, turning)};
+        const dmb_segment terms[2] = {scene_step_segment(0.0, 0.0, 0.5, feed),
+                                      scene_step_segment(0.0, 0.0, 0.2, turning)};
         drilling r;
         bit.rock_law = DMB_ROCK_RATE;
         build_with(&r, &bit, kinds[k], terms, 1);

@@ -71,13 +71,13 @@ static void steps_grow_and_shrink(void **state)
     dmb_body_def body = dmb_body_def_default();
     dmb_sim_options options = dmb_sim_options_default();
     dmb_step_report before = dmb_step_report_default(), flank = before, after = before;
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     body.free_mask = DMB_FREE_X;
     const dmb_id id = add_body(&s, &body);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 2.0, term.x1 = 2.01, term.h1 = 1.0;
-    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, id, DMB_X, add_programme(&s, &term, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, id, DMB_X, add_time_function(&s, &term, 1));
     options.tolerance_translation = 1e-10;
     options.step_max = 1.0;
     (void)rig_start(&s, &options);

@@ -1,5 +1,5 @@
-/* Drives on single bodies: motion by every kind of programme, corners, speed control with limits, what does not fit at
- * the start, and a thousand revolutions. */
+/* Drives on single bodies: motion by every kind of time function, corners, speed control with limits, what does not fit
+ * at the start, and a thousand revolutions. */
 #include <stdio.h>
 #include <string.h>
 
@@ -22,7 +22,8 @@ static dmb_drive_state drive_of(const rig *s, dmb_id drive)
     return state;
 }
 
-/* ---- Motion by every kind of programme --------------------------------------------------------------------------- */
+/* ---- Motion by every kind of time function
+ * --------------------------------------------------------------------------- */
 
 /* STEP term: integral h0 t and h0 s + (h1-h0)(x1-x0)(D^3 - D^4/2), then h1 (eq:drive.step). */
 static double step_integral(double x0, double h0, double x1, double h1, double t)
@@ -67,30 +68,30 @@ static double table_integral(double t)
 static double speed_integral(int32_t kind, double t)
 {
     switch (kind) {
-    case DMB_TERM_CONSTANT: return 0.25 * t;
-    case DMB_TERM_STEP: return step_integral(0.3, 0.0, 1.4, -0.5, t);
-    case DMB_TERM_STEP5: return step5_integral(0.3, 0.1, 1.4, -0.5, t);
-    case DMB_TERM_HARMONIC: return 0.1 * t + 0.4 / 5.0 * (cos(0.6) - cos(5.0 * t + 0.6));
-    case DMB_TERM_TABLE: return table_integral(t);
+    case DMB_SEGMENT_CONSTANT: return 0.25 * t;
+    case DMB_SEGMENT_STEP: return step_integral(0.3, 0.0, 1.4, -0.5, t);
+    case DMB_SEGMENT_STEP5: return step5_integral(0.3, 0.1, 1.4, -0.5, t);
+    case DMB_SEGMENT_HARMONIC: return 0.1 * t + 0.4 / 5.0 * (cos(0.6) - cos(5.0 * t + 0.6));
+    case DMB_SEGMENT_TABLE: return table_integral(t);
     default: return bell_size * (1.0 - (1.0 + t) * exp(-t));
     }
 }
 
-static dmb_term speed_term(int32_t kind)
+static dmb_segment speed_segment(int32_t kind)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.kind = kind;
     term.x0 = 0.3, term.x1 = 1.4;
     term.h0 = 0.25;
-    if (kind == DMB_TERM_STEP) term.h0 = 0.0, term.h1 = -0.5;
-    if (kind == DMB_TERM_STEP5) term.h0 = 0.1, term.h1 = -0.5;
-    if (kind == DMB_TERM_HARMONIC) term.h0 = 0.1, term.h1 = 0.4, term.omega = 5.0, term.phase = 0.6;
-    if (kind == DMB_TERM_TABLE) {
+    if (kind == DMB_SEGMENT_STEP) term.h0 = 0.0, term.h1 = -0.5;
+    if (kind == DMB_SEGMENT_STEP5) term.h0 = 0.1, term.h1 = -0.5;
+    if (kind == DMB_SEGMENT_HARMONIC) term.h0 = 0.1, term.h1 = 0.4, term.omega = 5.0, term.phase = 0.6;
+    if (kind == DMB_SEGMENT_TABLE) {
         term.table_time = table_time;
         term.table_value = table_value;
         term.table_count = 4;
     }
-    if (kind == DMB_TERM_CALLBACK) {
+    if (kind == DMB_SEGMENT_CALLBACK) {
         term.callback = bell;
         term.callback_context = &bell_size;
         term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
@@ -98,19 +99,19 @@ static dmb_term speed_term(int32_t kind)
     return term;
 }
 
-/* Place and turn follow the integral of the programme exactly, whatever the step. */
-static void motion_follows_every_kind_of_programme(void **state)
+/* Place and turn follow the integral of the time function exactly, whatever the step. */
+static void motion_follows_every_kind_of_time_function(void **state)
 {
     (void)state;
-    for (int32_t kind = DMB_TERM_CONSTANT; kind <= DMB_TERM_CALLBACK; kind++) {
+    for (int32_t kind = DMB_SEGMENT_CONSTANT; kind <= DMB_SEGMENT_CALLBACK; kind++) {
         rig s;
-        dmb_term term = speed_term(kind);
+        dmb_segment term = speed_segment(kind);
         double worst = 0.0, turned = 0.0, driven = 0.0;
         char what[64];
         rig_open(&s, 0.0, 0.0, 0.0);
-        const dmb_id body = add_slider(&s), programme = add_programme(&s, &term, 1);
-        const dmb_id feed = add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, programme);
-        (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, programme);
+        const dmb_id body = add_slider(&s), time_function = add_time_function(&s, &term, 1);
+        const dmb_id feed = add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, time_function);
+        (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, time_function);
         (void)rig_start(&s, NULL);
         for (int i = 0; i < 250; i++) {
             take_steps(&s, 0.01, 1);
@@ -119,7 +120,7 @@ static void motion_follows_every_kind_of_programme(void **state)
             turned = fmax(turned, fabs(rotation_at(&s, dmb_station(body, 0, 0.0)) - want));
             driven = fmax(driven, fabs(drive_of(&s, feed).position - want));
         }
-        (void)snprintf(what, sizeof what, "programme kind %d: place off its integral", kind);
+        (void)snprintf(what, sizeof what, "time function kind %d: place off its integral", kind);
         check_below(what, worst, 1e-12);
         check_below("    turn", turned, 1e-12);
         check_below("    position that the drive tells", driven, 1e-12);
@@ -132,11 +133,11 @@ static void force_of_a_prescribed_motion(void **state)
 {
     (void)state;
     rig s;
-    dmb_term term = speed_term(DMB_TERM_HARMONIC);
+    dmb_segment term = speed_segment(DMB_SEGMENT_HARMONIC);
     double worst = 0.0;
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id body = add_slider(&s);
-    const dmb_id feed = add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, add_programme(&s, &term, 1));
+    const dmb_id feed = add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, add_time_function(&s, &term, 1));
     (void)rig_start(&s, NULL);
     for (int i = 0; i < 200; i++) {
         take_steps(&s, 0.01, 1);
@@ -158,17 +159,17 @@ static void corners_are_ends_of_steps(void **state)
     (void)state;
     rig s;
     const double time[4] = {0.1, 0.25, 0.333, 0.777}, value[4] = {0.0, 1.0, 1.0, -1.0};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_step_report report = dmb_step_report_default();
     dmb_sim_options options = dmb_sim_options_default();
     options.spectral_radius = 1.0;
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = value;
     term.table_count = 4;
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id body = add_slider(&s);
-    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, body, DMB_X, add_programme(&s, &term, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, body, DMB_X, add_time_function(&s, &term, 1));
     (void)rig_start(&s, &options);
     assert_int_equal(dmb_sim_step(s.sim, 1.0, &report), DMB_OK);
     assert_int_equal(report.steps, 5);
@@ -186,16 +187,16 @@ static void advance_stops_at_corners(void **state)
 {
     (void)state;
     rig s;
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_sim_options options = dmb_sim_options_default();
     dmb_step_report report = dmb_step_report_default();
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.3, term.x1 = 1.1, term.h1 = 0.5;
     options.tolerance_translation = options.tolerance_rotation = 1e3;
     options.step_max = 100.0;
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id body = add_slider(&s);
-    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, add_programme(&s, &term, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_X, add_time_function(&s, &term, 1));
     (void)rig_start(&s, &options);
     const double corner[3] = {0.3, 1.1, 3.0};
     for (int i = 0; i < 3; i++) {
@@ -232,7 +233,7 @@ static void control_error(double h, double *speed, double *force)
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = add_slider(&s);
     drive.component = DMB_X;
-    drive.programme = add_constant(&s, 3.0);
+    drive.time_function = add_constant(&s, 3.0);
     drive.gain = 8.0;
     drive.integral_gain = 20.0;
     drive.limit_low = -6.0;
@@ -313,16 +314,16 @@ static void thousand_revolutions(void **state)
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_sim_options options = dmb_sim_options_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     const double speed = 200.0 / 60.0 * 2.0 * PI, turned = speed * (300.0 - 0.5);
     rig_open(&s, 0.0, 0.0, 0.0);
     for (int i = 0; i < 3; i++) environment.gravity[i] = 0.0;
     environment.torsional_damping = 2.0;
     must_model(&s, dmb_model_set_environment(s.model, &environment));
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.h1 = speed;
     const dmb_id string = add_pipes(&s, &pipe, 2);
-    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, string, DMB_RX, add_programme(&s, &term, 1));
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, string, DMB_RX, add_time_function(&s, &term, 1));
     options.energy_ledger = 0;
     options.newton_tolerance = 1e-13;
     (void)rig_start(&s, &options);
@@ -345,7 +346,7 @@ static void thousand_revolutions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(motion_follows_every_kind_of_programme),
+        cmocka_unit_test(motion_follows_every_kind_of_time_function),
         cmocka_unit_test(force_of_a_prescribed_motion),
         cmocka_unit_test(corners_are_ends_of_steps),
         cmocka_unit_test(advance_stops_at_corners),

@@ -185,9 +185,9 @@ static void open_lying(scene *c, uint32_t elements, double push)
     load.force[0] = -push;
     load.moment[0] = 0.01 * push;
     c->load = add_load(&c->s, &load);
-    dmb_term on[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment on[2] = {dmb_segment_default(), dmb_segment_default()};
     for (int i = 0; i < 2; i++) {
-        on[i].kind = DMB_TERM_STEP;
+        on[i].kind = DMB_SEGMENT_STEP;
         on[i].x0 = 0.1 * i;
         on[i].x1 = 0.1 * i + 0.1;
         on[i].h1 = i ? -1.0 : 1.0;
@@ -195,7 +195,7 @@ static void open_lying(scene *c, uint32_t elements, double push)
     load.place = dmb_station(pipe.string, 9, 1.0);
     load.force[0] = load.moment[0] = 0.0;
     load.force[1] = 1e-3;
-    load.programme = add_programme(&c->s, on, 2);
+    load.time_function = add_time_function(&c->s, on, 2);
     (void)add_load(&c->s, &load); /* after time 0 */
     (void)rig_start(&c->s, NULL);
     settle(c);

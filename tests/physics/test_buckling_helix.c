@@ -23,7 +23,7 @@ static void open_helix(helix *h, double length, double mu)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_load_def load = dmb_load_def_default();
-    dmb_term push = dmb_term_default(), aside = dmb_term_default();
+    dmb_segment push = dmb_segment_default(), aside = dmb_segment_default();
     h->pipes = (uint32_t)(length / ELEMENT);
     rig_open(&h->s, 0.0, 0.0, 0.0);
     wall.stiffness = 1e8;
@@ -36,7 +36,7 @@ static void open_helix(helix *h, double length, double mu)
     pipe.length = ELEMENT;
     pipe.string = add_string(&h->s, &def);
     h->string = add_pipes(&h->s, &pipe, h->pipes);
-    push.kind = aside.kind = DMB_TERM_STEP;
+    push.kind = aside.kind = DMB_SEGMENT_STEP;
     push.h0 = 0.2;
     push.h1 = 1.0;
     push.x1 = RAMP * TICK;
@@ -46,9 +46,9 @@ static void open_helix(helix *h, double length, double mu)
     load.frame = DMB_FRAME_HOLE;
     load.place = dmb_station(h->string, h->pipes - 1, 1.0);
     load.force[0] = -PUSH;
-    load.programme = add_programme(&h->s, &push, 1);
+    load.time_function = add_time_function(&h->s, &push, 1);
     (void)add_load(&h->s, &load);
-    load.programme = add_programme(&h->s, &aside, 1);
+    load.time_function = add_time_function(&h->s, &aside, 1);
     load.force[0] = 0.0;
     for (uint32_t i = 0; i < h->pipes; i++) {
         const double angle = 2.0 * PI * (i + 1) * ELEMENT / 8.0;

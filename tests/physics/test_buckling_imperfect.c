@@ -52,7 +52,7 @@ static void open_lying(lying *l, double radius, uint32_t pipes, units u)
     load.place = dmb_station(pipe.string, pipes - 1, 1.0);
     load.force[0] = -cos(end) * force;
     load.force[1] = sin(end) * force; /* azimuths turn from +x to -y */
-    load.programme = add_constant(&l->s, 1.0);
+    load.time_function = add_constant(&l->s, 1.0);
     l->push = add_load(&l->s, &load);
     joint.kind = DMB_JOINT_POINT_ON_HOLE;
     joint.place_b = load.place;

@@ -14,10 +14,10 @@ enum {
 static dmb_id add_push(rig *s, dmb_place place)
 {
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default(); /* of height 0: there is no push at present */
+    const dmb_segment off = dmb_segment_default(); /* of height 0: there is no push at present */
     push.place = place;
     push.force[0] = -1.0;
-    push.programme = add_programme(s, &off, 1);
+    push.time_function = add_time_function(s, &off, 1);
     return add_load(s, &push);
 }
 
@@ -293,9 +293,9 @@ static dmb_id open_truss(rig *s, double present)
     push.place = dmb_station(bars[0], 0, 1.0);
     push.force[2] = -present;
     (void)add_load(s, &push);
-    const dmb_term off = dmb_term_default();
+    const dmb_segment off = dmb_segment_default();
     push.force[2] = -1.0;
-    push.programme = add_programme(s, &off, 1);
+    push.time_function = add_time_function(s, &off, 1);
     const dmb_id more = add_load(s, &push);
     (void)mechanism_start(s, NULL);
     return more;

@@ -72,11 +72,11 @@ static void open_half(half *h, double length, uint32_t pipes, uint32_t elements,
     }
     push.place = at_part(h, 1.0);
     push.force[0] = -1.0;
-    const dmb_term off = dmb_term_default(); /* of height 0: there is no push at present */
-    push.programme = add_programme(&h->s, &off, 1);
+    const dmb_segment off = dmb_segment_default(); /* of height 0: there is no push at present */
+    push.time_function = add_time_function(&h->s, &off, 1);
     h->push = add_load(&h->s, &push);
     push.force[0] = -preload;
-    push.programme = (dmb_id){0, 0};
+    push.time_function = (dmb_id){0, 0};
     if (preload > 0.0) (void)add_load(&h->s, &push);
     (void)rig_start(&h->s, NULL);
     (void)find_equilibrium(&h->s, NULL);
@@ -144,10 +144,10 @@ static void euler_column(void **state)
     check_order("Euler's load, 4 and 8 elements", error[0], error[1], 4.0, 0.2);
 }
 
-/* A column of 3 m, clamped at the rig end, whose far end a guide lets move in a plane, and not turn: pi^2 E I/L^2 in
+/* A column of 3 m, clamped at the rig end, whose far end a support lets move in a plane, and not turn: pi^2 E I/L^2 in
  * that plane, 4 pi^2 E I/L^2 across it, where the end may move along alone. Bars beside it, which do not turn, change
  * nothing. */
-static void guide_that_leaves_a_plane(void **state)
+static void support_that_leaves_a_plane(void **state)
 {
     (void)state;
     const double EI = s1_values().EI, length = 3.0, euler = PI * PI * EI / (length * length);
@@ -177,7 +177,7 @@ static void guide_that_leaves_a_plane(void **state)
         (void)find_equilibrium(&s, NULL);
         options.count = 2;
         must(&s, dmb_analysis_buckling(s.sim, &options, &found));
-        check_relative("a guide that leaves a plane: in it", 1.0 + factor_of(found, 0), euler, 1e-4);
+        check_relative("a support that leaves a plane: in it", 1.0 + factor_of(found, 0), euler, 1e-4);
         check_relative("    across it", 1.0 + factor_of(found, 1), 4.0 * euler, 1e-3);
         assert_int_equal(dmb_buckling_shape(found, 0, dmb_station(pipe.string, 0, 0.5), shape), DMB_OK);
         check_below("    the shape stays in the plane", shape[k == 0 ? DMB_Z : DMB_Y], 1e-9);
@@ -292,7 +292,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(euler_column),
-        cmocka_unit_test(guide_that_leaves_a_plane),
+        cmocka_unit_test(support_that_leaves_a_plane),
         cmocka_unit_test(sinusoidal_buckling_in_the_hole),
         cmocka_unit_test(preload_counts),
         cmocka_unit_test(explicit_joints_change_nothing),

@@ -32,12 +32,12 @@ static double push_at(double x)
 static void add_winding_loads(pushed *h)
 {
     dmb_load_def load = dmb_load_def_default();
-    dmb_term aside = dmb_term_default();
+    dmb_segment aside = dmb_segment_default();
     double angle = 0.0;
-    aside.kind = DMB_TERM_STEP;
+    aside.kind = DMB_SEGMENT_STEP;
     aside.h0 = 1.0;
     aside.x1 = TICK;
-    load.programme = add_programme(&h->s, &aside, 1);
+    load.time_function = add_time_function(&h->s, &aside, 1);
     load.frame = DMB_FRAME_HOLE;
     for (uint32_t i = 0; i < h->pipes; i++) {
         const double push = push_at((i + 0.5) * ELEMENT), normal = push * push * CLEARANCE / (4.0 * EI);
@@ -56,7 +56,7 @@ static void open_pushed(pushed *h, double diameter, double most)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = beam_pipe(ELEMENT, 1, 3.8e8, 1e8, 1.5e5, EI);
     dmb_load_def load = dmb_load_def_default();
-    dmb_term ramp = dmb_term_default();
+    dmb_segment ramp = dmb_segment_default();
     rig_open(&h->s, 0.0, 0.0, 0.0);
     wall.diameter = diameter + 2.0 * CLEARANCE;
     wall.stiffness = 1e8;
@@ -71,12 +71,12 @@ static void open_pushed(pushed *h, double diameter, double most)
     pipe.string = h->string = add_string(&h->s, &def);
     h->pipes = (uint32_t)(LENGTH / ELEMENT + 0.5);
     (void)add_pipes(&h->s, &pipe, h->pipes);
-    ramp.kind = DMB_TERM_STEP;
+    ramp.kind = DMB_SEGMENT_STEP;
     ramp.h0 = 1.0;
     ramp.h1 = most;
     ramp.x0 = TICK;
     ramp.x1 = (RAMP + 1) * TICK;
-    load.programme = add_programme(&h->s, &ramp, 1);
+    load.time_function = add_time_function(&h->s, &ramp, 1);
     load.frame = DMB_FRAME_HOLE;
     load.place = dmb_station(h->string, h->pipes - 1, 1.0);
     load.force[0] = -FIRST;

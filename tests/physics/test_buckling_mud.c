@@ -29,7 +29,7 @@ static void stand(standing *c, const dmb_environment_def *mud, double section_ma
     const double EI = 2.1e11 * PI / 64.0 * (pow(outer, 4.0) - pow(inner, 4.0));
     dmb_pipe_def pipe = beam_pipe(c->length / 10.0, 4, 2.1e11 * ring(outer, inner), 1e6 * EI, EI, EI);
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default();
+    const dmb_segment off = dmb_segment_default();
     rig_open(&c->s, 0.0, 0.0, 0.0);
     must_model(&c->s, dmb_model_set_environment(c->s.model, mud));
     wall.diameter = hole;
@@ -47,10 +47,10 @@ static void stand(standing *c, const dmb_environment_def *mud, double section_ma
     push.place = dmb_station(c->string, 9, 1.0);
     push.frame = DMB_FRAME_WORLD;
     push.force[0] = -1.0;
-    push.programme = add_programme(&c->s, &off, 1);
+    push.time_function = add_time_function(&c->s, &off, 1);
     c->push = add_load(&c->s, &push);
     push.force[0] = -weight_on_bit;
-    push.programme = (dmb_id){0, 0};
+    push.time_function = (dmb_id){0, 0};
     if (weight_on_bit > 0.0) c->weight = add_load(&c->s, &push);
     (void)rig_start(&c->s, NULL);
     (void)find_equilibrium(&c->s, NULL);
@@ -181,13 +181,13 @@ static void neutral_point(void **state)
     c.per_metre = weight_in(1600.0, 1.2);
     stand(&c, &mud, steel * ring(outer, inner), W);
     const double at = c.length - W / c.per_metre;
-    const dmb_channel effective = {.place = dmb_station(c.string, (uint32_t)(at / 12.0), fmod(at, 12.0) / 12.0),
-                                   .quantity = DMB_CHANNEL_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE};
-    dmb_channel true_force = effective;
+    const dmb_output effective = {.place = dmb_station(c.string, (uint32_t)(at / 12.0), fmod(at, 12.0) / 12.0),
+                                  .quantity = DMB_OUTPUT_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE};
+    dmb_output true_force = effective;
     double N = 1.0, there = 0.0;
-    true_force.quantity = DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE;
-    must(&c.s, dmb_query_channel(c.s.sim, &effective, &N));
-    must(&c.s, dmb_query_channel(c.s.sim, &true_force, &there));
+    true_force.quantity = DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE;
+    must(&c.s, dmb_query_output(c.s.sim, &effective, &N));
+    must(&c.s, dmb_query_output(c.s.sim, &true_force, &there));
     check_below("effective force at the neutral point over W", fabs(N) / W, 1e-8);
     check_relative("true force there, -(p_o A_o - p_i A_i) [N]", there,
                    -g * at * (1600.0 * ring(outer, 0.0) - 1.2 * ring(inner, 0.0)), 1e-4);

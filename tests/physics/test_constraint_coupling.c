@@ -1,5 +1,5 @@
-/* Couplings and drives on joint coordinates: gears, a screw, programmes followed to rounding, torques and controllers,
- * and what dmb_query_drive and dmb_query_multipliers tell of them. */
+/* Couplings and drives on joint coordinates: gears, a screw, time functions followed to rounding, torques and
+ * controllers, and what dmb_query_drive and dmb_query_multipliers tell of them. */
 #include <string.h>
 
 #include "mechanism.h"
@@ -142,25 +142,25 @@ static double step_value(double x0, double x1, double h, double t)
     return h * D * D * (3.0 - 2.0 * D);
 }
 
-/* X and RX of one cylindrical joint, driven by programmes of their own. */
-static void programmes_are_followed(void **state)
+/* X and RX of one cylindrical joint, driven by time functions of their own. */
+static void time_functions_are_followed(void **state)
 {
     (void)state;
     const double m = 2.0, J = 0.3, up[3] = {0.0, 0.0, 1.0};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     double worst[4] = {0.0, 0.0, 0.0, 0.0}, force = 0.0, angle = 0.0;
     rig s;
     rig_open(&s, 0.0, 0.0, -g);
     const dmb_id joint = joint_on(&s, DMB_JOINT_CYLINDRICAL, 0.0, rigid_mass(&s, 0.0, m, J), up);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.1037;
     term.x1 = 0.7;
     term.h1 = 0.4;
-    const dmb_id lift = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_X, add_programme(&s, &term, 1));
+    const dmb_id lift = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_X, add_time_function(&s, &term, 1));
     term.x0 = 0.0;
     term.x1 = 1.3;
     term.h1 = 40.0;
-    const dmb_id turn = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_RX, add_programme(&s, &term, 1));
+    const dmb_id turn = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_RX, add_time_function(&s, &term, 1));
     (void)mechanism_start(&s, NULL);
     for (int i = 0; i < 2000; i++) {
         take_steps(&s, step, 1);
@@ -178,10 +178,10 @@ static void programmes_are_followed(void **state)
         worst[3] = fmax(worst[3], fmax(force, fabs(a.power - a.force * v)));
     }
     const dmb_drive_state a = drive_at(&s, lift), b = drive_at(&s, turn);
-    check_below("place against the integral of its programme [m]", worst[0], 1e-12);
-    check_below("angle over 54 rad against the integral of its programme [rad]", angle,
+    check_below("place against the integral of its time function [m]", worst[0], 1e-12);
+    check_below("angle over 54 rad against the integral of its time function [rad]", angle,
                 5e-12); /* a sum of 2000 steps */
-    check_below("speeds against the programmes", worst[1], 1e-11);
+    check_below("speeds against the time functions", worst[1], 1e-11);
     check_below("positions and speeds that dmb_query_drive tells", worst[2], 1e-12);
     check_below("forces against m (g + a) and J a, power", worst[3], 1e-9);
     check_relative("work of lifting", a.work, m * (g * a.position + 0.5 * 0.16), 1e-6);
@@ -273,7 +273,7 @@ static void check_controller(const char *what, int32_t kind, int32_t component, 
     drive.part = joint_on(&s, kind, 0.0,
                           rigid_mass(&s, 0.0, component == DMB_X ? m : 1.0, component == DMB_X ? 1.0 : m), along_x);
     drive.component = component;
-    drive.programme = add_constant(&s, target);
+    drive.time_function = add_constant(&s, target);
     drive.gain = kp;
     drive.integral_gain = ki;
     const dmb_id id = add_drive(&s, &drive);
@@ -334,7 +334,7 @@ static void limits_hold(void **state)
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = joint_on(&s, DMB_JOINT_REVOLUTE, 0.0, rigid_mass(&s, 0.0, 1.0, 0.5), along_x);
     drive.component = DMB_RX;
-    drive.programme = add_constant(&s, 10.0);
+    drive.time_function = add_constant(&s, 10.0);
     drive.gain = 20.0;
     drive.integral_gain = 0.0;
     drive.limit_low = -1.0;
@@ -360,7 +360,7 @@ int main(void)
         cmocka_unit_test(gear_pair),
         cmocka_unit_test(gear_train),
         cmocka_unit_test(falling_nut),
-        cmocka_unit_test(programmes_are_followed),
+        cmocka_unit_test(time_functions_are_followed),
         cmocka_unit_test(driven_four_bar),
         cmocka_unit_test(force_between_two_bodies),
         cmocka_unit_test(controllers),

@@ -261,7 +261,7 @@ static void friction_holds(void **state)
 static double ledger_error(double step, uint32_t n, dmb_energy *energy)
 {
     dmb_joint_def def = joint_of(DMB_JOINT_CYLINDRICAL);
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_body_def body = dmb_body_def_default();
     const dmb_sim_options options = sharp_options(0.9, 1e-11);
     rig s;
@@ -280,12 +280,12 @@ static double ledger_error(double step, uint32_t n, dmb_energy *energy)
     def.stop_damping = 8.0;
     def.place_b = dmb_station(add_body(&s, &body), 0, 0.0);
     const dmb_id joint = add_joint(&s, &def);
-    term.kind = DMB_TERM_HARMONIC;
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = 30.0;
     term.omega = 7.0;
-    const dmb_id programme = add_programme(&s, &term, 1);
-    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_X, programme);
-    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_RX, programme);
+    const dmb_id time_function = add_time_function(&s, &term, 1);
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_X, time_function);
+    (void)add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_RX, time_function);
     (void)mechanism_start(&s, &options);
     take_steps(&s, step, n);
     *energy = energy_of(&s);

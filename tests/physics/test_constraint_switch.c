@@ -356,16 +356,16 @@ static wheel wheel_of(int32_t kind, double h0, double h1)
 {
     wheel w;
     const bar disc = {{0.0, 0.0}, {length, 0.0}, mass};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(&w.s, 0.0, 0.0, 0.0);
     w.body = add_bar(&w.s, &disc);
     w.joint = add_hinge(&w.s, "axle", DMB_JOINT_REVOLUTE, pin_ground(0.5 * length, 0.0), pin_on(w.body, 0.0));
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = 0.1;
     term.x1 = 0.2;
     term.h0 = h0;
     term.h1 = h1;
-    w.drive = add_simple_drive(&w.s, kind, w.joint, DMB_RX, add_programme(&w.s, &term, 1));
+    w.drive = add_simple_drive(&w.s, kind, w.joint, DMB_RX, add_time_function(&w.s, &term, 1));
     (void)mechanism_start(&w.s, NULL);
     return w;
 }
@@ -393,7 +393,7 @@ static void driven_joint_cannot_lock(void **state)
     rig_close(&w.s);
 }
 
-/* At rest it can; the step in which the programme starts to move is refused, and the joint can be released. */
+/* At rest it can; the step in which the time function starts to move is refused, and the joint can be released. */
 static void driven_joint_locked_at_rest(void **state)
 {
     (void)state;
@@ -531,16 +531,16 @@ static void open_jumper(jumper *t)
     dmb_constraint_def shell = dmb_constraint_def_default();
     dmb_body_def ball = dmb_body_def_default();
     static const double time[3] = {0.0, 0.05, 0.4}, speed[3] = {0.0, 0.0, 2.0};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(&t->s, 0.0, 0.0, -g);
     const dmb_id a = add_bar(&t->s, &first), b = add_bar(&t->s, &second);
     const dmb_id shoulder = add_hinge(&t->s, "", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(a, -0.5 * length));
     const dmb_id elbow = add_hinge(&t->s, "", DMB_JOINT_REVOLUTE, pin_on(a, 0.5 * length), pin_on(b, -0.5 * length));
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = speed;
     term.table_count = 3;
-    (void)add_simple_drive(&t->s, DMB_DRIVE_MOTION, shoulder, DMB_RX, add_programme(&t->s, &term, 1));
+    (void)add_simple_drive(&t->s, DMB_DRIVE_MOTION, shoulder, DMB_RX, add_time_function(&t->s, &term, 1));
     t->drive = add_simple_drive(&t->s, DMB_DRIVE_LOAD, elbow, DMB_RX, add_constant(&t->s, 0.5));
     ball.position[0] = 1.0;
     ball.position[2] = 9.0;
@@ -584,7 +584,8 @@ static void refused_jump_changes_nothing(void **state)
     rig_close(&one.s);
 }
 
-/* Rounding at jumps of forces and corners of programmes does not count as a correction of the initial velocities. */
+/* Rounding at jumps of forces and corners of time functions does not count as a correction of the initial velocities.
+ */
 static void jumps_are_no_projection(void **state)
 {
     (void)state;

@@ -104,14 +104,14 @@ static void torque_that_reverses(void **state)
 /* Rising to `speed` over `time`, in steps as long as half of that. */
 static void follow(double speed, double time, double h)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id joint = axle_on(&s, 0.0, rigid_mass(&s, 0.0, 1.0, 1.0));
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = time;
     term.h1 = speed;
-    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_RX, add_programme(&s, &term, 1));
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, joint, DMB_RX, add_time_function(&s, &term, 1));
     (void)mechanism_start(&s, NULL);
     while (dmb_sim_time(s.sim) < 3.0 * time - 0.5 * h) {
         whole_steps(&s, h, 1);

@@ -225,8 +225,8 @@ static void a_pipe_is_added(void **state)
     must_model(&from, dmb_model_get_info(from.model, &old));
     must_model(&to, dmb_model_get_info(to.model, &now));
     for (uint32_t k = 1; k <= 3; k++) { /* the last sites are those inside elements */
-        must(&from, dmb_query_contact(from.sim, old.contact_sites - k, &a));
-        must(&to, dmb_query_contact(to.sim, now.contact_sites - k, &b));
+        must(&from, dmb_query_contact(from.sim, old.contact_points - k, &a));
+        must(&to, dmb_query_contact(to.sim, now.contact_points - k, &b));
         assert_int_equal(b.pipe, a.pipe + 1);
         check_close("normal force", b.normal_force, a.normal_force, 1e-8 * (1.0 + a.normal_force));
         check_close("friction around", b.friction[1], a.friction[1], 1e-8 * (1.0 + a.normal_force));
@@ -280,7 +280,7 @@ static void open_points_may_wait(void **state)
         }
         const double z = pose_at(&s[0], dmb_station(id[0], 1, 0.6)).position[2];
         worst = fmax(worst, fabs(z - pose_at(&s[1], dmb_station(id[1], 1, 0.6)).position[2]));
-        for (uint32_t k = 0; k < info.contact_sites; k++) {
+        for (uint32_t k = 0; k < info.contact_points; k++) {
             dmb_contact a = dmb_contact_default(), b = dmb_contact_default();
             must(&s[0], dmb_query_contact(s[0].sim, k, &a));
             must(&s[1], dmb_query_contact(s[1].sim, k, &b));

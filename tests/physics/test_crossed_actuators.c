@@ -39,12 +39,12 @@ static turner open_turner(const wish *w)
     }
     drive.part = w->jointed ? t.joint : t.body;
     drive.component = DMB_RX;
-    if (drive.programme.generation == 0) drive.programme = add_constant(&t.s, 0.0);
+    if (drive.time_function.generation == 0) drive.time_function = add_constant(&t.s, 0.0);
     t.drive = add_drive(&t.s, &drive);
     if (w->level > 0.0) {
         dmb_event_def event = dmb_event_def_default();
         memcpy(event.name, "torque", sizeof "torque");
-        event.output = (dmb_channel){.place = dmb_station(t.drive, 0, 0.0), .quantity = DMB_CHANNEL_DRIVE_FORCE};
+        event.output = (dmb_output){.place = dmb_station(t.drive, 0, 0.0), .quantity = DMB_OUTPUT_DRIVE_FORCE};
         event.level = w->level;
         must_model(&t.s, dmb_model_add_event(t.s.model, &event, &t.event));
     }
@@ -198,10 +198,10 @@ static void steady_states_refuse(void **state)
         drive.part = brake.part = pipe.string = add_string(&s, &string);
         add_pipes(&s, &pipe, 3);
         drive.component = brake.component = DMB_RX;
-        drive.programme = add_constant(&s, 5.0);
+        drive.time_function = add_constant(&s, 5.0);
         add_drive(&s, &drive);
         brake.kind = DMB_DRIVE_LOAD;
-        brake.programme = add_constant(&s, 10.0);
+        brake.time_function = add_constant(&s, 10.0);
         brake.lag = with ? 0.1 : 0.0;
         const int32_t added = dmb_model_add_drive(s.model, &brake, NULL);
         if (added >= 0) {

@@ -67,7 +67,7 @@ static void add_pump(flowing *f)
 static void add_event(const flowing *f, double level)
 {
     dmb_event_def event = dmb_event_def_default();
-    event.output = (dmb_channel){dmb_station(f->string, f->pipes - 1, 1.0), DMB_CHANNEL_DISPLACEMENT_X, 0};
+    event.output = (dmb_output){dmb_station(f->string, f->pipes - 1, 1.0), DMB_OUTPUT_DISPLACEMENT_X, 0};
     event.level = level;
     (void)strcpy(event.name, "stretched");
     must_model(&f->s, dmb_model_add_event(f->s.model, &event, NULL));
@@ -239,7 +239,7 @@ static turner turned_by_a_table(void)
     drive.part = t.body;
     drive.component = DMB_RX;
     drive.lag = lag;
-    drive.programme = add_constant(&t.s, w0);
+    drive.time_function = add_constant(&t.s, w0);
     t.drive = add_drive(&t.s, &drive);
     load.place = dmb_station(t.body, 0, 0.0);
     load.moment[0] = -against;

@@ -25,11 +25,11 @@ static void go_on_from_a_snapshot(const rig *s, const dmb_sim_options *options, 
     dmb_sim_destroy(&other.sim);
 }
 
-static double channel_value(const rig *s, dmb_place place, int32_t quantity)
+static double output_value(const rig *s, dmb_place place, int32_t quantity)
 {
-    const dmb_channel channel = {.place = place, .quantity = quantity};
+    const dmb_output reading = {.place = place, .quantity = quantity};
     double value = 0.0;
-    must(s, dmb_query_channel(s->sim, &channel, &value));
+    must(s, dmb_query_output(s->sim, &reading, &value));
     return value;
 }
 
@@ -69,7 +69,7 @@ static drilling drill(const drilled *w)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     rig_open(&d.s, 0.0, 0.0, 0.0);
     wall.diameter = 0.16;
     wall.normal_law = DMB_NORMAL_NONE;
@@ -84,10 +84,10 @@ static drilling drill(const drilled *w)
     ring.fraction = 0.7;
     ring.outer_diameter = 2.0 * gauge;
     dmb_id on_ring;
-    must_model(&d.s, dmb_model_add_ring(d.s.model, &ring, &on_ring));
+    must_model(&d.s, dmb_model_add_stabiliser(d.s.model, &ring, &on_ring));
     dmb_bit_def bit = cutting(w->law, pilot, 0.0, 2e7), reamer = cutting(w->law, gauge, pilot, w->energy);
     bit.string = reamer.string = d.string;
-    reamer.ring = on_ring;
+    reamer.stabiliser = on_ring;
     must_model(&d.s, dmb_model_add_bit(d.s.model, &bit, &d.bit));
     must_model(&d.s, dmb_model_add_bit(d.s.model, &reamer, &d.reamer));
     add_simple_drive(&d.s, DMB_DRIVE_MOTION, d.string, DMB_X, add_constant(&d.s, feed));
@@ -180,8 +180,8 @@ static void has_derivatives(void **state)
         const int32_t status = dmb_sensitivity_step(sensitivity, 1e-3, NULL);
         if (status < 0) must(&d[0].s, status);
     }
-    const dmb_channel channel = {dmb_station(d[0].reamer, 0, 0.0), DMB_CHANNEL_BIT_ROCK_WEIGHT, 0};
-    must(&d[0].s, dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative));
+    const dmb_output reading = {dmb_station(d[0].reamer, 0, 0.0), DMB_OUTPUT_BIT_ROCK_WEIGHT, 0};
+    must(&d[0].s, dmb_sensitivity_outputs(sensitivity, &reading, 1, NULL, &derivative));
     const double want = (8.0 * (weight_after(energy + far, STEPS) - weight_after(energy - far, STEPS)) -
                          (weight_after(energy + 2.0 * far, STEPS) - weight_after(energy - 2.0 * far, STEPS))) /
                         (12.0 * far);
@@ -235,7 +235,7 @@ static hanging hang(double rate, double speed, double level, const dmb_sim_optio
     if (level != 0.0) {
         dmb_event_def event = dmb_event_def_default();
         memcpy(event.name, "hook", sizeof "hook");
-        event.output = (dmb_channel){.place = dmb_station(h.string, 0, 0.0), .quantity = DMB_CHANNEL_HOOK_LOAD};
+        event.output = (dmb_output){.place = dmb_station(h.string, 0, 0.0), .quantity = DMB_OUTPUT_HOOK_LOAD};
         event.level = level;
         event.direction = DMB_EVENT_FALLING;
         must_model(&h.s, dmb_model_add_event(h.s.model, &event, &h.event));
@@ -255,14 +255,14 @@ static void flow_is_a_dead_force(void **state)
         hanging h = hang(with ? 0.012 : 0.0, 0.0, 0.0, NULL);
         dmb_response *response = NULL;
         dmb_response_options options = dmb_response_options_default();
-        dmb_input input = dmb_input_default();
-        dmb_output output = dmb_output_default();
+        dmb_excitation input = dmb_excitation_default();
+        dmb_response_output output = dmb_response_output_default();
         find_equilibrium(&h.s, NULL);
         options.points = 1;
         options.frequency_low = options.frequency_high = frequency;
-        input.kind = DMB_INPUT_DRIVE;
+        input.kind = DMB_EXCITATION_DRIVE;
         input.place = dmb_station(h.drive, 0, 0.0);
-        output.kind = DMB_OUTPUT_VELOCITY;
+        output.kind = DMB_RESPONSE_VELOCITY;
         output.place = dmb_station(h.string, 9, 1.0);
         must(&h.s, dmb_analysis_response(h.s.sim, &options, &input, 1, &output, 1, &response));
         must(&h.s, dmb_response_transfer(response, 0, 0, values[with]));
@@ -274,14 +274,14 @@ static void flow_is_a_dead_force(void **state)
 }
 
 /* Pulled up at v, the hook load is higher by v sqrt(E rho) A until the wave is back from the free end, 2 L/c, then
- * lower by as much. Small steps that look at the channel say when it falls through its value at rest. */
+ * lower by as much. Small steps that look at the output say when it falls through its value at rest. */
 static void hook_load_is_an_event(void **state)
 {
     (void)state;
     const double E = 2.1e11, A = PI / 4.0 * (outer * outer - inner * inner), wave = 0.2 * A * sqrt(E * 7850.0);
     hanging still = hang(0.012, 0.0, 0.0, NULL);
     find_equilibrium(&still.s, NULL);
-    const double rest = channel_value(&still.s, dmb_station(still.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD);
+    const double rest = output_value(&still.s, dmb_station(still.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD);
     rig_close(&still.s);
     const double level = rest - 0.3 * wave;
     dmb_event_report report = dmb_event_report_default();
@@ -295,13 +295,13 @@ static void hook_load_is_an_event(void **state)
             assert_int_equal(dmb_sim_advance_to_event(h.s.sim, 0.2, &report, NULL), DMB_NOTE_EVENT);
             time[0] = report.time;
             check_close("hook load at the event [N]",
-                        channel_value(&h.s, dmb_station(h.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD), level, 1e-6 * wave);
+                        output_value(&h.s, dmb_station(h.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD), level, 1e-6 * wave);
             go_on_from_a_snapshot(&h.s, NULL, 1e-4, 20);
         }
         while (k == 1 && dmb_sim_time(h.s.sim) < 0.2) {
             take_divided_steps(&h.s, 2e-5, 1);
             time[1] = dmb_sim_time(h.s.sim);
-            const double load = channel_value(&h.s, dmb_station(h.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD);
+            const double load = output_value(&h.s, dmb_station(h.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD);
             if (k == 1 && time[1] > 0.01 && time[1] < 0.01003)
                 check_relative("rise of the hook load [N]", load - rest, wave, 0.1);
             if (load < level) break;
@@ -355,7 +355,7 @@ static column upright(int with_sub, const dmb_sim_options *options)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default();
+    const dmb_segment off = dmb_segment_default();
     rig_open(&c.s, 0.0, 0.0, 0.0);
     string.start_free = DMB_FREE_NONE;
     c.first = c.second = pipe.string = add_string(&c.s, &string);
@@ -374,7 +374,7 @@ static column upright(int with_sub, const dmb_sim_options *options)
     add_pipes(&c.s, &pipe, 2);
     push.place = c.end = dmb_station(c.second, with_sub ? 1 : 3, 1.0);
     push.force[0] = -1.0;
-    push.programme = add_programme(&c.s, &off, 1);
+    push.time_function = add_time_function(&c.s, &off, 1);
     c.push = add_load(&c.s, &push);
     dmb_load_def side = dmb_load_def_default();
     side.place = c.end;
@@ -414,8 +414,8 @@ static void its_response_is_that_without(void **state)
         column c = upright(with, NULL);
         dmb_response *response = NULL;
         dmb_response_options options = dmb_response_options_default();
-        dmb_input input = dmb_input_default();
-        dmb_output output = dmb_output_default();
+        dmb_excitation input = dmb_excitation_default();
+        dmb_response_output output = dmb_response_output_default();
         options.points = 2;
         options.frequencies = at;
         input.place = output.place = c.end;

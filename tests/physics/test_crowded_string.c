@@ -30,12 +30,12 @@ static dmb_sim_options sharp(void)
 
 enum { OUTPUTS = 4, STEPS = 40 };
 
-static void outputs_of(const scene *r, dmb_channel *out)
+static void outputs_of(const scene *r, dmb_output *out)
 {
-    const dmb_channel all[OUTPUTS] = {{dmb_station(r->c.string, 2, 0.5), DMB_CHANNEL_POSITION_Z, 0},
-                                      {dmb_station(r->c.string, 1, 0.35), DMB_CHANNEL_VELOCITY_Z, 0},
-                                      {dmb_station(r->c.stuck, 0, 0.0), DMB_CHANNEL_STUCK_FORCE, 0},
-                                      {dmb_station(r->c.string, 1, 0.8), DMB_CHANNEL_TORQUE, 0}};
+    const dmb_output all[OUTPUTS] = {{dmb_station(r->c.string, 2, 0.5), DMB_OUTPUT_POSITION_Z, 0},
+                                     {dmb_station(r->c.string, 1, 0.35), DMB_OUTPUT_VELOCITY_Z, 0},
+                                     {dmb_station(r->c.stuck, 0, 0.0), DMB_OUTPUT_STUCK_FORCE, 0},
+                                     {dmb_station(r->c.string, 1, 0.8), DMB_OUTPUT_TORQUE, 0}};
     memcpy(out, all, sizeof all);
 }
 
@@ -49,11 +49,11 @@ static void values_at_end(const crowded_string *c, double *values)
 {
     const dmb_sim_options options = sharp();
     scene r = open_with(c, &options);
-    dmb_channel channels[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     turn(&r);
     take_steps(&r.s, 1e-3, STEPS);
-    outputs_of(&r, channels);
-    for (int i = 0; i < OUTPUTS; i++) must(&r.s, dmb_query_channel(r.s.sim, channels + i, values + i));
+    outputs_of(&r, outputs);
+    for (int i = 0; i < OUTPUTS; i++) must(&r.s, dmb_query_output(r.s.sim, outputs + i, values + i));
     rig_close(&r.s);
 }
 
@@ -77,7 +77,7 @@ static void derivatives(const crowded_string *c, double *parameter, double step,
     const double value = *parameter;
     dmb_parameter p = dmb_parameter_default();
     dmb_sensitivity *sensitivity;
-    dmb_channel channels[OUTPUTS];
+    dmb_output outputs[OUTPUTS];
     scene sides[3];
     for (int k = 0; k < 3; k++) {
         *parameter = value + step * (k - 1);
@@ -89,11 +89,11 @@ static void derivatives(const crowded_string *c, double *parameter, double step,
     p.low = sides[0].s.sim;
     p.high = sides[2].s.sim;
     scene *r = &sides[1];
-    outputs_of(r, channels);
+    outputs_of(r, outputs);
     must(&r->s, dmb_sensitivity_create(r->s.sim, &p, 1, &sensitivity));
     for (int i = 0; i < STEPS; i++) {
         must(&r->s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
-        must(&r->s, dmb_sensitivity_channels(sensitivity, channels, OUTPUTS, NULL, out));
+        must(&r->s, dmb_sensitivity_outputs(sensitivity, outputs, OUTPUTS, NULL, out));
         for (int k = 0; k < OUTPUTS; k++) largest[k] = fmax(largest[k], fabs(out[k]));
     }
     dmb_sensitivity_destroy(&sensitivity);

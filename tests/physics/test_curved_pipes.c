@@ -56,7 +56,7 @@ static double tip_of_cantilever(uint32_t elements, double step)
     dmb_string_def def = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
     static const double time[4] = {0.0, 1.0, 2.0, 1e3}, force[4] = {0.0, 50.0, 0.0, 0.0};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     leg.section_mass = 1.0;
     leg.section_inertia[0] = 20.0;
     leg.section_inertia[1] = 10.0;
@@ -70,13 +70,13 @@ static double tip_of_cantilever(uint32_t elements, double step)
     dmb_joint_def elbow = joint_between(DMB_JOINT_FIXED, dmb_station(near_leg, 0, 1.0), dmb_station(far_leg, 0, 0.0));
     elbow.match = 1;
     (void)add_joint(&s, &elbow);
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = force;
     term.table_count = 4;
     load.place = dmb_station(near_leg, 0, 1.0);
     load.force[2] = 1.0;
-    load.programme = add_programme(&s, &term, 1);
+    load.time_function = add_time_function(&s, &term, 1);
     (void)add_load(&s, &load);
     (void)rig_start(&s, NULL);
     take_steps(&s, step, (uint32_t)lround(10.0 / step));

@@ -8,10 +8,10 @@
 
 static double reading(const rig *s, int32_t quantity, dmb_id part)
 {
-    const dmb_channel channel = {dmb_station(part, 0, 0.0), quantity, 0};
+    const dmb_output reading = {dmb_station(part, 0, 0.0), quantity, 0};
     double value = (double)NAN;
-    const int32_t status = dmb_query_channel(s->sim, &channel, &value);
-    if (status < 0) fail_msg("%s: %s", dmb_channel_name(quantity, NULL), dmb_status_text(status));
+    const int32_t status = dmb_query_output(s->sim, &reading, &value);
+    if (status < 0) fail_msg("%s: %s", dmb_output_name(quantity, NULL), dmb_status_text(status));
     return value;
 }
 
@@ -58,12 +58,12 @@ static void hanging(void **state)
             rig s;
             const dmb_id string = open_hanging(&s, kind, 20, P, T);
             const double weight = v.weight * L;
-            check_relative("hook load", first(&s, DMB_CHANNEL_HOOK_LOAD), weight + P, 1e-9);
-            check_relative("    force of the rig", reading(&s, DMB_CHANNEL_RIG_FORCE, string), weight + P, 1e-9);
-            check_relative("    stretch", first(&s, DMB_CHANNEL_STRETCH), (0.5 * weight + P) * L / v.EA, 1e-5);
-            check_close("    rotation torque", first(&s, DMB_CHANNEL_ROTATION_TORQUE), -T, 1e-7);
-            check_close("    torque of the rig", first(&s, DMB_CHANNEL_RIG_TORQUE), -T, 1e-7);
-            check_close("    wind-up", first(&s, DMB_CHANNEL_WIND_UP), -T * L / v.GJ, 1e-7);
+            check_relative("hook load", first(&s, DMB_OUTPUT_HOOK_LOAD), weight + P, 1e-9);
+            check_relative("    force of the rig", reading(&s, DMB_OUTPUT_RIG_FORCE, string), weight + P, 1e-9);
+            check_relative("    stretch", first(&s, DMB_OUTPUT_STRETCH), (0.5 * weight + P) * L / v.EA, 1e-5);
+            check_close("    rotation torque", first(&s, DMB_OUTPUT_ROTATION_TORQUE), -T, 1e-7);
+            check_close("    torque of the rig", first(&s, DMB_OUTPUT_RIG_TORQUE), -T, 1e-7);
+            check_close("    wind-up", first(&s, DMB_OUTPUT_WIND_UP), -T * L / v.GJ, 1e-7);
             check_close("    wind-up by the rotations",
                         rotation_at(&s, dmb_station(string, 0, 0.0)) - rotation_at(&s, dmb_station(string, 19, 1.0)),
                         -T * L / v.GJ, 1e-7);
@@ -75,11 +75,11 @@ static void hanging(void **state)
 
 static void unread(const rig *s, int32_t quantity, dmb_id part, int32_t wanted)
 {
-    const dmb_channel channel = {dmb_station(part, 0, 0.0), quantity, 0};
+    const dmb_output reading = {dmb_station(part, 0, 0.0), quantity, 0};
     double value = 7.0;
-    if (dmb_query_channel(s->sim, &channel, &value) != wanted) fail_msg("%s", dmb_channel_name(quantity, NULL));
+    if (dmb_query_output(s->sim, &reading, &value) != wanted) fail_msg("%s", dmb_output_name(quantity, NULL));
     assert_true(value == 7.0);
-    assert_int_equal(dmb_channel_check(s->sim, &channel, 1), wanted);
+    assert_int_equal(dmb_output_check(s->sim, &reading, 1), wanted);
     if (wanted != DMB_ERR_ID)
         assert_non_null(strstr(dmb_sim_message(s->sim), "that has what is read: a bit, with a rock"));
 }
@@ -105,8 +105,8 @@ static dmb_id add_falling(rig *s, int32_t first_kind, double depth, double speed
 static void each_string_by_itself(void **state)
 {
     (void)state;
-    static const int32_t of_bits[3] = {DMB_CHANNEL_WEIGHT_ON_BIT, DMB_CHANNEL_TORQUE_ON_BIT,
-                                       DMB_CHANNEL_RATE_OF_PENETRATION};
+    static const int32_t of_bits[3] = {DMB_OUTPUT_WEIGHT_ON_BIT, DMB_OUTPUT_TORQUE_ON_BIT,
+                                       DMB_OUTPUT_RATE_OF_PENETRATION};
     const dmb_wall_def hole = s1_hole();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_body_def body = dmb_body_def_default();
@@ -126,22 +126,22 @@ static void each_string_by_itself(void **state)
     (void)add_simple_drive(&s, DMB_DRIVE_LOAD, string[0], DMB_X, pull);
     (void)add_simple_drive(&s, DMB_DRIVE_LOAD, slide, DMB_X, pull);
     (void)rig_start(&s, NULL);
-    check_close("weight on the bit of the first string [N]", reading(&s, DMB_CHANNEL_WEIGHT_ON_BIT, string[0]), 250.0,
+    check_close("weight on the bit of the first string [N]", reading(&s, DMB_OUTPUT_WEIGHT_ON_BIT, string[0]), 250.0,
                 0.0);
-    check_close("    rate of penetration [m/s]", reading(&s, DMB_CHANNEL_RATE_OF_PENETRATION, string[0]), 0.3, 1e-12);
-    check_close("    force of its rig [N]", reading(&s, DMB_CHANNEL_RIG_FORCE, string[0]), -400.0, 1e-9);
-    check_close("    of the other [N]", reading(&s, DMB_CHANNEL_RIG_FORCE, string[1]), 0.0, 1e-9);
+    check_close("    rate of penetration [m/s]", reading(&s, DMB_OUTPUT_RATE_OF_PENETRATION, string[0]), 0.3, 1e-12);
+    check_close("    force of its rig [N]", reading(&s, DMB_OUTPUT_RIG_FORCE, string[0]), -400.0, 1e-9);
+    check_close("    of the other [N]", reading(&s, DMB_OUTPUT_RIG_FORCE, string[1]), 0.0, 1e-9);
     for (int i = 0; i < 2; i++) {
-        check_close("feed speed [m/s]", reading(&s, DMB_CHANNEL_FEED_SPEED, string[i]), 0.3 + 0.5 * i, 1e-12);
-        check_close("    bit speed [rad/s]", reading(&s, DMB_CHANNEL_BIT_SPEED, string[i]), 0.6 + i, 1e-12);
-        check_close("    bit depth [m]", reading(&s, DMB_CHANNEL_BIT_DEPTH, string[i]), 14.5 + 20.0 * i, 1e-9);
+        check_close("feed speed [m/s]", reading(&s, DMB_OUTPUT_FEED_SPEED, string[i]), 0.3 + 0.5 * i, 1e-12);
+        check_close("    bit speed [rad/s]", reading(&s, DMB_OUTPUT_BIT_SPEED, string[i]), 0.6 + i, 1e-12);
+        check_close("    bit depth [m]", reading(&s, DMB_OUTPUT_BIT_DEPTH, string[i]), 14.5 + 20.0 * i, 1e-9);
     }
     for (int i = 0; i < 3; i++) unread(&s, of_bits[i], string[1], DMB_ERR_UNSUPPORTED);
-    unread(&s, DMB_CHANNEL_OFF_BOTTOM, string[0], DMB_ERR_UNSUPPORTED); /* no rock */
-    unread(&s, DMB_CHANNEL_OFF_BOTTOM, string[1], DMB_ERR_UNSUPPORTED); /* no bit */
-    unread(&s, DMB_CHANNEL_HOOK_LOAD, string[1], DMB_ERR_UNSUPPORTED);  /* a rigid pipe has no section */
-    unread(&s, DMB_CHANNEL_ROTATION_TORQUE, string[1], DMB_ERR_UNSUPPORTED);
-    unread(&s, DMB_CHANNEL_STRETCH, (dmb_id){0, 7}, DMB_ERR_ID);
+    unread(&s, DMB_OUTPUT_OFF_BOTTOM, string[0], DMB_ERR_UNSUPPORTED); /* no rock */
+    unread(&s, DMB_OUTPUT_OFF_BOTTOM, string[1], DMB_ERR_UNSUPPORTED); /* no bit */
+    unread(&s, DMB_OUTPUT_HOOK_LOAD, string[1], DMB_ERR_UNSUPPORTED);  /* a rigid pipe has no section */
+    unread(&s, DMB_OUTPUT_ROTATION_TORQUE, string[1], DMB_ERR_UNSUPPORTED);
+    unread(&s, DMB_OUTPUT_STRETCH, (dmb_id){0, 7}, DMB_ERR_ID);
     rig_close(&s);
 }
 
@@ -155,8 +155,8 @@ typedef struct drilling {
 /* Twelve pipes along x, fed and turned into rock 2 mm ahead. */
 static drilling open_drilling(void)
 {
-    const dmb_term feed = {.struct_size = sizeof feed, .kind = DMB_TERM_STEP, .x1 = 0.1, .h1 = 0.02};
-    const dmb_term turn = {.struct_size = sizeof turn, .kind = DMB_TERM_STEP, .x1 = 0.1, .h1 = 20.0};
+    const dmb_segment feed = {.struct_size = sizeof feed, .kind = DMB_SEGMENT_STEP, .x1 = 0.1, .h1 = 0.02};
+    const dmb_segment turn = {.struct_size = sizeof turn, .kind = DMB_SEGMENT_STEP, .x1 = 0.1, .h1 = 20.0};
     dmb_wall_def wall = s1_hole();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
@@ -172,8 +172,8 @@ static drilling open_drilling(void)
     bit.bottom = 2e-3;
     bit.load = add_constant(&d.s, 300.0);
     must_model(&d.s, dmb_model_add_bit(d.s.model, &bit, &d.bit));
-    add_simple_drive(&d.s, DMB_DRIVE_MOTION, d.string, DMB_X, add_programme(&d.s, &feed, 1));
-    add_simple_drive(&d.s, DMB_DRIVE_MOTION, d.string, DMB_RX, add_programme(&d.s, &turn, 1));
+    add_simple_drive(&d.s, DMB_DRIVE_MOTION, d.string, DMB_X, add_time_function(&d.s, &feed, 1));
+    add_simple_drive(&d.s, DMB_DRIVE_MOTION, d.string, DMB_RX, add_time_function(&d.s, &turn, 1));
     rig_start(&d.s, NULL);
     return d;
 }
@@ -187,34 +187,34 @@ static void balances(void **state)
     drilling d = open_drilling();
     const double h = 1e-4;
     double impulse = 0.0, most = 0.0, advance = 0.0, on_bottom_at = 0.0, shares = 0.0, drive = 0.0, hook = 0.0;
-    double before = 0.0, rate_before = 0.0, start = first(&d.s, DMB_CHANNEL_MOMENTUM_X);
+    double before = 0.0, rate_before = 0.0, start = first(&d.s, DMB_OUTPUT_MOMENTUM_X);
     dmb_window *window = NULL;
     dmb_window_result off = dmb_window_result_default();
-    const dmb_channel watched = {dmb_station(d.string, 0, 0.0), DMB_CHANNEL_OFF_BOTTOM, 0};
+    const dmb_output watched = {dmb_station(d.string, 0, 0.0), DMB_OUTPUT_OFF_BOTTOM, 0};
     must(&d.s, dmb_window_create(d.s.sim, NULL, &watched, 1, &window));
     for (int i = 0; i <= 4000; i++) {
         if (i > 0) take_steps(&d.s, h, 1);
-        const double force = first(&d.s, DMB_CHANNEL_CONTACTS_FRICTION_AXIAL) - first(&d.s, DMB_CHANNEL_RIG_FORCE) -
-                             first(&d.s, DMB_CHANNEL_WEIGHT_ON_BIT);
-        const double rate = first(&d.s, DMB_CHANNEL_RATE_OF_PENETRATION);
+        const double force = first(&d.s, DMB_OUTPUT_CONTACTS_FRICTION_AXIAL) - first(&d.s, DMB_OUTPUT_RIG_FORCE) -
+                             first(&d.s, DMB_OUTPUT_WEIGHT_ON_BIT);
+        const double rate = first(&d.s, DMB_OUTPUT_RATE_OF_PENETRATION);
         assert_int_equal(dmb_window_take(window, d.s.sim), DMB_OK);
         if (i > 0) impulse += 0.5 * h * (force + before);
         if (rate_before > 0.0) advance += 0.5 * h * (rate + rate_before);
-        if (!(first(&d.s, DMB_CHANNEL_OFF_BOTTOM) > 0.0) && on_bottom_at == 0.0)
-            on_bottom_at = reading(&d.s, DMB_CHANNEL_BIT_ADVANCE, d.bit);
+        if (!(first(&d.s, DMB_OUTPUT_OFF_BOTTOM) > 0.0) && on_bottom_at == 0.0)
+            on_bottom_at = reading(&d.s, DMB_OUTPUT_BIT_ADVANCE, d.bit);
         if (rate > 0.0 && rate_before == 0.0)
-            advance = 0.0, on_bottom_at = reading(&d.s, DMB_CHANNEL_BIT_ADVANCE, d.bit);
-        shares += i > 0 ? first(&d.s, DMB_CHANNEL_OFF_BOTTOM) / 4000.0 : 0.0;
+            advance = 0.0, on_bottom_at = reading(&d.s, DMB_OUTPUT_BIT_ADVANCE, d.bit);
+        shares += i > 0 ? first(&d.s, DMB_OUTPUT_OFF_BOTTOM) / 4000.0 : 0.0;
         most = fmax(most, fabs(impulse));
         before = force;
         rate_before = rate;
-        if (i > 3900) drive += first(&d.s, DMB_CHANNEL_RIG_FORCE), hook += first(&d.s, DMB_CHANNEL_HOOK_LOAD);
+        if (i > 3900) drive += first(&d.s, DMB_OUTPUT_RIG_FORCE), hook += first(&d.s, DMB_OUTPUT_HOOK_LOAD);
     }
     assert_int_equal(dmb_window_get(window, 0, &off), DMB_OK);
-    check_close("momentum along the hole by its forces", first(&d.s, DMB_CHANNEL_MOMENTUM_X) - start, impulse,
+    check_close("momentum along the hole by its forces", first(&d.s, DMB_OUTPUT_MOMENTUM_X) - start, impulse,
                 2e-4 * most);
     check_relative("advance by the rate of penetration", advance,
-                   reading(&d.s, DMB_CHANNEL_BIT_ADVANCE, d.bit) - on_bottom_at, 1e-3);
+                   reading(&d.s, DMB_OUTPUT_BIT_ADVANCE, d.bit) - on_bottom_at, 1e-3);
     check_close("off-bottom share by the window", off.mean, shares, 2.0 / 4000.0);
     check_relative("thrust at the head by rig and section", hook, drive, 2e-2);
     assert_true(hook < 0.0 && off.mean > 0.05 && off.mean < 0.95);
@@ -230,7 +230,8 @@ static void window_of_a_sine(void **state)
 {
     (void)state;
     const double A = 4.0, omega = 20.0 * PI;
-    const dmb_term turn = {.struct_size = sizeof turn, .kind = DMB_TERM_HARMONIC, .h0 = 10.0, .h1 = A, .omega = omega};
+    const dmb_segment turn = {
+        .struct_size = sizeof turn, .kind = DMB_SEGMENT_HARMONIC, .h0 = 10.0, .h1 = A, .omega = omega};
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_window_options options = dmb_window_options_default();
@@ -243,9 +244,9 @@ static void window_of_a_sine(void **state)
     pipe.kind = DMB_PIPE_RIGID;
     pipe.string = add_string(&s, &string);
     add_pipes(&s, &pipe, 1);
-    add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, add_programme(&s, &turn, 1));
+    add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, add_time_function(&s, &turn, 1));
     rig_start(&s, NULL);
-    const dmb_channel watched = {dmb_station(pipe.string, 0, 0.0), DMB_CHANNEL_BIT_SPEED, 0};
+    const dmb_output watched = {dmb_station(pipe.string, 0, 0.0), DMB_OUTPUT_BIT_SPEED, 0};
     const double level = 10.0;
     options.length = 0.2;
     options.slots = 50;
@@ -287,8 +288,8 @@ static void windows_refuse(void **state)
 {
     (void)state;
     drilling d = open_drilling();
-    const dmb_channel good = {dmb_station(d.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD, 0};
-    const dmb_channel bad = {dmb_station(d.string, 0, 0.0), DMB_CHANNEL_JOINT_STATE, 0};
+    const dmb_output good = {dmb_station(d.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD, 0};
+    const dmb_output bad = {dmb_station(d.string, 0, 0.0), DMB_OUTPUT_JOINT_STATE, 0};
     dmb_window_options options = dmb_window_options_default();
     dmb_window *window = (dmb_window *)&d, *kept = NULL;
     dmb_window_result r = dmb_window_result_default();
@@ -329,25 +330,25 @@ static void windows_refuse(void **state)
 
 /* ---- As outputs of a response ------------------------------------------------------------------------------------ */
 
-static dmb_output channel_output(dmb_id part, int32_t quantity)
+static dmb_response_output output_output(dmb_id part, int32_t quantity)
 {
-    return output_at(DMB_OUTPUT_CHANNEL, dmb_station(part, 0, 0.0), quantity);
+    return output_at(DMB_RESPONSE_OUTPUT, dmb_station(part, 0, 0.0), quantity);
 }
 
-/* Transfer functions of channels from a force of the rig against the stepped sine of the same outputs. */
+/* Transfer functions of outputs from a force of the rig against the stepped sine of the same outputs. */
 static void in_responses(void **state)
 {
     (void)state;
     const double frequency = 30.0, amplitude = 20.0;
-    const int32_t asked[6] = {DMB_CHANNEL_HOOK_LOAD,         DMB_CHANNEL_FEED_SPEED,
-                              DMB_CHANNEL_POSITION_X,        DMB_CHANNEL_SECTION_STRAIN,
-                              DMB_CHANNEL_BODY_ACCELERATION, DMB_CHANNEL_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE};
-    const dmb_term shake = {
-        .struct_size = sizeof shake, .kind = DMB_TERM_HARMONIC, .h1 = amplitude, .omega = 2.0 * PI * frequency};
+    const int32_t asked[6] = {DMB_OUTPUT_HOOK_LOAD,         DMB_OUTPUT_FEED_SPEED,
+                              DMB_OUTPUT_POSITION_X,        DMB_OUTPUT_SECTION_STRAIN,
+                              DMB_OUTPUT_BODY_ACCELERATION, DMB_OUTPUT_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE};
+    const dmb_segment shake = {
+        .struct_size = sizeof shake, .kind = DMB_SEGMENT_HARMONIC, .h1 = amplitude, .omega = 2.0 * PI * frequency};
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_output outputs[6];
+    dmb_response_output outputs[6];
     double sine[6][4][2];
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -360,14 +361,14 @@ static void in_responses(void **state)
     drive.part = pipe.string;
     drive.gain = 2e4;
     drive.integral_gain = 2e6;
-    drive.programme = add_constant(&s, 0.0);
+    drive.time_function = add_constant(&s, 0.0);
     add_drive(&s, &drive);
-    const dmb_id force = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_programme(&s, &shake, 1));
+    const dmb_id force = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_time_function(&s, &shake, 1));
     rig_start(&s, NULL);
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, force, DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, force, DMB_X);
     for (int i = 0; i < 6; i++)
         outputs[i] =
-            output_at(DMB_OUTPUT_CHANNEL, dmb_station(pipe.string, i < 2 ? 0 : 4, i < 2 ? 0.0 : 0.5), asked[i]);
+            output_at(DMB_RESPONSE_OUTPUT, dmb_station(pipe.string, i < 2 ? 0 : 4, i < 2 ? 0.0 : 0.5), asked[i]);
     options.steps_per_period = 800;
     options.tolerance = 1e-5;
     const int32_t status = dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 6, &sine[0][0][0], NULL);
@@ -377,50 +378,50 @@ static void in_responses(void **state)
     pipe.string = add_string(&still, &string);
     add_pipes(&still, &pipe, 10);
     drive.part = pipe.string;
-    drive.programme = add_constant(&still, 0.0);
+    drive.time_function = add_constant(&still, 0.0);
     add_drive(&still, &drive);
     const dmb_id constant = add_simple_drive(&still, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_constant(&still, 0.0));
     rig_start(&still, NULL);
     for (int i = 0; i < 6; i++) {
-        const dmb_input same = input_of(DMB_INPUT_DRIVE, constant, DMB_X);
+        const dmb_excitation same = input_of(DMB_EXCITATION_DRIVE, constant, DMB_X);
         double complex value;
         outputs[i].place.part = pipe.string;
         transfer(&still, NULL, &same, &outputs[i], &frequency, 1, &value);
         const double complex want = amplitude * value / i_, got = sine[i][1][0] + i_ * sine[i][1][1];
         assert_true(cabs(want) > 0.0);
-        check_below(dmb_channel_name(asked[i], NULL), cabs(got - want) / cabs(want), 1e-3);
+        check_below(dmb_output_name(asked[i], NULL), cabs(got - want) / cabs(want), 1e-3);
     }
     (void)input;
     rig_close(&s);
     rig_close(&still);
 }
 
-/* A linear analysis refuses channels that it cannot tell, by name; the bottom-hole load is in the weight. */
+/* A linear analysis refuses outputs that it cannot tell, by name; the bottom-hole load is in the weight. */
 static void refused_in_responses(void **state)
 {
     (void)state;
     drilling d = open_drilling();
-    const int32_t refused[6] = {DMB_CHANNEL_STRETCH, DMB_CHANNEL_BENDING_MOMENT, DMB_CHANNEL_ENERGY_STRAIN,
-                                DMB_CHANNEL_STEPS,   DMB_CHANNEL_RIG_FORCE,      DMB_CHANNEL_STICK_SLIP_INDEX};
+    const int32_t refused[6] = {DMB_OUTPUT_STRETCH, DMB_OUTPUT_BENDING_MOMENT, DMB_OUTPUT_ENERGY_STRAIN,
+                                DMB_OUTPUT_STEPS,   DMB_OUTPUT_RIG_FORCE,      DMB_OUTPUT_STICK_SLIP_INDEX};
     dmb_response_options options = dmb_response_options_default();
     const double frequency = 10.0;
     double complex value;
-    const dmb_input load = input_of(DMB_INPUT_BIT_LOAD, d.bit, DMB_X);
+    const dmb_excitation load = input_of(DMB_EXCITATION_BIT_LOAD, d.bit, DMB_X);
     options.points = 1;
     options.frequencies = &frequency;
     options.equilibrium_tolerance = 1.0;
     for (int i = 0; i < 6; i++) {
         dmb_response *response = NULL;
-        dmb_output output = channel_output(i == 1 ? d.string : (dmb_id){0, 0}, refused[i]);
+        dmb_response_output output = output_output(i == 1 ? d.string : (dmb_id){0, 0}, refused[i]);
         assert_int_equal(dmb_analysis_response(d.s.sim, &options, &load, 1, &output, 1, &response),
                          DMB_ERR_UNSUPPORTED);
         const char *message = dmb_sim_message(d.s.sim);
-        if (strstr(message, dmb_channel_name(refused[i], NULL)) == NULL) fail_msg("says: %s", message);
+        if (strstr(message, dmb_output_name(refused[i], NULL)) == NULL) fail_msg("says: %s", message);
     }
-    const dmb_output weight = channel_output((dmb_id){0, 0}, DMB_CHANNEL_WEIGHT_ON_BIT);
+    const dmb_response_output weight = output_output((dmb_id){0, 0}, DMB_OUTPUT_WEIGHT_ON_BIT);
     transfer(&d.s, &options, &load, &weight, &frequency, 1, &value);
     check_close("weight on bit off bottom by the load", creal(value), 1.0, 0.0);
-    dmb_output unknown = channel_output(d.string, 99);
+    dmb_response_output unknown = output_output(d.string, 99);
     dmb_response *response = NULL;
     assert_int_equal(dmb_analysis_response(d.s.sim, &options, &load, 1, &unknown, 1, &response), DMB_ERR_VALUE);
     rig_close(&d.s);

@@ -3,7 +3,7 @@
 
 #include "rig.h"
 
-static rig pipes_on_a_drive(int32_t kind, dmb_id programme_of(rig *), dmb_id *drive, dmb_id *string)
+static rig pipes_on_a_drive(int32_t kind, dmb_id time_function_of(rig *), dmb_id *drive, dmb_id *string)
 {
     rig s;
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -14,7 +14,7 @@ static rig pipes_on_a_drive(int32_t kind, dmb_id programme_of(rig *), dmb_id *dr
     def.kind = kind;
     def.part = *string;
     def.component = DMB_X;
-    def.programme = programme_of(&s);
+    def.time_function = time_function_of(&s);
     def.gain = 2e3;
     def.integral_gain = 1e4;
     *drive = add_drive(&s, &def);
@@ -31,19 +31,19 @@ static dmb_id nothing(rig *s)
 static dmb_id kink(rig *s)
 {
     static const double time[3] = {0.0, 0.05, 1.05}, value[3] = {0.0, 0.0, 1.0};
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_TABLE;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = value;
     term.table_count = 3;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
 /* Place of the far end at 0.1 s, the drive set to `value` at 0.05 s where that is a number. */
-static double far_end(int32_t kind, dmb_id programme_of(rig *), double value, double h)
+static double far_end(int32_t kind, dmb_id time_function_of(rig *), double value, double h)
 {
     dmb_id drive, string;
-    rig s = pipes_on_a_drive(kind, programme_of, &drive, &string);
+    rig s = pipes_on_a_drive(kind, time_function_of, &drive, &string);
     const uint32_t n = (uint32_t)lround(0.05 / h);
     take_steps(&s, h, n);
     if (!isnan(value)) must(&s, dmb_sim_set_drive(s.sim, drive, value));
@@ -54,11 +54,13 @@ static double far_end(int32_t kind, dmb_id programme_of(rig *), double value, do
 }
 
 /* By halving from `steps` steps up to the jump; the jump of the target excites faster motion and needs more of them. */
-static void keeps_second_order(const char *what, int32_t kind, dmb_id programme_of(rig *), double value, double steps)
+static void keeps_second_order(const char *what, int32_t kind, dmb_id time_function_of(rig *), double value,
+                               double steps)
 {
     const double h = 0.05 / steps;
-    const double coarse = far_end(kind, programme_of, value, h), middle = far_end(kind, programme_of, value, h / 2.0);
-    const double fine = far_end(kind, programme_of, value, h / 4.0);
+    const double coarse = far_end(kind, time_function_of, value, h),
+                 middle = far_end(kind, time_function_of, value, h / 2.0);
+    const double fine = far_end(kind, time_function_of, value, h / 4.0);
     check_order(what, coarse - middle, middle - fine, 2.0, 0.15);
 }
 
@@ -74,7 +76,7 @@ static void target_set_by_hand(void **state)
     keeps_second_order("order after a jump of the target", DMB_DRIVE_CONTROL, nothing, 1.0, 1024.0);
 }
 
-static void kink_of_a_motion_programme(void **state)
+static void kink_of_a_motion_time_function(void **state)
 {
     (void)state;
     keeps_second_order("order after a kink of the speed", DMB_DRIVE_MOTION, kink, (double)NAN, 512.0);
@@ -112,7 +114,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_set_by_hand),
         cmocka_unit_test(target_set_by_hand),
-        cmocka_unit_test(kink_of_a_motion_programme),
+        cmocka_unit_test(kink_of_a_motion_time_function),
         cmocka_unit_test(string_at_rest_on_the_rock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

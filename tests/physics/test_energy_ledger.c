@@ -31,8 +31,8 @@ static dmb_energy run_rig(double h, double newton_tolerance, int32_t friction_la
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_environment_def environment = dmb_environment_def_default();
-    const dmb_term feed = scene_step_term(0.0, 0.0, 0.1, 0.01), turn = scene_step_term(0.0, 0.0, 0.1, 20.0);
-    const dmb_term push = scene_step_term(0.05, 0.0, 0.15, 1.0);
+    const dmb_segment feed = scene_step_segment(0.0, 0.0, 0.1, 0.01), turn = scene_step_segment(0.0, 0.0, 0.1, 20.0);
+    const dmb_segment push = scene_step_segment(0.05, 0.0, 0.15, 1.0);
     dmb_sim_options options = dmb_sim_options_default();
     rig scene;
     options.newton_tolerance = newton_tolerance;
@@ -49,12 +49,12 @@ static dmb_energy run_rig(double h, double newton_tolerance, int32_t friction_la
     scene_add_bit(&scene, &bit);
     load.place = dmb_station(id, 4, 1.0);
     load.force[1] = 200.0;
-    load.programme = add_programme(&scene, &push, 1);
+    load.time_function = add_time_function(&scene, &push, 1);
     add_load(&scene, &load);
-    drive.programme = add_programme(&scene, &feed, 1);
+    drive.time_function = add_time_function(&scene, &feed, 1);
     add_drive(&scene, &drive);
     drive.component = DMB_RX;
-    drive.programme = add_programme(&scene, &turn, 1);
+    drive.time_function = add_time_function(&scene, &turn, 1);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, &options);
     for (int i = 0; i < (int)(0.25 / h + 0.5); i++) scene_step(&scene, h);
@@ -100,7 +100,7 @@ static double scheme_of_vibration(double h, double radius)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
-    const dmb_term pulse[2] = {scene_step_term(0.0, 0.0, 0.01, 1.0), scene_step_term(0.01, 0.0, 0.02, -1.0)};
+    const dmb_segment pulse[2] = {scene_step_segment(0.0, 0.0, 0.01, 1.0), scene_step_segment(0.01, 0.0, 0.02, -1.0)};
     dmb_sim_options options = dmb_sim_options_default();
     rig scene;
     options.spectral_radius = radius;
@@ -113,7 +113,7 @@ static double scheme_of_vibration(double h, double radius)
     const dmb_id id = add_pipes(&scene, &pipe, 1);
     load.place = dmb_station(id, 0, 1.0);
     load.force[1] = 100.0;
-    load.programme = add_programme(&scene, pulse, 2);
+    load.time_function = add_time_function(&scene, pulse, 2);
     add_load(&scene, &load);
     rig_start_with(&scene, NULL, &options);
     for (int i = 0; i < (int)(0.5 / h + 0.5); i++) scene_step(&scene, h);
@@ -162,11 +162,11 @@ static void linear_bar_keeps_energy(void **state)
     add_string(&scene, &string);
     const dmb_id id = add_pipes(&scene, &pipe, 10);
     dmb_load_def load = dmb_load_def_default();
-    const dmb_term pulse[2] = {scene_step_term(0.0, 0.0, 0.005, 1.0), scene_step_term(0.005, 0.0, 0.01, -1.0)};
+    const dmb_segment pulse[2] = {scene_step_segment(0.0, 0.0, 0.005, 1.0), scene_step_segment(0.005, 0.0, 0.01, -1.0)};
     load.place = dmb_station(id, 9, 1.0);
     load.force[0] = 1e5;
     load.moment[0] = 1e3;
-    load.programme = add_programme(&scene, pulse, 2);
+    load.time_function = add_time_function(&scene, pulse, 2);
     add_load(&scene, &load);
     rig_start_with(&scene, NULL, &options);
     while (dmb_sim_time(scene.sim) < 0.0101) scene_step(&scene, 1e-4);
@@ -247,7 +247,7 @@ static void drive_work(void **state)
     dmb_body_def body = dmb_body_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_drive_state told = dmb_drive_state_default();
-    const dmb_term up = scene_step_term(0.0, 0.0, 0.5, 2.0);
+    const dmb_segment up = scene_step_segment(0.0, 0.0, 0.5, 2.0);
     rig scene;
     (void)state;
     body.mass = 3.0;
@@ -255,7 +255,7 @@ static void drive_work(void **state)
     scene_open(&scene, 9.81);
     drive.part = add_body(&scene, &body);
     drive.component = DMB_Z;
-    drive.programme = add_programme(&scene, &up, 1);
+    drive.time_function = add_time_function(&scene, &up, 1);
     const dmb_id id = add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);
@@ -288,7 +288,7 @@ static void control_work(void **state)
     drive.component = DMB_RX;
     drive.gain = 1.0;
     drive.integral_gain = 0.5;
-    drive.programme = add_constant(&scene, 30.0);
+    drive.time_function = add_constant(&scene, 30.0);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 2000; i++) scene_step(&scene, 1e-3);

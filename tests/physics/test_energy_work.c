@@ -42,12 +42,12 @@ static dmb_energy run_bars(double h, double radius, int32_t friction, int32_t ro
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 2e5;
     drive.integral_gain = 1e6;
-    drive.programme = add_constant(&scene, 0.02);
+    drive.time_function = add_constant(&scene, 0.02);
     add_drive(&scene, &drive);
     drive.component = DMB_RX;
     drive.gain = 500.0;
     drive.integral_gain = 5000.0;
-    drive.programme = add_constant(&scene, 8.0);
+    drive.time_function = add_constant(&scene, 8.0);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, &options);
     while (dmb_sim_time(scene.sim) < 0.2) scene_step(&scene, h);
@@ -118,7 +118,7 @@ static double run_whirl(double h, double mu, int32_t law, int32_t friction, dmb_
     drive.kind = DMB_DRIVE_CONTROL;
     drive.component = DMB_RX;
     drive.gain = 200.0;
-    drive.programme = add_constant(&scene, 15.0);
+    drive.time_function = add_constant(&scene, 15.0);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, NULL);
     for (int i = 0; dmb_sim_time(scene.sim) < 1.0; i++) {

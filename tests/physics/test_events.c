@@ -24,8 +24,8 @@ typedef struct scene {
     dmb_id body;
 } scene;
 
-/* A body of 2 kg and 0.5 kg m2 that moves in one component, with the programme as a drive on it. */
-static dmb_id body_with(scene *s, int32_t component, const dmb_drive_def *drive, const dmb_term *term)
+/* A body of 2 kg and 0.5 kg m2 that moves in one component, with the time function as a drive on it. */
+static dmb_id body_with(scene *s, int32_t component, const dmb_drive_def *drive, const dmb_segment *term)
 {
     dmb_body_def body = dmb_body_def_default();
     dmb_id id = {0, 0};
@@ -38,7 +38,7 @@ static dmb_id body_with(scene *s, int32_t component, const dmb_drive_def *drive,
     dmb_drive_def def = *drive;
     def.part = s->body;
     def.component = component;
-    must(dmb_model_add_programme(s->model, term, 1, &def.programme));
+    must(dmb_model_add_time_function(s->model, term, 1, &def.time_function));
     must(dmb_model_add_drive(s->model, &def, &id));
     return id;
 }
@@ -108,9 +108,9 @@ static void falls_onto_wall(void **state)
     body.position[0] = 1.0;
     body.free_mask = DMB_FREE_ALL;
     must(dmb_model_add_body(model, &body, &s.body));
-    event(&s, "touches", DMB_CHANNEL_SITE_GAP, (dmb_id){0, 0}, DMB_EVENT_FALLING, 0.0, 0.0);
-    event(&s, "is pressed", DMB_CHANNEL_NORMAL_FORCE, s.body, DMB_EVENT_RISING, 0.0, 0.0);
-    event(&s, "leaves", DMB_CHANNEL_SITE_GAP, (dmb_id){0, 0}, DMB_EVENT_RISING, 0.0, 0.0);
+    event(&s, "touches", DMB_OUTPUT_CONTACT_GAP, (dmb_id){0, 0}, DMB_EVENT_FALLING, 0.0, 0.0);
+    event(&s, "is pressed", DMB_OUTPUT_NORMAL_FORCE, s.body, DMB_EVENT_RISING, 0.0, 0.0);
+    event(&s, "leaves", DMB_OUTPUT_CONTACT_GAP, (dmb_id){0, 0}, DMB_EVENT_RISING, 0.0, 0.0);
     start(&s, 1e-8);
     const double time = sqrt(2.0 * 0.01 / 9.81);
     assert_int_equal(next(&s, 1.0), 3);
@@ -141,8 +141,8 @@ static void oscillator_through_zero(void **state)
     dmb_environment_def still = dmb_environment_def_default();
     still.gravity[2] = 0.0;
     must(dmb_model_set_environment(s.model, &still));
-    event(&s, "zero", DMB_CHANNEL_JOINT_POSITION, joint, DMB_EVENT_EITHER, 0.0, 0.0);
-    event(&s, "turns", DMB_CHANNEL_JOINT_SPEED, joint, DMB_EVENT_RISING, 0.0, 0.0);
+    event(&s, "zero", DMB_OUTPUT_JOINT_POSITION, joint, DMB_EVENT_EITHER, 0.0, 0.0);
+    event(&s, "turns", DMB_OUTPUT_JOINT_SPEED, joint, DMB_EVENT_RISING, 0.0, 0.0);
     start(&s, 1e-9);
     for (int k = 0; k < 6; k++) {
         dmb_joint_state at = dmb_joint_state_default();
@@ -162,16 +162,16 @@ static void torque_of_controller(void **state)
     (void)state;
     scene s = {0};
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term ramp = dmb_term_default();
+    dmb_segment ramp = dmb_segment_default();
     const double time[] = {0.0, 100.0}, value[] = {0.0, 400.0};
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 1.5;
-    ramp.kind = DMB_TERM_TABLE;
+    ramp.kind = DMB_SEGMENT_TABLE;
     ramp.table_time = time;
     ramp.table_value = value;
     ramp.table_count = 2;
     const dmb_id id = body_with(&s, DMB_RX, &drive, &ramp);
-    event(&s, "limit", DMB_CHANNEL_DRIVE_FORCE, id, DMB_EVENT_RISING, 1.2, 0.0);
+    event(&s, "limit", DMB_OUTPUT_DRIVE_FORCE, id, DMB_EVENT_RISING, 1.2, 0.0);
     start(&s, 1e-9);
     assert_int_equal(next(&s, 10.0), 1);
     close_to(now(&s), -0.5 / 1.5 * log(1.0 - 1.2 / (0.5 * 4.0)), 1e-6);
@@ -186,17 +186,17 @@ static void stands_still(void **state)
     (void)state;
     scene s = {0};
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term torque = dmb_term_default();
+    dmb_segment torque = dmb_segment_default();
     const double time[] = {0.0, 1.3, 1.3 + 1e-9, 1.7, 1.7 + 1e-9, 5.0}, value[] = {-1.0, -1.0, 1.0, 1.0, -1.0, -1.0};
     drive.kind = DMB_DRIVE_LOAD;
-    torque.kind = DMB_TERM_TABLE;
+    torque.kind = DMB_SEGMENT_TABLE;
     torque.table_time = time;
     torque.table_value = value;
     torque.table_count = 6;
     must(dmb_model_create(NULL, &s.model));
     (void)body_with(&s, DMB_RX, &drive, &torque);
-    event(&s, "stuck", DMB_CHANNEL_SPIN, s.body, DMB_EVENT_FALLING, -2.5, 0.6);
-    event(&s, "slow", DMB_CHANNEL_SPIN, s.body, DMB_EVENT_FALLING, -2.5, 0.0);
+    event(&s, "stuck", DMB_OUTPUT_SPIN, s.body, DMB_EVENT_FALLING, -2.5, 0.6);
+    event(&s, "slow", DMB_OUTPUT_SPIN, s.body, DMB_EVENT_FALLING, -2.5, 0.0);
     start(&s, 1e-9);
     /* from rest: v = -2 t; below -2.5 at 1.25; at 1.3 -2.6, up to -2.5 at 1.35 and -1.8 at 1.7; -2.5 again at 2.05 */
     assert_int_equal(next(&s, 5.0), 2);
@@ -228,15 +228,15 @@ static void in_order(void **state)
     (void)state;
     scene s = {0};
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term speed = dmb_term_default();
+    dmb_segment speed = dmb_segment_default();
     speed.h0 = 0.5;
     (void)body_with(&s, DMB_X, &drive, &speed);
-    event(&s, "far", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.02, 0.0);
-    event(&s, "near", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.01, 0.0);
-    event(&s, "also near", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_EITHER, 0.01, 0.0);
-    event(&s, "start", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_EITHER, 0.0, 0.0);
-    event(&s, "behind", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, -1.0, 0.0);
-    event(&s, "end", DMB_CHANNEL_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.25, 0.0);
+    event(&s, "far", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.02, 0.0);
+    event(&s, "near", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.01, 0.0);
+    event(&s, "also near", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_EITHER, 0.01, 0.0);
+    event(&s, "start", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_EITHER, 0.0, 0.0);
+    event(&s, "behind", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, -1.0, 0.0);
+    event(&s, "end", DMB_OUTPUT_DISPLACEMENT_X, s.body, DMB_EVENT_RISING, 0.25, 0.0);
     start(&s, 1e-3);
     assert_int_equal(next(&s, 0.5), 6);
     close_to(now(&s), 0.02, 1e-9);
@@ -256,7 +256,7 @@ static void refused(void **state)
     (void)state;
     scene s = {0}, t = {0};
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term speed = dmb_term_default();
+    dmb_segment speed = dmb_segment_default();
     speed.h0 = 0.5;
     (void)body_with(&s, DMB_X, &drive, &speed);
     dmb_event_def def = dmb_event_def_default();
@@ -310,7 +310,7 @@ static void refused(void **state)
     assert_int_equal(dmb_sim_advance_to_event(t.sim, 1.0, NULL, NULL), DMB_ERR_VALUE);
     end(&t);
     (void)body_with(&t, DMB_X, &drive, &speed);
-    event(&t, "none", DMB_CHANNEL_BIT_WEIGHT, t.body, DMB_EVENT_RISING, 0.0, 0.0);
+    event(&t, "none", DMB_OUTPUT_BIT_WEIGHT, t.body, DMB_EVENT_RISING, 0.0, 0.0);
     must(dmb_model_compile(t.model, NULL));
     assert_int_equal(dmb_sim_create(t.model, NULL, &t.sim), DMB_ERR_ID);
     assert_non_null(strstr(dmb_model_message(t.model), "none"));
@@ -335,24 +335,24 @@ static int32_t force_of_record(void *context, double time, double out[3])
     return 0;
 }
 
-/* Where the crossing is looked for and the programme fails, the state is that before the step, from which another call
- * finds the event: v = F t/m reaches 1 m/s at m/F. */
+/* Where the crossing is looked for and the time function fails, the state is that before the step, from which another
+ * call finds the event: v = F t/m reaches 1 m/s at m/F. */
 static void a_location_that_fails(void **state)
 {
     (void)state;
     scene s = {0};
     recorded_force record = {0};
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term force = dmb_term_default();
+    dmb_segment force = dmb_segment_default();
     dmb_event_report report = dmb_event_report_default();
     dmb_step_report work = dmb_step_report_default();
     drive.kind = DMB_DRIVE_LOAD;
-    force.kind = DMB_TERM_CALLBACK;
+    force.kind = DMB_SEGMENT_CALLBACK;
     force.callback = force_of_record;
     force.callback_context = &record;
     force.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     (void)body_with(&s, DMB_X, &drive, &force);
-    event(&s, "speed", DMB_CHANNEL_VELOCITY_X, s.body, DMB_EVENT_RISING, 1.0, 0.0);
+    event(&s, "speed", DMB_OUTPUT_VELOCITY_X, s.body, DMB_EVENT_RISING, 1.0, 0.0);
     start(&s, 1e-9);
     record.end = 0.2;
     record.replays = 1;
@@ -387,8 +387,8 @@ static void down_to_the_level(void **state)
     body.position[2] = -0.00999;
     body.velocity[2] = -0.5;
     must(dmb_model_add_body(s.model, &body, &s.body));
-    event(&s, "touches", DMB_CHANNEL_CONTACTS_CLOSED, (dmb_id){0, 0}, DMB_EVENT_EITHER, 0.0, 0.0);
-    event(&s, "gap", DMB_CHANNEL_SITE_GAP, (dmb_id){0, 0}, DMB_EVENT_RISING, 1e-3, 0.0);
+    event(&s, "touches", DMB_OUTPUT_CONTACTS_CLOSED, (dmb_id){0, 0}, DMB_EVENT_EITHER, 0.0, 0.0);
+    event(&s, "gap", DMB_OUTPUT_CONTACT_GAP, (dmb_id){0, 0}, DMB_EVENT_RISING, 1e-3, 0.0);
     start(&s, 1e-8);
     event_report.struct_size = report.struct_size = 3;
     const uint64_t before = hash_of(s.sim);

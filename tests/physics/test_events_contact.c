@@ -13,7 +13,7 @@ static void describe(rig *r, int32_t law, double restitution, double level)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_event_def event = dmb_event_def_default();
-    dmb_term table = dmb_term_default();
+    dmb_segment table = dmb_segment_default();
     rig_open(r, 0.0, 0.0, -9.81);
     wall.survey_count = 3;
     wall.survey = depths;
@@ -25,14 +25,14 @@ static void describe(rig *r, int32_t law, double restitution, double level)
     drive.component = DMB_RX;
     drive.kind = DMB_DRIVE_CONTROL;
     drive.gain = 300.0;
-    table.kind = DMB_TERM_TABLE;
+    table.kind = DMB_SEGMENT_TABLE;
     table.table_count = 3;
     table.table_time = times;
     table.table_value = speeds;
-    drive.programme = add_programme(r, &table, 1);
+    drive.time_function = add_time_function(r, &table, 1);
     add_drive(r, &drive);
     event.name[0] = 'f';
-    event.output.quantity = DMB_CHANNEL_BIT_SPEED;
+    event.output.quantity = DMB_OUTPUT_BIT_SPEED;
     event.level = level;
     must_model(r, dmb_model_add_event(r->model, &event, NULL));
     rig_start(r, NULL);
@@ -41,9 +41,9 @@ static void describe(rig *r, int32_t law, double restitution, double level)
 /* [rad/s] of the bit. */
 static double bit_speed(const rig *r)
 {
-    dmb_channel channel = {.quantity = DMB_CHANNEL_BIT_SPEED};
+    dmb_output output = {.quantity = DMB_OUTPUT_BIT_SPEED};
     double speed = 0.0;
-    must(r, dmb_query_channel(r->sim, &channel, &speed));
+    must(r, dmb_query_output(r->sim, &output, &speed));
     return speed;
 }
 

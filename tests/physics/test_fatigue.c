@@ -25,7 +25,7 @@ static scene turning(double pull)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_term speed = dmb_term_default();
+    dmb_segment speed = dmb_segment_default();
     string.start_free = DMB_FREE_RX;
     pipe.damping_time = 1e-3;
     pipe.elements = 4;
@@ -35,7 +35,7 @@ static scene turning(double pull)
     must(dmb_model_create(NULL, &s.model), "create");
     must(dmb_model_add_string(s.model, &string, &pipe.string), dmb_model_message(s.model));
     must(dmb_model_add_pipes(s.model, &pipe, 2, NULL), dmb_model_message(s.model));
-    must(dmb_model_add_programme(s.model, &speed, 1, &drive.programme), dmb_model_message(s.model));
+    must(dmb_model_add_time_function(s.model, &speed, 1, &drive.time_function), dmb_model_message(s.model));
     must(dmb_model_add_drive(s.model, &drive, NULL), dmb_model_message(s.model));
     load.place = dmb_station(pipe.string, 1, 1.0);
     must(dmb_model_add_load(s.model, &load, NULL), dmb_model_message(s.model));

@@ -42,7 +42,7 @@ static void build(capstan *c, uint32_t n, int32_t friction_law, double speed)
     load.place = dmb_station(c->string, 3 * n, 1.0);
     load.force[0] = far_force;
     add_load(&c->scene, &load);
-    drive.programme = add_constant(&c->scene, speed);
+    drive.time_function = add_constant(&c->scene, speed);
     c->drive = add_drive(&c->scene, &drive);
 }
 

@@ -82,7 +82,7 @@ static void build_block(rotor *r, const dmb_wall_def *wall, const dmb_sim_option
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = id;
     drive.integral_gain = spring;
-    drive.programme = add_constant(&r->scene, speed);
+    drive.time_function = add_constant(&r->scene, speed);
     add_drive(&r->scene, &drive);
     rig_start_with(&r->scene, NULL, options);
 }
@@ -116,7 +116,7 @@ static void build_bar(rotor *r, const dmb_wall_def *wall, const dmb_sim_options 
     const dmb_id id = add_pipes(&r->scene, &pipe, 1);
     add_body(&r->scene, &disc);
     drive.component = DMB_RX;
-    drive.programme = add_constant(&r->scene, speed);
+    drive.time_function = add_constant(&r->scene, speed);
     add_drive(&r->scene, &drive);
     rig_start_with(&r->scene, NULL, options);
     r->place = dmb_station(id, 0, 1.0);
@@ -283,7 +283,7 @@ static void falling_branch(void **state)
     add_load(&scene, &load);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.integral_gain = spring;
-    drive.programme = add_constant(&scene, V);
+    drive.time_function = add_constant(&scene, V);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, &options);
     scene_advance(&scene, t);

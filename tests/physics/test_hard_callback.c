@@ -1,4 +1,4 @@
-/* Hard case 9, in mid-run: a programme's callback that fails, or gives NaN or infinity, has its step refused with
+/* Hard case 9, in mid-run: a time function's callback that fails, or gives NaN or infinity, has its step refused with
  * DMB_ERR_CALLBACK; the last accepted state is kept to the bit, and the run goes on when the callback recovers. */
 #include "contact_scene.h"
 
@@ -10,7 +10,7 @@ typedef struct moody {
     uint32_t calls;
 } moody;
 
-static int32_t programme(void *context, double time, double out[3])
+static int32_t time_function(void *context, double time, double out[3])
 {
     moody *m = context;
     m->calls++;
@@ -35,11 +35,11 @@ enum {
     ROLES = 6
 };
 
-static void add_drive_of(rig *scene, int32_t kind, dmb_id programme_id, dmb_id excitation)
+static void add_drive_of(rig *scene, int32_t kind, dmb_id time_function_id, dmb_id excitation)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = kind;
-    drive.programme = programme_id;
+    drive.time_function = time_function_id;
     drive.excitation = excitation;
     drive.gain = 100.0;
     add_drive(scene, &drive);
@@ -51,15 +51,15 @@ static void build(rig *scene, moody *m, int32_t role)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     const dmb_wall_def wall = dmb_wall_def_default();
-    term.kind = DMB_TERM_CALLBACK;
-    term.callback = programme;
+    term.kind = DMB_SEGMENT_CALLBACK;
+    term.callback = time_function;
     term.callback_context = m;
     term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     scene_open(scene, 9.81);
     add_wall(scene, &wall);
-    const dmb_id id = add_programme(scene, &term, 1);
+    const dmb_id id = add_time_function(scene, &term, 1);
     const dmb_id zero = add_constant(scene, 0.0);
     const dmb_id string = add_pipes(scene, &pipe, 3);
     if (role == ROLE_BIT) bit.load = id;
@@ -67,7 +67,7 @@ static void build(rig *scene, moody *m, int32_t role)
     if (role == ROLE_LOAD) {
         load.place = dmb_station(string, 2, 1.0);
         load.force[0] = 100.0;
-        load.programme = id;
+        load.time_function = id;
         add_load(scene, &load);
     }
     add_drive_of(scene,
@@ -152,16 +152,16 @@ static void failure_after_partial_steps(void **state)
     rig scene;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term terms[3] = {dmb_term_default(), scene_step_term(0.01, 0.0, 0.02, 1e-3),
-                         scene_step_term(0.03, 0.0, 0.04, 1e-3)};
+    dmb_segment terms[3] = {dmb_segment_default(), scene_step_segment(0.01, 0.0, 0.02, 1e-3),
+                            scene_step_segment(0.03, 0.0, 0.04, 1e-3)};
     (void)state;
-    terms[0].kind = DMB_TERM_CALLBACK;
-    terms[0].callback = programme;
+    terms[0].kind = DMB_SEGMENT_CALLBACK;
+    terms[0].callback = time_function;
     terms[0].callback_context = &m;
     terms[0].provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     scene_open(&scene, 0.0);
     add_pipes(&scene, &pipe, 1);
-    drive.programme = add_programme(&scene, terms, 3);
+    drive.time_function = add_time_function(&scene, terms, 3);
     add_drive(&scene, &drive);
     rig_start_with(&scene, NULL, NULL);
     scene_step(&scene, 5e-3);
@@ -179,14 +179,14 @@ static void failure_at_the_start(void **state)
     rig scene;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     (void)state;
-    term.kind = DMB_TERM_CALLBACK;
-    term.callback = programme;
+    term.kind = DMB_SEGMENT_CALLBACK;
+    term.callback = time_function;
     term.callback_context = &m;
     scene_open(&scene, 0.0);
     add_pipes(&scene, &pipe, 1);
-    drive.programme = add_programme(&scene, &term, 1);
+    drive.time_function = add_time_function(&scene, &term, 1);
     add_drive(&scene, &drive);
     scene_must(&scene, dmb_model_compile(scene.model, NULL));
     assert_int_equal(dmb_sim_create(scene.model, NULL, &scene.sim), DMB_ERR_CALLBACK);

@@ -35,7 +35,7 @@ static void build(chatter *c, int32_t law, const dmb_sim_options *options)
     c->string = add_string(&c->scene, &string);
     add_pipes(&c->scene, &pipe, 99);
     rig_start_with(&c->scene, NULL, options);
-    assert_int_equal(scene_info(&c->scene).contact_sites, 100);
+    assert_int_equal(scene_info(&c->scene).contact_points, 100);
 }
 
 static void check_settled(const chatter *c, double tolerance)

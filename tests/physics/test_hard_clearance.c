@@ -155,7 +155,7 @@ static void pinned_string(void **state)
     const double weight = scene_info(&scene).mass * 9.81;
     print_message("pinned string: %u iterations, %.6f of the weight on the wall\n", report.iterations,
                   sum.normal_force / weight);
-    CHECK_CLOSE(sum.normal_force / weight, 1.0, 0.05); /* the guide of the rig end takes the rest, half a pipe */
+    CHECK_CLOSE(sum.normal_force / weight, 1.0, 0.05); /* the support of the rig end takes the rest, half a pipe */
     CHECK_BELOW(report.iterations, 20);
     for (int i = 0; i < 100; i++) scene_step(&scene, 1e-3);
     CHECK_BELOW(energy_of(&scene).kinetic, 1e-12);

@@ -23,8 +23,8 @@ static dmb_id describe(rig *scene, int parts, int32_t pipe_kind)
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_environment_def environment = dmb_environment_def_default();
-    dmb_term shake = dmb_term_default();
-    const dmb_term feed = scene_step_term(0.0, 0.0, 0.05, 0.01), turn = scene_step_term(0.0, 0.0, 0.05, 20.0);
+    dmb_segment shake = dmb_segment_default();
+    const dmb_segment feed = scene_step_segment(0.0, 0.0, 0.05, 0.01), turn = scene_step_segment(0.0, 0.0, 0.05, 20.0);
     scene_open(scene, parts & WITH_GRAVITY ? 9.81 : 0.0);
     environment.gravity[2] = parts & WITH_GRAVITY ? -9.81 : 0.0;
     environment.lateral_damping = parts & WITH_DAMPING ? 20.0 : 0.0;
@@ -37,15 +37,15 @@ static dmb_id describe(rig *scene, int parts, int32_t pipe_kind)
     const dmb_id string = add_pipes(scene, &pipe, PIPES);
     bit.rock_law = parts & WITH_ROCK ? DMB_ROCK_REGENERATIVE : DMB_ROCK_NONE;
     scene_add_bit(scene, &bit);
-    shake.kind = DMB_TERM_HARMONIC;
+    shake.kind = DMB_SEGMENT_HARMONIC;
     shake.h1 = 1e-3;
     shake.omega = 50.0;
-    drive.programme = add_programme(scene, &feed, 1);
-    const dmb_id excitation = add_programme(scene, &shake, 1);
+    drive.time_function = add_time_function(scene, &feed, 1);
+    const dmb_id excitation = add_time_function(scene, &shake, 1);
     if (parts & WITH_EXCITATION) drive.excitation = excitation;
     add_drive(scene, &drive);
     drive.component = DMB_RX;
-    drive.programme = add_programme(scene, &turn, 1);
+    drive.time_function = add_time_function(scene, &turn, 1);
     drive.excitation.index = drive.excitation.generation = 0;
     add_drive(scene, &drive);
     return string;
@@ -110,7 +110,7 @@ static void same_as_never_described(void **state)
             CHECK_CLOSE(left_out.work, never.work, 0.0);
             CHECK_CLOSE(left_out.energy, never.energy, 0.0);
             for (int j = 0; j < 3; j++) CHECK_CLOSE(left_out.tip.position[j], never.tip.position[j], 0.0);
-            assert_int_equal(left_out.info.contact_sites, never.info.contact_sites);
+            assert_int_equal(left_out.info.contact_points, never.info.contact_points);
             assert_int_equal(left_out.info.degrees_of_freedom, never.info.degrees_of_freedom);
             assert_int_equal(left_out.info.sim_bytes, never.info.sim_bytes);
         }
@@ -133,17 +133,17 @@ static void counts(void **state)
         (unsigned long long)no_friction.sim_bytes, (unsigned long long)no_vibration.sim_bytes,
         (unsigned long long)no_rock.sim_bytes, (unsigned long long)all.model_bytes,
         (unsigned long long)no_contact.model_bytes);
-    assert_int_equal(all.contact_sites, PIPES + 1); /* every node but the guided one, and the bit */
-    assert_int_equal(no_contact.contact_sites, 0);
-    assert_int_equal(no_friction.contact_sites, all.contact_sites);
+    assert_int_equal(all.contact_points, PIPES + 1); /* every node but the guided one, and the bit */
+    assert_int_equal(no_contact.contact_points, 0);
+    assert_int_equal(no_friction.contact_points, all.contact_points);
     assert_true(no_contact.sim_bytes < all.sim_bytes);
     assert_true(no_contact.model_bytes < all.model_bytes);
     assert_true(no_friction.sim_bytes <= all.sim_bytes);
     assert_true(no_rock.sim_bytes < all.sim_bytes);
     assert_int_equal(no_vibration.degrees_of_freedom, all.degrees_of_freedom);
     /* axial-torsional pipes have sites for friction's sake alone */
-    assert_true(run(WITH_ALL, WITH_ALL, DMB_PIPE_AXIAL_TORSIONAL).info.contact_sites > 0);
-    assert_int_equal(run(WITH_ALL, WITH_ALL & ~WITH_FRICTION, DMB_PIPE_AXIAL_TORSIONAL).info.contact_sites, 0);
+    assert_true(run(WITH_ALL, WITH_ALL, DMB_PIPE_AXIAL_TORSIONAL).info.contact_points > 0);
+    assert_int_equal(run(WITH_ALL, WITH_ALL & ~WITH_FRICTION, DMB_PIPE_AXIAL_TORSIONAL).info.contact_points, 0);
 }
 
 /* pipe_kind of the compile options turns all pipes into one kind: fewer degrees_of_freedom, no description changed. */

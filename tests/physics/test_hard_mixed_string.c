@@ -267,13 +267,13 @@ static void driven_alike(void **state)
         dmb_pipe_def pipe = dmb_pipe_def_default();
         dmb_drive_def drive = dmb_drive_def_default();
         dmb_drive_state told = dmb_drive_state_default();
-        const dmb_term ramp = scene_step_term(0.0, 0.0, 2.0, 1.0);
+        const dmb_segment ramp = scene_step_segment(0.0, 0.0, 2.0, 1.0);
         rig scene;
         pipe.kind = kinds[k];
         pipe.damping_time = 1e-4;
         scene_open(&scene, 0.0);
         add_pipes(&scene, &pipe, 4);
-        drive.programme = add_programme(&scene, &ramp, 1);
+        drive.time_function = add_time_function(&scene, &ramp, 1);
         const dmb_id id = add_drive(&scene, &drive);
         rig_start_with(&scene, NULL, NULL);
         for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);

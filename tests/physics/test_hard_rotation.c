@@ -8,7 +8,7 @@ static dmb_id build(rig *scene, uint32_t elements, int axis, double moment)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_term ramp = scene_step_term(0.0, 0.0, 1.0, 1.0);
+    dmb_segment ramp = scene_step_segment(0.0, 0.0, 1.0, 1.0);
     pipe.elements = elements;
     pipe.damping_time = 1e-2;
     for (int i = 0; i < 3; i++) {
@@ -24,7 +24,7 @@ static dmb_id build(rig *scene, uint32_t elements, int axis, double moment)
     load.frame = DMB_FRAME_BODY;
     load.place = dmb_station(id, 0, 1.0);
     load.moment[axis] = moment;
-    load.programme = add_programme(scene, &ramp, 1);
+    load.time_function = add_time_function(scene, &ramp, 1);
     add_load(scene, &load);
     rig_start_with(scene, NULL, NULL);
     return id;

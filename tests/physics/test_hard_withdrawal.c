@@ -16,9 +16,9 @@ typedef struct withdrawal {
 static dmb_id add_motion(withdrawal *r, int32_t component, double speed)
 {
     dmb_drive_def drive = dmb_drive_def_default();
-    const dmb_term terms[2] = {scene_step_term(0.5, speed, 1.5, 0.0), scene_step_term(2.5, 0.0, 3.5, -speed)};
+    const dmb_segment terms[2] = {scene_step_segment(0.5, speed, 1.5, 0.0), scene_step_segment(2.5, 0.0, 3.5, -speed)};
     drive.component = component;
-    drive.programme = add_programme(&r->scene, terms, 2);
+    drive.time_function = add_time_function(&r->scene, terms, 2);
     return add_drive(&r->scene, &drive);
 }
 
@@ -29,7 +29,7 @@ static void build(withdrawal *r, int32_t pipe_kind, int32_t friction_law, double
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
-    dmb_term terms[1] = {scene_step_term(0.5, load, 1.5, 0.0)};
+    dmb_segment terms[1] = {scene_step_segment(0.5, load, 1.5, 0.0)};
     wall.friction_law = friction_law;
     wall.stribeck_speed = 1e-2;
     wall.smoothing_speed = 1e-3;
@@ -41,7 +41,7 @@ static void build(withdrawal *r, int32_t pipe_kind, int32_t friction_law, double
     add_wall(&r->scene, &wall);
     r->string = add_string(&r->scene, &string);
     add_pipes(&r->scene, &pipe, 40);
-    bit.load = add_programme(&r->scene, terms, 1);
+    bit.load = add_time_function(&r->scene, terms, 1);
     scene_add_bit(&r->scene, &bit);
     r->feed = add_motion(r, DMB_X, speed);
     r->turn = add_motion(r, DMB_RX, spin);
@@ -65,7 +65,7 @@ static void cycle(int32_t pipe_kind, int32_t law, double speed, double spin, dou
     options.slip_axial = speed;
     options.slip_rotation = spin;
     scene_must(&r.scene, dmb_analysis_static(r.scene.sim, &options, NULL));
-    sites = scene_info(&r.scene).contact_sites;
+    sites = scene_info(&r.scene).contact_points;
     for (int i = 0; i < (int)(4.5 / h); i++) {
         const dmb_step_report report = scene_step(&r.scene, h);
         const int k = report.time > 1.5 + 0.5 * h;
@@ -121,7 +121,7 @@ static void whole_rig(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term shake = dmb_term_default(), terms[1] = {scene_step_term(0.5, load, 1.5, 0.0)};
+    dmb_segment shake = dmb_segment_default(), terms[1] = {scene_step_segment(0.5, load, 1.5, 0.0)};
     dmb_static_options options = dmb_static_options_default();
     uint32_t worst[2] = {0, 0}, rejected[2] = {0, 0};
     withdrawal r;
@@ -136,14 +136,14 @@ static void whole_rig(void **state)
     pipe.angle_spread = PI;
     add_pipes(&r.scene, &pipe, 100);
     bit.rock_law = DMB_ROCK_REGENERATIVE;
-    bit.load = add_programme(&r.scene, terms, 1);
+    bit.load = add_time_function(&r.scene, terms, 1);
     scene_add_bit(&r.scene, &bit);
-    shake.kind = DMB_TERM_HARMONIC;
+    shake.kind = DMB_SEGMENT_HARMONIC;
     shake.h1 = 5e-4;
     shake.omega = 10.0 * PI;
-    const dmb_term feeds[2] = {scene_step_term(0.5, feed, 1.5, 0.0), scene_step_term(2.5, 0.0, 3.5, -feed)};
-    drive.programme = add_programme(&r.scene, feeds, 2);
-    drive.excitation = add_programme(&r.scene, &shake, 1);
+    const dmb_segment feeds[2] = {scene_step_segment(0.5, feed, 1.5, 0.0), scene_step_segment(2.5, 0.0, 3.5, -feed)};
+    drive.time_function = add_time_function(&r.scene, feeds, 2);
+    drive.excitation = add_time_function(&r.scene, &shake, 1);
     r.feed = add_drive(&r.scene, &drive);
     r.turn = add_motion(&r, DMB_RX, turning);
     rig_start_with(&r.scene, NULL, NULL);

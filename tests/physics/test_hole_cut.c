@@ -29,13 +29,13 @@ static reaming usual(void)
     return (reaming){.narrow = 4.875, .spacing = spacing, .wings = wide};
 }
 
-static void add_ring(reaming *d, uint32_t pipe, double fraction, double diameter, dmb_id *id)
+static void add_stabiliser(reaming *d, uint32_t pipe, double fraction, double diameter, dmb_id *id)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.pipe = pipe;
     ring.fraction = fraction;
     ring.outer_diameter = diameter;
-    must_model(&d->s, dmb_model_add_ring(d->s.model, &ring, id));
+    must_model(&d->s, dmb_model_add_stabiliser(d->s.model, &ring, id));
 }
 
 /* Soft rock: the forces of the bits are small beside the weights. */
@@ -54,8 +54,9 @@ static dmb_bit_def cutter(double diameter)
 static dmb_id add_feed(rig *s, double speed)
 {
     const double stop = way / fmax(speed, 1e-9);
-    dmb_term terms[2] = {scene_step_term(0.0, 0.0, ramp, speed), scene_step_term(stop, 0.0, stop + ramp, -speed)};
-    return add_programme(s, terms, 2);
+    dmb_segment terms[2] = {scene_step_segment(0.0, 0.0, ramp, speed),
+                            scene_step_segment(stop, 0.0, stop + ramp, -speed)};
+    return add_time_function(s, terms, 2);
 }
 
 static void add_hole(const reaming *d)
@@ -81,7 +82,7 @@ static void add_hole(const reaming *d)
 static void add_event(const reaming *d)
 {
     dmb_event_def event = dmb_event_def_default();
-    event.output = (dmb_channel){dmb_station(d->string, 1, 0.5), DMB_CHANNEL_DISPLACEMENT_X, 0};
+    event.output = (dmb_output){dmb_station(d->string, 1, 0.5), DMB_OUTPUT_DISPLACEMENT_X, 0};
     event.level = d->event;
     (void)strcpy(event.name, "there");
     must_model(&d->s, dmb_model_add_event(d->s.model, &event, NULL));
@@ -92,7 +93,7 @@ static void begin_with(reaming *d, const dmb_sim_options *options)
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def string = dmb_string_def_default();
     dmb_bit_def wings = cutter(d->wings), bit = cutter(narrow);
-    dmb_term turn = dmb_term_default();
+    dmb_segment turn = dmb_segment_default();
     rig_open(&d->s, 0.0, 0.0, -g);
     add_hole(d);
     string.start_depth = d->start;
@@ -103,14 +104,14 @@ static void begin_with(reaming *d, const dmb_sim_options *options)
     pipe.elements = 3;
     pipe.damping_time = 1e-3;
     (void)add_pipes(&d->s, &pipe, 3);
-    add_ring(d, 1, 1.0 / 3.0, 0.11, NULL);
-    add_ring(d, 1, 0.5, d->wings, &wings.ring);
-    if (d->ahead) add_ring(d, 1, 0.5 + 0.4 / 3.0, 0.099, NULL);
+    add_stabiliser(d, 1, 1.0 / 3.0, 0.11, NULL);
+    add_stabiliser(d, 1, 0.5, d->wings, &wings.stabiliser);
+    if (d->ahead) add_stabiliser(d, 1, 0.5 + 0.4 / 3.0, 0.099, NULL);
     wings.inner_radius = 0.02;
     must_model(&d->s, dmb_model_add_bit(d->s.model, &bit, NULL));
     must_model(&d->s, dmb_model_add_bit(d->s.model, &wings, NULL));
     (void)add_simple_drive(&d->s, DMB_DRIVE_MOTION, d->string, DMB_X, add_feed(&d->s, d->speed));
-    (void)add_simple_drive(&d->s, DMB_DRIVE_MOTION, d->string, DMB_RX, add_programme(&d->s, &turn, 1));
+    (void)add_simple_drive(&d->s, DMB_DRIVE_MOTION, d->string, DMB_RX, add_time_function(&d->s, &turn, 1));
     if (d->event > 0.0) add_event(d);
     (void)rig_start(&d->s, options);
 }
@@ -130,7 +131,7 @@ static double diameter_at(const rig *s, double depth)
 /* [N] of every site, by sites of the scene. */
 static uint32_t forces_of(const rig *s, double forces[64])
 {
-    const uint32_t count = scene_info(s).contact_sites;
+    const uint32_t count = scene_info(s).contact_points;
     assert_true(count <= 64);
     for (uint32_t i = 0; i < count; i++) forces[i] = scene_contact(s, i).normal_force;
     return count;
@@ -261,7 +262,7 @@ static dmb_id drill_under_a_ball(rig *s, int32_t with_ball)
     dmb_pipe_def pipe = s1_pipe();
     dmb_bit_def bit = cutter(0.22);
     dmb_body_def ball = scene_ball(ball_mass, 0.0, 1 << DMB_Y | 1 << DMB_Z);
-    dmb_term turn = dmb_term_default();
+    dmb_segment turn = dmb_segment_default();
     dmb_id id = {0, 0};
     rig_open(s, 0.0, 0.0, -g);
     wall.diameter = 0.2;
@@ -273,7 +274,7 @@ static dmb_id drill_under_a_ball(rig *s, int32_t with_ball)
     must_model(s, dmb_model_add_bit(s->model, &bit, NULL));
     turn.h0 = 10.0;
     (void)add_simple_drive(s, DMB_DRIVE_MOTION, string, DMB_X, add_feed(s, 0.5));
-    (void)add_simple_drive(s, DMB_DRIVE_MOTION, string, DMB_RX, add_programme(s, &turn, 1));
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, string, DMB_RX, add_time_function(s, &turn, 1));
     ball.position[0] = 4.0;
     ball.position[2] = -0.05 - ball_mass * g / floor_stiffness;
     if (with_ball) id = add_body(s, &ball);
@@ -385,7 +386,7 @@ static void narrow_cutters_change_nothing(void **state)
     take_divided_steps(&b.s, 1e-3, 1500);
     const dmb_energy with = energy_of(&a.s), without = energy_of(&b.s);
     assert_memory_equal(&with, &without, sizeof with);
-    for (uint32_t i = 0; i < scene_info(&a.s).contact_sites; i++) {
+    for (uint32_t i = 0; i < scene_info(&a.s).contact_points; i++) {
         const dmb_contact x = scene_contact(&a.s, i), y = scene_contact(&b.s, i);
         assert_true(x.gap == y.gap && x.normal_force == y.normal_force && x.approach == y.approach);
     }

@@ -73,7 +73,7 @@ static uint32_t sites_of(const rig *s)
 {
     dmb_model_info info = dmb_model_info_default();
     must_model(s, dmb_model_get_info(s->model, &info));
-    return info.contact_sites;
+    return info.contact_points;
 }
 
 /* Largest deviation of any gap from what is described. */

@@ -192,7 +192,7 @@ static void pipe_on_two_diameters(void **state)
     CHECK_RELATIVE(near.gap, -weight / 1e6, 1e-5);
     CHECK_RELATIVE(far.gap, -weight / 2e6, 1e-5);
     CHECK_RELATIVE(far.normal_force, weight * far.length, 1e-5);
-    for (uint32_t s = 0; s < scene_info(&scene).contact_sites; s++) along += scene_contact(&scene, s).along;
+    for (uint32_t s = 0; s < scene_info(&scene).contact_points; s++) along += scene_contact(&scene, s).along;
     assert_true(along > 0.1);
     scene_must(&scene, dmb_query_section(scene.sim, dmb_station(string, 0, 0.0), &held));
     CHECK_RELATIVE(held.force[0], along, 1e-6);
@@ -217,7 +217,7 @@ static void run_with(rig *scene, const dmb_hole_section *sections, uint32_t coun
     drive.part = string;
     drive.kind = DMB_DRIVE_MOTION;
     drive.component = DMB_RX;
-    drive.programme = add_constant(scene, 6.0);
+    drive.time_function = add_constant(scene, 6.0);
     add_drive(scene, &drive);
     rig_start_with(scene, NULL, NULL);
     take_steps(scene, 1e-3, 200);
@@ -426,7 +426,7 @@ static int32_t compile_wide(int part, int32_t normal_law, char message[256])
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_hole_section narrow = section(3.0);
     dmb_body_def body = dmb_body_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     rig scene;
     scene_open(&scene, g);
     wall.diameter = 0.1;
@@ -443,7 +443,7 @@ static int32_t compile_wide(int part, int32_t normal_law, char message[256])
     if (part == BODY) (void)add_body(&scene, &body);
     ring.pipe = 5;
     ring.outer_diameter = 0.09;
-    if (part == RING) scene_must(&scene, dmb_model_add_ring(scene.model, &ring, NULL));
+    if (part == RING) scene_must(&scene, dmb_model_add_stabiliser(scene.model, &ring, NULL));
     const int32_t status = dmb_model_compile(scene.model, NULL);
     strncpy(message, dmb_model_message(scene.model), 255)[255] = '\0';
     dmb_model_destroy(&scene.model);
@@ -453,7 +453,7 @@ static int32_t compile_wide(int part, int32_t normal_law, char message[256])
 /* Without a wall that presses anything fits. */
 static void what_is_too_wide_is_refused(void **state)
 {
-    static const char *const told[3] = {"ring 0: outer_diameter = 0.09 m, must be <= 0.08 m",
+    static const char *const told[3] = {"stabiliser 0: outer_diameter = 0.09 m, must be <= 0.08 m",
                                         "body 0: contact_diameter = 0.09 m, must be <= 0.08 m",
                                         "outer_diameter = 0.073 m, must be <= 0.07 m"};
     char message[256];

@@ -79,8 +79,8 @@ static void spatial_slider_crank(system_under_test *m)
     (void)note_joint(m, &ball);
     const dmb_joint_def cross = joint_in_world(DMB_JOINT_UNIVERSAL, rod, middle[1], slider, slide, x);
     (void)note_joint(m, &cross);
-    const dmb_joint_def guide = joint_in_world(DMB_JOINT_PRISMATIC, ground_id, zero, slider, slide, x);
-    (void)note_joint(m, &guide);
+    const dmb_joint_def support = joint_in_world(DMB_JOINT_PRISMATIC, ground_id, zero, slider, slide, x);
+    (void)note_joint(m, &support);
 }
 
 static dmb_id add_soft_pipe(system_under_test *m, const double position[3], double length)

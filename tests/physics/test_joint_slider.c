@@ -5,8 +5,8 @@
 
 typedef struct slider_crank {
     rig s;
-    dmb_id crank, rod, slider;       /* bodies */
-    dmb_id pivot, pin, wrist, guide; /* joints */
+    dmb_id crank, rod, slider;         /* bodies */
+    dmb_id pivot, pin, wrist, support; /* joints */
     dmb_id drive;
 } slider_crank;
 
@@ -41,7 +41,7 @@ static void add_parts(slider_crank *m, const dimensions *d)
 static void add_joints(slider_crank *m, const dimensions *d)
 {
     dmb_joint_def pivot = hinge_of("pivot", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(m->crank, -0.5 * d->r));
-    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_joint_def support = dmb_joint_def_default();
     pivot.initial_mask = 1 << DMB_RX;
     pivot.initial_position[DMB_RX] = d->angle;
     pivot.initial_speed[DMB_RX] = d->speed;
@@ -49,9 +49,9 @@ static void add_joints(slider_crank *m, const dimensions *d)
     m->pin =
         add_hinge(&m->s, "crank pin", DMB_JOINT_REVOLUTE, pin_on(m->crank, 0.5 * d->r), pin_on(m->rod, -0.5 * d->l));
     m->wrist = add_hinge(&m->s, "wrist", DMB_JOINT_REVOLUTE, pin_on(m->rod, 0.5 * d->l), pin_on(m->slider, 0.0));
-    guide.kind = DMB_JOINT_PRISMATIC;
-    guide.place_b = dmb_station(m->slider, 0, 0.0);
-    m->guide = add_joint(&m->s, &guide);
+    support.kind = DMB_JOINT_PRISMATIC;
+    support.place_b = dmb_station(m->slider, 0, 0.0);
+    m->support = add_joint(&m->s, &support);
     if (d->driven)
         m->drive = add_simple_drive(&m->s, DMB_DRIVE_MOTION, m->pivot, DMB_RX, add_constant(&m->s, d->speed));
 }
@@ -72,10 +72,10 @@ static const dimensions case_of_the_table = {0.1, 0.3, {1.0, 1.0, 1.0}, 0.7, 0.0
 
 static void check_slider(const slider_crank *m, const double want[3], double tolerance)
 {
-    const dmb_joint_state guide = joint_at(&m->s, m->guide);
-    check_relative("    place of the slider", guide.position[DMB_X], want[0], tolerance);
-    check_relative("    its speed", guide.speed[DMB_X], want[1], tolerance);
-    check_relative("    its acceleration", guide.acceleration[DMB_X], want[2], tolerance);
+    const dmb_joint_state support = joint_at(&m->s, m->support);
+    check_relative("    place of the slider", support.position[DMB_X], want[0], tolerance);
+    check_relative("    its speed", support.speed[DMB_X], want[1], tolerance);
+    check_relative("    its acceleration", support.acceleration[DMB_X], want[2], tolerance);
 }
 
 /* x = r cos a + s, s^2 = l^2 - r^2 sin^2 a, with a' = w: the table has 12 digits. */
@@ -141,8 +141,8 @@ static void driven_crank_goes_round(void **state)
         double want[3];
         take_steps(&m.s, 1e-3, 1);
         slider_exact(d.r, d.l, 1e-3 * k * d.speed, d.speed, want);
-        const dmb_joint_state guide = joint_at(&m.s, m.guide);
-        most = fmax(most, fabs(guide.position[DMB_X] - want[0]));
+        const dmb_joint_state support = joint_at(&m.s, m.support);
+        most = fmax(most, fabs(support.position[DMB_X] - want[0]));
         dmb_drive_state drive = dmb_drive_state_default();
         must(&m.s, dmb_query_drive(m.s.sim, m.drive, &drive));
         torque = fmax(torque, fabs(drive.force));
@@ -208,7 +208,7 @@ static passage pass_the_pivot(double g, double speed, double h)
         const dmb_energy energy = energy_of(&m.s);
         const double total = energy.kinetic + energy.gravity + g * sin(0.5);
         p.energy = fmax(p.energy, fabs(total - start));
-        p.place = fmax(p.place, fabs(joint_at(&m.s, m.guide).position[DMB_X] - 2.0 * cos(y[0])));
+        p.place = fmax(p.place, fabs(joint_at(&m.s, m.support).position[DMB_X] - 2.0 * cos(y[0])));
     }
     if (p.status < 0) print_message("    at %.4f s: %s\n", t, dmb_sim_message(m.s.sim));
     rig_close(&m.s);

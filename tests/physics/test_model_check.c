@@ -246,7 +246,7 @@ static void open_explicit(rig *s)
     rig_open(s, 0.0, 0.0, -9.81);
     (void)add_wall(s, &wall);
     const dmb_id head = free_body(s, 0.0), bit = free_body(s, 1.5 * PIPES);
-    const dmb_id guide = connect(s, DMB_JOINT_CYLINDRICAL, ground, at(head), "guide");
+    const dmb_id support = connect(s, DMB_JOINT_CYLINDRICAL, ground, at(head), "support");
     end = at(head);
     for (uint32_t i = 0; i < PIPES; i++) {
         last = free_pipe(s, 1.5 * i);
@@ -254,8 +254,8 @@ static void open_explicit(rig *s)
         end = dmb_station(last, 0, 1.0);
     }
     (void)connect(s, DMB_JOINT_FIXED, end, at(bit), "bit");
-    (void)add_simple_drive(s, DMB_DRIVE_MOTION, guide, DMB_X, add_constant(s, 0.02));
-    (void)add_simple_drive(s, DMB_DRIVE_MOTION, guide, DMB_RX, add_constant(s, 1.0));
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, support, DMB_X, add_constant(s, 0.02));
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, support, DMB_RX, add_constant(s, 1.0));
     (void)rig_start(s, NULL);
 }
 
@@ -411,7 +411,7 @@ static void what_will_fall(void **state)
     (void)free_body(&s, 3.0);
     (void)rig_start(&s, NULL);
     assert_int_equal(check_of(&s).warnings, 1);
-    expect_line(text_of(&s), "body 1 (and 1 more): no guide");
+    expect_line(text_of(&s), "body 1 (and 1 more): no support");
     rig_close(&s);
     rig_open(&s, 0.0, 0.0, 0.0); /* without gravity nothing falls */
     (void)free_body(&s, 1.0);

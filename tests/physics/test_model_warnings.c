@@ -95,7 +95,7 @@ static void drive_of_a_locked_joint(void **state)
     drive.gain = 1.0;
     drive.component = DMB_RX;
     drive.part = add_joint_between(&s, DMB_JOINT_REVOLUTE, at((dmb_id){0, 0}), at(add_ball(&s, 0.0, 0.0)));
-    drive.programme = add_constant(&s, 0.0);
+    drive.time_function = add_constant(&s, 0.0);
     (void)add_drive(&s, &drive);
     (void)rig_start(&s, NULL);
     assert_int_equal(warnings_of(&s), 0);
@@ -115,7 +115,7 @@ static void locked_free_joint_holds(void **state)
     joint = joint_between(DMB_JOINT_FREE, at((dmb_id){0, 0}), at(add_ball(&s, 0.0, 0.0)));
     const dmb_id lock = add_joint(&s, &joint);
     (void)rig_start(&s, NULL);
-    expect_line(&s, "body 0: no guide, drive, joint");
+    expect_line(&s, "body 0: no support, drive, joint");
     must(&s, dmb_sim_set_joint(s.sim, lock, DMB_JOINT_LOCKED));
     assert_int_equal(warnings_of(&s), 0);
     rig_close(&s);

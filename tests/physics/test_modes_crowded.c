@@ -15,7 +15,7 @@ static void open_collars(rig *s, uint32_t pipes)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     rig_open(s, 0.0, 0.0, -9.81);
     wall.diameter = 0.2;
     wall.friction_law = DMB_FRICTION_NONE;
@@ -31,7 +31,7 @@ static void open_collars(rig *s, uint32_t pipes)
     ring.outer_diameter = 0.199;
     for (uint32_t k = 1; k <= 2; k++) {
         ring.pipe = k * pipes / 3;
-        must_model(s, dmb_model_add_ring(s->model, &ring, NULL));
+        must_model(s, dmb_model_add_stabiliser(s->model, &ring, NULL));
     }
     (void)rig_start(s, NULL);
     (void)find_equilibrium(s, NULL);

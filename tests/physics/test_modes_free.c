@@ -107,7 +107,7 @@ static void a_hundred_pipes_hardly_bent(void **state)
 }
 
 /* Motions that the ends leave free count: a shaft that spins, one that slides too, a ball joint, a straight hole's
- * worth of guides.
+ * worth of supports.
  */
 static void partly_held_strings(void **state)
 {
@@ -121,7 +121,7 @@ static void partly_held_strings(void **state)
                   {"free to slide", DMB_FREE_X, DMB_FREE_ALL, 1},
                   {"free to spin and slide", DMB_FREE_CYLINDRICAL, DMB_FREE_ALL, 2},
                   {"in a ball joint", DMB_FREE_SPHERICAL, DMB_FREE_ALL, 3},
-                  {"in guides at both ends", DMB_FREE_CYLINDRICAL, DMB_FREE_CYLINDRICAL, 2}};
+                  {"in supports at both ends", DMB_FREE_CYLINDRICAL, DMB_FREE_CYLINDRICAL, 2}};
     for (int i = 0; i < 6; i++)
         for (int moved = 0; moved < 2; moved++) {
             rig s;
@@ -165,7 +165,7 @@ static void rings_have_six(void **state)
         const dmb_id string = add_bent(&s, &away, pipes, 2.0 * PI, DMB_FREE_ALL, DMB_FREE_ALL);
         (void)fix(&s, dmb_station(string, pipes - 1, 1.0), dmb_station(string, 0, 0.0));
         rig_start(&s, NULL);
-        check_ways("ring", &s, 6, 1e-6);
+        check_ways("stabiliser", &s, 6, 1e-6);
         rig_close(&s);
     }
 }

@@ -93,9 +93,9 @@ static void hanging_chain(void **state)
     rig_close(&s);
 }
 
-/* A rigid pipe that hangs from its guide swings about it with sqrt(m g L/2 / J), J of its end: the reaction of a guide
- * holds it as a joint does. */
-static void rigid_pipe_on_its_guide(void **state)
+/* A rigid pipe that hangs from its support swings about it with sqrt(m g L/2 / J), J of its end: the reaction of a
+ * support holds it as a joint does. */
+static void rigid_pipe_on_its_support(void **state)
 {
     (void)state;
     const double L = 2.0, g = 9.81, mass = 3.0, across = 0.02,
@@ -116,7 +116,7 @@ static void rigid_pipe_on_its_guide(void **state)
         (void)add_pipes(&s, &pipe, 1);
         rig_start(&s, NULL);
         dmb_modes *modes = all_modes(&s, DMB_MODES_UNDAMPED);
-        check_below("a rigid pipe hangs from its guide and swings", closest_mode(modes, want), 1e-12);
+        check_below("a rigid pipe hangs from its support and swings", closest_mode(modes, want), 1e-12);
         assert_int_equal(info_of(modes).rigid, i); /* on a ball it spins freely */
         dmb_modes_destroy(&modes);
         rig_close(&s);
@@ -297,7 +297,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whirl_of_a_spinning_pipe),
         cmocka_unit_test(hanging_chain),
-        cmocka_unit_test(rigid_pipe_on_its_guide),
+        cmocka_unit_test(rigid_pipe_on_its_support),
         cmocka_unit_test(body_on_the_wall),
         cmocka_unit_test(friction_overdamps),
         cmocka_unit_test(frozen_closed_contact),

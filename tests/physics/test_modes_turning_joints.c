@@ -109,8 +109,8 @@ static void equations_that_turn_are_refused(void **state)
     check_refused(&across.s, DMB_MODES_AXES_TURNING, "bearing");
     check_refused(&across.s, DMB_MODES_AXES_AT_REST, "bearing");
     rig_close(&across.s);
-    dmb_input input = dmb_input_default();
-    dmb_output output = dmb_output_default();
+    dmb_excitation input = dmb_excitation_default();
+    dmb_response_output output = dmb_response_output_default();
     dmb_response *response = NULL;
     dmb_state_space *space = NULL;
     dmb_state_space_options options = dmb_state_space_options_default();
@@ -164,7 +164,7 @@ static void open_arm(rig *s, int spin, int lags)
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = turned;
     drive.component = DMB_RX;
-    drive.programme = add_constant(s, HUB_SPIN);
+    drive.time_function = add_constant(s, HUB_SPIN);
     (void)add_drive(s, &drive);
     (void)rig_start(s, NULL);
 }

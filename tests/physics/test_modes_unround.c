@@ -87,8 +87,8 @@ static void responses_on_springs_unlike(void **state)
     (void)state;
     rig s;
     const dmb_place place = dmb_station(open_disc(&s, 1e6, 2e6), 0, 0.0);
-    const dmb_input input = force_at(place, DMB_Z);
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, place, DMB_Z);
+    const dmb_excitation input = force_at(place, DMB_Z);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Z);
     dmb_response_options options = dmb_response_options_default();
     double complex value;
     dmb_response *response = NULL;
@@ -104,7 +104,7 @@ static void responses_on_springs_unlike(void **state)
 
 static int32_t state_space_status(const rig *s, dmb_id body)
 {
-    const dmb_input input = force_at(dmb_station(body, 0, 0.0), DMB_Z);
+    const dmb_excitation input = force_at(dmb_station(body, 0, 0.0), DMB_Z);
     dmb_state_space *space = NULL;
     const int32_t status = dmb_analysis_state_space(s->sim, NULL, &input, 1, NULL, 0, &space);
     assert_non_null(space);

@@ -70,9 +70,9 @@ static hanging hang(int32_t kind, double outside, double inside)
 
 static double value_of(const hanging *h, int32_t quantity, dmb_place place)
 {
-    const dmb_channel channel = {.place = place, .quantity = quantity};
+    const dmb_output output = {.place = place, .quantity = quantity};
     double value = 0.0;
-    must(&h->s, dmb_query_channel(h->s.sim, &channel, &value));
+    must(&h->s, dmb_query_output(h->s.sim, &output, &value));
     return value;
 }
 
@@ -86,14 +86,14 @@ static void check_hanging(int32_t kind)
     hanging h = hang(kind, heavy, light);
     const dmb_place top = dmb_station(h.string, 0, 0.0), middle = dmb_station(h.string, 5, 0.5);
     const double load = hook_load(heavy, light), at = 33.0;
-    const double pressures = value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_X, middle) * g *
+    const double pressures = value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_X, middle) * g *
                              (heavy * ring(outer, 0.0) - light * ring(inner, 0.0));
-    check_relative("hook load in two fluids [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, top), load, 1e-10);
+    check_relative("hook load in two fluids [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, top), load, 1e-10);
     check_relative("effective axial force at 33 m [N]",
-                   value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE, middle), load * (1.0 - at / depth),
+                   value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_EFFECTIVE_FORCE, middle), load * (1.0 - at / depth),
                    1e-8);
     check_relative("true axial force there, N_e - p_o A_o + p_i A_i [N]",
-                   value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, middle),
+                   value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, middle),
                    load * (1.0 - at / depth) - pressures, 1e-8);
     dmb_operation up = dmb_operation_default();
     dmb_torque_drag_row row = dmb_torque_drag_row_default();
@@ -102,7 +102,7 @@ static void check_hanging(int32_t kind)
     check_relative("hook load of torque and drag [N]", row.hook_load, load, 1e-9);
     must(&h.s, dmb_sim_set_input(h.s.sim, h.density, 1200.0)); /* outside alone */
     must(&h.s, dmb_analysis_static(h.s.sim, NULL, NULL));
-    check_relative("hook load in another mud outside [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, top),
+    check_relative("hook load in another mud outside [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, top),
                    hook_load(1200.0, light), 1e-10);
     rig_close(&h.s);
 }
@@ -119,8 +119,8 @@ static void equal_fluids_are_one(void **state)
     (void)state;
     hanging one = hang(DMB_PIPE_FLEXIBLE, light, -1.0), two = hang(DMB_PIPE_FLEXIBLE, light, light);
     const dmb_place top = dmb_station(one.string, 0, 0.0), below = dmb_station(two.string, 0, 0.0);
-    check_relative("hook load in one fluid, inside told or not [N]", value_of(&two, DMB_CHANNEL_HOOK_LOAD, below),
-                   value_of(&one, DMB_CHANNEL_HOOK_LOAD, top), 1e-15);
+    check_relative("hook load in one fluid, inside told or not [N]", value_of(&two, DMB_OUTPUT_HOOK_LOAD, below),
+                   value_of(&one, DMB_OUTPUT_HOOK_LOAD, top), 1e-15);
     rig_close(&one.s);
     rig_close(&two.s);
 }

@@ -78,10 +78,10 @@ static hanging hang(int32_t kind, double rate, double nozzles)
 
 static double value_of(const hanging *h, int32_t quantity, double fraction)
 {
-    const dmb_channel channel = {
-        .place = dmb_station(h->string, (uint32_t)(9.99 * fraction), fraction > 0.9 ? 1.0 : 0.0), .quantity = quantity};
+    const dmb_output output = {.place = dmb_station(h->string, (uint32_t)(9.99 * fraction), fraction > 0.9 ? 1.0 : 0.0),
+                               .quantity = quantity};
     double value = 0.0;
-    must(&h->s, dmb_query_channel(h->s.sim, &channel, &value));
+    must(&h->s, dmb_query_output(h->s.sim, &output, &value));
     return value;
 }
 
@@ -109,9 +109,9 @@ static void check_balance(int32_t kind, double rate, double nozzles)
                    1e-4);          /* the string is longer than described */
     if (kind == DMB_PIPE_FLEXIBLE) /* of axial-torsional pipes the mean over the element */
         check_relative("true axial force at the rig end [N]",
-                       value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0), top, 1e-5);
-    check_relative("hook load [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0), effective, 1e-5);
-    check_relative("hook load by weight, drag and thrust [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+                       value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0), top, 1e-5);
+    check_relative("hook load [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0), effective, 1e-5);
+    check_relative("hook load by weight, drag and thrust [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0),
                    (steel * (Ao - Ai) + e.inner_density * Ai - e.fluid_density * Ao) * g * L - flow.drag - flow.thrust,
                    1e-10);
     rig_close(&h.s);
@@ -142,7 +142,7 @@ static void poiseuille(void **state)
     assert_true(flow.annulus_reynolds < 100.0 && flow.bore_reynolds < 500.0);
     check_relative("loss of the annulus [Pa]", flow.annulus_loss, G * h.length, 1e-12);
     check_relative("loss of the bore [Pa]", flow.bore_loss, 128.0 * mu * Q / (PI * pow(inner, 4.0)) * h.length, 1e-12);
-    check_relative("hook load [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+    check_relative("hook load [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0),
                    (steel * ring(outer, inner) + 1150.0 * ring(inner, 0.0) - 1250.0 * ring(outer, 0.0)) * g * h.length -
                        0.5 * turn * PI * R * R * G * h.length - 1150.0 * Q * Q / ring(inner, 0.0),
                    1e-9);
@@ -166,7 +166,7 @@ static void pull_of_every_kind(void **state)
             hanging h = describe(&pipe, &e, 10);
             (void)mechanism_start(&h.s, NULL);
             must(&h.s, dmb_analysis_static(h.s.sim, NULL, NULL));
-            load[k] = value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0);
+            load[k] = value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0);
             if (k) flow = flow_in(&h);
             dmb_operation up = dmb_operation_default();
             dmb_torque_drag_row row = dmb_torque_drag_row_default();
@@ -187,13 +187,12 @@ static void stretch_and_stress(void **state)
     const dmb_flow_state flow = flow_in(&h);
     const dmb_environment_def e = mud_of(0.012, 3e-4);
     const double Ao = ring(outer, 0.0), Ai = ring(inner, 0.0), A = Ao - Ai, L = h.length;
-    const double top = value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0);
-    const double bottom = value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0);
+    const double top = value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0);
+    const double bottom = value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0);
     const double p_o = e.fluid_density * g * L + flow.annulus_loss; /* at the end; 0 at the rig end */
     const double p_i[2] = {flow.pump_pressure, p_o + flow.bit_loss};
     const double lame[2] = {2.0 * p_i[0] * Ai / A, 2.0 * (p_i[1] * Ai - p_o * Ao) / A}; /* s_r + s_h */
-    check_relative("stretch by forces and pressures [m]",
-                   value_of(&h, DMB_CHANNEL_STRETCH, 0.0) + flow.pressure_stretch,
+    check_relative("stretch by forces and pressures [m]", value_of(&h, DMB_OUTPUT_STRETCH, 0.0) + flow.pressure_stretch,
                    0.5 * L / E * (top / A + bottom / A - nu * (lame[0] + lame[1])), 1e-4);
     const double radial[2] = {0.0, -p_i[0]};
     double largest = 0.0;
@@ -205,7 +204,7 @@ static void stretch_and_stress(void **state)
                  sqrt(0.5 * ((axial - r) * (axial - r) + (axial - hoop) * (axial - hoop) + (r - hoop) * (r - hoop))));
     }
     check_relative("von Mises stress of Lame's tube [Pa]",
-                   value_of(&h, DMB_CHANNEL_PROFILE + DMB_PROFILE_VON_MISES, 0.0), largest, 1e-6);
+                   value_of(&h, DMB_OUTPUT_PROFILE + DMB_PROFILE_VON_MISES, 0.0), largest, 1e-6);
     rig_close(&h.s);
 }
 
@@ -226,7 +225,7 @@ static void stretch_in_mud_at_rest(void **state)
             const double p_i = 1150.0 * g * L, p_o = 1250.0 * g * L; /* at the far end; 0 at the rig end */
             const double bottom = p_i * Ai - p_o * Ao, top = bottom + steel * A * g * L; /* true */
             const double want = 0.5 * L / (E * A) * (top + bottom - 2.0 * nu * bottom);
-            const double stretch = value_of(&h, DMB_CHANNEL_STRETCH, 0.0);
+            const double stretch = value_of(&h, DMB_OUTPUT_STRETCH, 0.0);
             check_relative("stretch in mud at rest, true force and Lame's tube [m]",
                            stretch + flow_in(&h).pressure_stretch, want, 1e-4);
             check_relative("    of it by pressures", flow_in(&h).pressure_stretch,
@@ -274,7 +273,7 @@ static void eccentric(void **state)
         must(&h.s, dmb_analysis_static(h.s.sim, NULL, NULL));
         const dmb_flow_state flow = flow_in(&h);
         loss[k] = flow.annulus_loss, drag[k] = flow.drag;
-        check_relative("hook load by weight, drag and thrust [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+        check_relative("hook load by weight, drag and thrust [N]", value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0),
                        (steel * ring(outer, inner) + 1150.0 * ring(inner, 0.0) - 1250.0 * ring(outer, 0.0)) * g *
                                h.length -
                            flow.drag - flow.thrust,
@@ -283,7 +282,7 @@ static void eccentric(void **state)
         dmb_torque_drag_row row = dmb_torque_drag_row_default();
         (void)dmb_operation_usual(DMB_OPERATION_PICK_UP, &up);
         must(&h.s, dmb_analysis_torque_drag(h.s.sim, NULL, &up, 1, &row));
-        check_relative("hook load of torque and drag [N]", row.hook_load, value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+        check_relative("hook load of torque and drag [N]", row.hook_load, value_of(&h, DMB_OUTPUT_HOOK_LOAD, 0.0),
                        1e-9);
         rig_close(&h.s);
     }
@@ -336,14 +335,14 @@ static hanging describe_level(double rate, double high, double initial)
 static void compare_flow(const hanging *set, const hanging *compiled, double bound)
 {
     const dmb_flow_state a = flow_in(set), b = flow_in(compiled);
-    const int32_t quantities[] = {DMB_CHANNEL_HOOK_LOAD, DMB_CHANNEL_STRETCH,
-                                  DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE,
-                                  DMB_CHANNEL_PROFILE + DMB_PROFILE_VON_MISES};
+    const int32_t quantities[] = {DMB_OUTPUT_HOOK_LOAD, DMB_OUTPUT_STRETCH,
+                                  DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE,
+                                  DMB_OUTPUT_PROFILE + DMB_PROFILE_VON_MISES};
     assert_true(a.rate == b.rate);
     check_relative("pressure of the pump [Pa]", a.pump_pressure, b.pump_pressure, bound);
     assert_true(a.drag == b.drag && a.thrust == b.thrust && a.annulus_reynolds == b.annulus_reynolds);
     for (int i = 0; i < 4; i++)
-        check_relative("channel", value_of(set, quantities[i], 0.4), value_of(compiled, quantities[i], 0.4), bound);
+        check_relative("output", value_of(set, quantities[i], 0.4), value_of(compiled, quantities[i], 0.4), bound);
     check_below("end [m]",
                 fabs(pose_at(&set->s, dmb_station(set->string, 5, 1.0)).displacement[0] -
                      pose_at(&compiled->s, dmb_station(compiled->string, 5, 1.0)).displacement[0]),
@@ -462,11 +461,11 @@ static void sensitivity_to_the_rate(void **state)
     parameter.high = sims[2].s.sim;
     must(&sims[0].s, dmb_sensitivity_create(sims[0].s.sim, &parameter, 1, &along));
     for (int i = 0; i < 40; i++) assert_true(dmb_sensitivity_step(along, 1e-3, NULL) >= 0);
-    const dmb_channel channel = {.place = dmb_station(sims[0].string, 0, 0.0), .quantity = DMB_CHANNEL_HOOK_LOAD};
-    must(&sims[0].s, dmb_sensitivity_channels(along, &channel, 1, NULL, &slope));
+    const dmb_output output = {.place = dmb_station(sims[0].string, 0, 0.0), .quantity = DMB_OUTPUT_HOOK_LOAD};
+    must(&sims[0].s, dmb_sensitivity_outputs(along, &output, 1, NULL, &slope));
     for (int k = 0; k < 2; k++) {
         run_steps(&sims[3 + k], 40);
-        loads[k] = value_of(&sims[3 + k], DMB_CHANNEL_HOOK_LOAD, 0.0);
+        loads[k] = value_of(&sims[3 + k], DMB_OUTPUT_HOOK_LOAD, 0.0);
     }
     check_relative("d hook load/d rate [N s/m3]", slope, (loads[1] - loads[0]) / (2.0 * far), 1e-4);
     dmb_sensitivity_destroy(&along);
@@ -660,7 +659,7 @@ static driven add_motor(int32_t kind, const dmb_motor *motor, double torque, int
     assert_int_equal(dmb_motor_drive(motor, &drive, &speed), DMB_OK);
     drive.part = d.joint;
     if (!with_drop) drive.mud_pressure = 0.0;
-    drive.programme = add_constant(&d.h.s, speed);
+    drive.time_function = add_constant(&d.h.s, speed);
     d.motor = add_drive(&d.h.s, &drive);
     load.place = dmb_station(shaft, 0, 0.0);
     load.frame = DMB_FRAME_BODY;
@@ -706,15 +705,15 @@ static void check_motor(int32_t kind)
     check_relative("the same by the torque that holds the shaft [Pa]", flow.motor_loss, 0.6 * stall_pressure, 1e-11);
     check_relative("pressure of the pump [Pa]", flow.pump_pressure, without.pump_pressure + flow.motor_loss, 1e-12);
     check_relative("true axial force at the rig end [N]",
-                   value_of(&d.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0),
-                   value_of(&none.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0) + flow.motor_loss * Ai, 1e-12);
+                   value_of(&d.h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0),
+                   value_of(&none.h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 0.0) + flow.motor_loss * Ai, 1e-12);
     check_relative("true axial force at the far end [N]",
-                   value_of(&d.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0),
-                   value_of(&none.h, DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0) + flow.motor_loss * Ai, 1e-12);
+                   value_of(&d.h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0),
+                   value_of(&none.h, DMB_OUTPUT_PROFILE + DMB_PROFILE_AXIAL_FORCE, 1.0) + flow.motor_loss * Ai, 1e-12);
     check_relative("stretch by the pressures [m]", flow.pressure_stretch - without.pressure_stretch,
                    (1.0 - 2.0 * nu) * flow.motor_loss * Ai * d.h.length / (E * (Ao - Ai)), 1e-9);
-    check_relative("effective axial force at the rig end [N]", value_of(&d.h, DMB_CHANNEL_HOOK_LOAD, 0.0),
-                   value_of(&none.h, DMB_CHANNEL_HOOK_LOAD, 0.0), 1e-15);
+    check_relative("effective axial force at the rig end [N]", value_of(&d.h, DMB_OUTPUT_HOOK_LOAD, 0.0),
+                   value_of(&none.h, DMB_OUTPUT_HOOK_LOAD, 0.0), 1e-15);
     rig_close(&d.h.s);
     rig_close(&none.h.s);
 }
@@ -761,7 +760,7 @@ static void motors_elsewhere_are_refused(void **state)
     (void)state;
     assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
     drive.part = h.string;
-    drive.programme = add_constant(&h.s, speed);
+    drive.time_function = add_constant(&h.s, speed);
     assert_int_equal(dmb_model_add_drive(h.s.model, &drive, NULL), DMB_ERR_UNSUPPORTED); /* its shaft is no joint */
     assert_non_null(strstr(dmb_model_message(h.s.model), "mud_pressure"));
     must_model(&h.s, dmb_model_clear_refused(h.s.model));
@@ -794,7 +793,7 @@ static int32_t with_motor_at(uint32_t pipe_index, double fraction, int string_is
                     at = dmb_station(h.string, pipe_index, fraction);
     assert_int_equal(dmb_motor_drive(&motor, &drive, &speed), DMB_OK);
     drive.part = add_joint_between(&h.s, DMB_JOINT_REVOLUTE, string_is_b ? shaft : at, string_is_b ? at : shaft);
-    drive.programme = add_constant(&h.s, speed);
+    drive.time_function = add_constant(&h.s, speed);
     (void)add_drive(&h.s, &drive);
     const int32_t status = dmb_model_compile(h.s.model, NULL);
     rig_close(&h.s);

@@ -62,7 +62,7 @@ static motor_rig describe(double torque, double resistance, int held, int32_t br
     if (instead != NULL) motor = *instead;
     assert_int_equal(dmb_motor_drive(&motor, &drive, &r.free_speed), DMB_OK);
     if (gain_instead > 0.0) drive.gain = gain_instead, drive.limit_high = 1000.0, r.free_speed = set_point_instead;
-    drive.programme = add_constant(&r.s, r.free_speed);
+    drive.time_function = add_constant(&r.s, r.free_speed);
     must_model(&r.s, dmb_model_add_drive(r.s.model, &drive, &r.motor));
     if (with_input) {
         dmb_input_def input = dmb_input_def_default();
@@ -81,7 +81,7 @@ static motor_rig describe(double torque, double resistance, int held, int32_t br
     }
     turn.part = r.above;
     turn.component = DMB_RX;
-    turn.programme = add_constant(&r.s, held || point_mass > 0.0 ? 0.0 : head_speed);
+    turn.time_function = add_constant(&r.s, held || point_mass > 0.0 ? 0.0 : head_speed);
     must_model(&r.s, dmb_model_add_drive(r.s.model, &turn, &r.head));
     dmb_load_def load = dmb_load_def_default();
     load.place = dmb_station(r.below, 1, 1.0);
@@ -99,9 +99,9 @@ static motor_rig describe(double torque, double resistance, int held, int32_t br
 
 static double value_of(const motor_rig *r, int32_t quantity, dmb_place place)
 {
-    const dmb_channel channel = {.place = place, .quantity = quantity};
+    const dmb_output reading = {.place = place, .quantity = quantity};
     double value = 0.0;
-    must(&r->s, dmb_query_channel(r->s.sim, &channel, &value));
+    must(&r->s, dmb_query_output(r->s.sim, &reading, &value));
     return value;
 }
 
@@ -120,14 +120,14 @@ static void the_bit_turns_faster_than_the_string(void **state)
     const double w = (stall - torque - resistance * head_speed) / (stall / r.free_speed + resistance);
     const double T = stall * (1.0 - w / r.free_speed);
     check_relative("no-load speed, 2 pi flow/displacement [rad/s]", r.free_speed, 2.0 * PI * 1.5, 1e-14);
-    check_relative("speed of the bit, string + motor [rad/s]", value_of(&r, DMB_CHANNEL_SPIN, bit_of(&r)),
+    check_relative("speed of the bit, string + motor [rad/s]", value_of(&r, DMB_OUTPUT_SPIN, bit_of(&r)),
                    head_speed + w, 1e-7);
-    check_relative("torque of the motor [N m]", value_of(&r, DMB_CHANNEL_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)), T,
+    check_relative("torque of the motor [N m]", value_of(&r, DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)), T,
                    1e-7);
     check_relative("torque at the rig, that of the motor and of the mud [N m]",
-                   value_of(&r, DMB_CHANNEL_DRIVE_FORCE, dmb_station(r.head, 0, 0.0)), T + resistance * head_speed,
+                   value_of(&r, DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.head, 0, 0.0)), T + resistance * head_speed,
                    1e-7);
-    check_relative("power of the motor, T w [W]", value_of(&r, DMB_CHANNEL_DRIVE_POWER, dmb_station(r.motor, 0, 0.0)),
+    check_relative("power of the motor, T w [W]", value_of(&r, DMB_OUTPUT_DRIVE_POWER, dmb_station(r.motor, 0, 0.0)),
                    T * w, 1e-6);
     const dmb_energy e = energy_of(&r.s);
     check_below("energy balance over what went in", e.balance / e.input, 1e-5);
@@ -139,10 +139,9 @@ static void it_stalls(void **state)
     (void)state;
     motor_rig r = describe(0.0, 2.0, 1, 0);
     must(&r.s, dmb_sim_advance(r.s.sim, 4.0, NULL));
-    check_relative("torque at stall [N m]", value_of(&r, DMB_CHANNEL_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)), stall,
+    check_relative("torque at stall [N m]", value_of(&r, DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)), stall,
                    1e-6);
-    check_below("speed at stall [rad/s]", value_of(&r, DMB_CHANNEL_JOINT_SPEED + 3, dmb_station(r.joint, 0, 0.0)),
-                1e-5);
+    check_below("speed at stall [rad/s]", value_of(&r, DMB_OUTPUT_JOINT_SPEED + 3, dmb_station(r.joint, 0, 0.0)), 1e-5);
     rig_close(&r.s);
 }
 
@@ -154,9 +153,9 @@ static void beyond_its_speed_it_runs_free_or_brakes(void **state)
     must(&runs.s, dmb_sim_advance(runs.s.sim, 20.0, NULL));
     must(&brakes.s, dmb_sim_advance(brakes.s.sim, 8.0, NULL));
     const double w = (stall + 100.0 - 2.0 * head_speed) / (stall / brakes.free_speed + 2.0);
-    check_relative("speed of one that runs free [rad/s]", value_of(&runs, DMB_CHANNEL_SPIN, bit_of(&runs)), 50.0, 1e-5);
-    check_below("its torque [N m]", value_of(&runs, DMB_CHANNEL_DRIVE_FORCE, dmb_station(runs.motor, 0, 0.0)), 1e-12);
-    check_relative("speed of one that brakes [rad/s]", value_of(&brakes, DMB_CHANNEL_SPIN, bit_of(&brakes)),
+    check_relative("speed of one that runs free [rad/s]", value_of(&runs, DMB_OUTPUT_SPIN, bit_of(&runs)), 50.0, 1e-5);
+    check_below("its torque [N m]", value_of(&runs, DMB_OUTPUT_DRIVE_FORCE, dmb_station(runs.motor, 0, 0.0)), 1e-12);
+    check_relative("speed of one that brakes [rad/s]", value_of(&brakes, DMB_OUTPUT_SPIN, bit_of(&brakes)),
                    head_speed + w, 1e-7);
     rig_close(&runs.s);
     rig_close(&brakes.s);
@@ -186,7 +185,7 @@ static motor_rig describe_by(const dmb_motor *motor, double torque, double resis
 
 static double speed_of(const motor_rig *r)
 {
-    return value_of(r, DMB_CHANNEL_JOINT_SPEED + 3, dmb_station(r->joint, 0, 0.0));
+    return value_of(r, DMB_OUTPUT_JOINT_SPEED + 3, dmb_station(r->joint, 0, 0.0));
 }
 
 /* The torque of the table, linear between its points, equals that on the bit: in each piece, and at twice the flow and
@@ -212,7 +211,7 @@ static void a_table_gives_the_speed(void **state)
         }
         check_relative("w0 [rad/s]", r.free_speed, fast * 10.0, 1e-14);
         check_relative("speed of the motor [rad/s]", speed_of(&r), found, 1e-7);
-        check_relative("its torque [N m]", value_of(&r, DMB_CHANNEL_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)),
+        check_relative("its torque [N m]", value_of(&r, DMB_OUTPUT_DRIVE_FORCE, dmb_station(r.motor, 0, 0.0)),
                        torque + resistance * (head_speed + found), 1e-7);
         const dmb_energy e = energy_of(&r.s);
         check_below("energy balance over what went in", e.balance / e.input, 1e-5);
@@ -230,9 +229,9 @@ static void a_table_stalls_and_runs_free(void **state)
     must(&held.s, dmb_sim_advance(held.s.sim, 4.0, NULL));
     must(&runs.s, dmb_sim_advance(runs.s.sim, 20.0, NULL));
     must(&brakes.s, dmb_sim_advance(brakes.s.sim, 8.0, NULL));
-    check_relative("torque at stall [N m]", value_of(&held, DMB_CHANNEL_DRIVE_FORCE, dmb_station(held.motor, 0, 0.0)),
+    check_relative("torque at stall [N m]", value_of(&held, DMB_OUTPUT_DRIVE_FORCE, dmb_station(held.motor, 0, 0.0)),
                    800.0, 1e-6);
-    check_relative("one that runs free [rad/s]", value_of(&runs, DMB_CHANNEL_SPIN, bit_of(&runs)), 50.0, 1e-5);
+    check_relative("one that runs free [rad/s]", value_of(&runs, DMB_OUTPUT_SPIN, bit_of(&runs)), 50.0, 1e-5);
     /* 400/2 (10 - w) = -100 + 2 (head + w) */
     check_relative("one that brakes along its last line [rad/s]", speed_of(&brakes), 2092.0 / 202.0, 1e-7);
     rig_close(&held.s), rig_close(&runs.s), rig_close(&brakes.s);
@@ -317,9 +316,10 @@ static double *space_of(const motor_rig *r, size_t *count)
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_state_space_info info = dmb_state_space_info_default();
     dmb_state_space *space = NULL;
-    dmb_input input = {.struct_size = sizeof input, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_INPUT_DRIVE};
-    dmb_output output = {
-        .struct_size = sizeof output, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_OUTPUT_DRIVE};
+    dmb_excitation input = {
+        .struct_size = sizeof input, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_EXCITATION_DRIVE};
+    dmb_response_output output = {
+        .struct_size = sizeof output, .place = dmb_station(r->motor, 0, 0.0), .kind = DMB_RESPONSE_DRIVE};
     must(&r->s, dmb_analysis_state_space(r->s.sim, &options, &input, 1, &output, 1, &space));
     assert_int_equal(dmb_state_space_get_info(space, &info), DMB_OK);
     const size_t n = info.states, sizes[] = {n * n, n, n, 1};
@@ -368,8 +368,10 @@ static void a_flat_piece_answers_to_nothing(void **state)
     dmb_state_space *space = NULL;
     (void)state;
     motor_rig r = describe_by(&motor, 0.0, 2.0, 1);
-    dmb_input input = {.struct_size = sizeof input, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_INPUT_DRIVE};
-    dmb_output output = {.struct_size = sizeof output, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_OUTPUT_DRIVE};
+    dmb_excitation input = {
+        .struct_size = sizeof input, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_EXCITATION_DRIVE};
+    dmb_response_output output = {
+        .struct_size = sizeof output, .place = dmb_station(r.motor, 0, 0.0), .kind = DMB_RESPONSE_DRIVE};
     take_steps(&r.s, 1e-3, 1);
     (void)dmb_analysis_static(r.s.sim, NULL, NULL);
     assert_int_equal(dmb_analysis_state_space(r.s.sim, &options, &input, 1, &output, 1, &space), DMB_ERR_VALUE);
@@ -389,8 +391,8 @@ static void sensitivity_is_that_of_the_closed_form(void **state)
     double slope = 0.0;
     must(&r.s, dmb_sensitivity_create(r.s.sim, &torque, 1, &along));
     for (int i = 0; i < 2000; i++) assert_true(dmb_sensitivity_step(along, 2e-3, NULL) >= 0);
-    const dmb_channel channel = {.place = dmb_station(r.joint, 0, 0.0), .quantity = DMB_CHANNEL_JOINT_SPEED + 3};
-    assert_true(dmb_sensitivity_channels(along, &channel, 1, NULL, &slope) >= 0);
+    const dmb_output reading = {.place = dmb_station(r.joint, 0, 0.0), .quantity = DMB_OUTPUT_JOINT_SPEED + 3};
+    assert_true(dmb_sensitivity_outputs(along, &reading, 1, NULL, &slope) >= 0);
     check_relative("d w/d torque [rad/(N m s)]", slope, -1.0 / (75.0 + 2.0), 1e-5);
     dmb_sensitivity_destroy(&along);
     rig_close(&r.s), rig_close(&low.s), rig_close(&high.s);
@@ -445,7 +447,7 @@ static void nonsense_gain_tables_are_refused(void **state)
         dmb_drive_def drive = dmb_drive_def_default();
         rig_open(&s, 0.0, 0.0, 0.0);
         drive.part = section(&s, 0.0, DMB_FREE_RX);
-        drive.programme = add_constant(&s, 1.0);
+        drive.time_function = add_constant(&s, 1.0);
         drive.kind = i == 5 ? DMB_DRIVE_LOAD : DMB_DRIVE_CONTROL;
         drive.component = DMB_RX;
         drive.gain = i == 4 ? 1.0 : 0.0;

@@ -26,7 +26,7 @@ static void put_places(subject *x, dmb_id string, uint32_t pipes)
 
 static void add_turned_string(subject *x, uint32_t pipes, double damping)
 {
-    const dmb_term up = scene_step_term(0.0, 0.0, 0.3, 6.0);
+    const dmb_segment up = scene_step_segment(0.0, 0.0, 0.3, 6.0);
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     string.start_free = DMB_FREE_RX;
@@ -34,7 +34,7 @@ static void add_turned_string(subject *x, uint32_t pipes, double damping)
     pipe.damping_time = damping;
     const dmb_id id = add_string(&x->s, &string);
     (void)add_pipes(&x->s, &pipe, pipes);
-    (void)add_simple_drive(&x->s, DMB_DRIVE_MOTION, id, DMB_RX, add_programme(&x->s, &up, 1));
+    (void)add_simple_drive(&x->s, DMB_DRIVE_MOTION, id, DMB_RX, add_time_function(&x->s, &up, 1));
     put_places(x, id, pipes);
 }
 

@@ -65,7 +65,7 @@ static rig half_column(uint32_t elements, dmb_load_def *load, dmb_id *push)
     beam.string = add_string(&s, &def);
     load->place = dmb_station(add_pipes(&s, &beam, 1), 0, 1.0);
     load->force[0] = -PI * PI * EI / 100.0;
-    load->programme = add_constant(&s, 0.0);
+    load->time_function = add_constant(&s, 0.0);
     *push = add_load(&s, load);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
@@ -158,7 +158,7 @@ static void pinned_column_with_a_joint(void **state)
     const double EI = s1_values().EI, euler = PI * PI * EI / 100.0;
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def beam = beam_pipe(10.0, 32, 1e6 * EI, 1e6 * EI, EI, EI);
-    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_joint_def support = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -166,11 +166,11 @@ static void pinned_column_with_a_joint(void **state)
     def.start_free = 1 << DMB_RZ; /* in the x-y plane, and not free to turn about itself */
     beam.string = add_string(&s, &def);
     const dmb_id string = add_pipes(&s, &beam, 1);
-    guide.kind = DMB_JOINT_POINT_ON_LINE;
-    guide.place_b = load.place = t.place = dmb_station(string, 0, 1.0);
-    must_model(&s, dmb_model_add_joint(s.model, &guide, NULL));
+    support.kind = DMB_JOINT_POINT_ON_LINE;
+    support.place_b = load.place = t.place = dmb_station(string, 0, 1.0);
+    must_model(&s, dmb_model_add_joint(s.model, &support, NULL));
     load.force[0] = -euler;
-    load.programme = add_constant(&s, 0.0);
+    load.time_function = add_constant(&s, 0.0);
     const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
     const dmb_static_report rest = find_equilibrium(&s, NULL);
@@ -210,7 +210,7 @@ static void truss_snaps_through(void **state)
     const double l = cbrt(b * b * L), up = sqrt(l * l - b * b), limit = -EA * up / l * (l - L) / L;
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def bar = beam_pipe(L, 1, EA, 1e8, 1e8, 1e8);
-    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_joint_def support = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -219,15 +219,15 @@ static void truss_snaps_through(void **state)
     def.start_free = 1 << DMB_RY;
     bar.string = add_string(&s, &def);
     const dmb_id string = add_pipes(&s, &bar, 1);
-    guide.kind = DMB_JOINT_POINT_ON_LINE;
-    guide.place_b = dmb_station(string, 0, 1.0);
-    guide.origin_a[0] = b;
-    guide.axis_a[0] = 0.0;
-    guide.axis_a[2] = 1.0;
-    must_model(&s, dmb_model_add_joint(s.model, &guide, NULL));
-    load.place = guide.place_b;
+    support.kind = DMB_JOINT_POINT_ON_LINE;
+    support.place_b = dmb_station(string, 0, 1.0);
+    support.origin_a[0] = b;
+    support.axis_a[0] = 0.0;
+    support.axis_a[2] = 1.0;
+    must_model(&s, dmb_model_add_joint(s.model, &support, NULL));
+    load.place = support.place_b;
     load.force[2] = -1.0;
-    load.programme = add_constant(&s, 0.0);
+    load.time_function = add_constant(&s, 0.0);
     const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
@@ -275,7 +275,7 @@ static double arch_limit(uint32_t elements)
     const dmb_id string = add_pipes(&s, &half, 2);
     load.place = dmb_station(string, 0, 1.0);
     load.force[1] = -EI / (R * R);
-    load.programme = add_constant(&s, 0.0);
+    load.time_function = add_constant(&s, 0.0);
     const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
@@ -335,7 +335,7 @@ static dmb_path_report follow_frame(uint32_t elements, tale *t)
     must_model(&s, dmb_model_add_joint(s.model, &corner, NULL));
     load.place = t->place = dmb_station(near.string, 0, 1.0);
     load.force[2] = -EI / (120.0 * 120.0);
-    load.programme = add_constant(&s, 0.0);
+    load.time_function = add_constant(&s, 0.0);
     const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
     dmb_path_options options = path_of(push, load.place, DMB_Z, t);
@@ -394,7 +394,7 @@ static dmb_id open_lying(rig *s, uint32_t pipes)
     const dmb_id string = add_pipes(s, &pipe, pipes);
     load.place = dmb_station(string, pipes - 1, 1.0);
     load.force[0] = -1.0;
-    load.programme = add_constant(s, 0.0);
+    load.time_function = add_constant(s, 0.0);
     const dmb_id push = add_load(s, &load);
     (void)rig_start(s, NULL);
     (void)find_equilibrium(s, NULL);

@@ -34,10 +34,10 @@ static dmb_bit_def cutting(int32_t law, double outer, double inner, double energ
 /* From 0 to height over the first second. */
 static dmb_id add_ramp(rig *s, double height)
 {
-    dmb_term ramp = dmb_term_default();
-    ramp.kind = DMB_TERM_STEP;
+    dmb_segment ramp = dmb_segment_default();
+    ramp.kind = DMB_SEGMENT_STEP;
     ramp.h1 = height;
-    return add_programme(s, &ramp, 1);
+    return add_time_function(s, &ramp, 1);
 }
 
 /* feed > 0: a speed that the rig gives; else it pushes. */
@@ -46,7 +46,7 @@ static drilling drill(int32_t kind, int32_t law, int with_reamer, double feed)
     drilling d;
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     rig_open(&d.s, 0.0, 0.0, 0.0);
     wall.diameter = 0.16;
     wall.normal_law = DMB_NORMAL_NONE;
@@ -59,10 +59,10 @@ static drilling drill(int32_t kind, int32_t law, int with_reamer, double feed)
     ring.pipe = 1;
     ring.fraction = 0.7;
     ring.outer_diameter = 2.0 * gauge;
-    must_model(&d.s, dmb_model_add_ring(d.s.model, &ring, &d.ring));
+    must_model(&d.s, dmb_model_add_stabiliser(d.s.model, &ring, &d.ring));
     dmb_bit_def bit = cutting(law, pilot, 0.0, 2e7), reamer = cutting(law, gauge, pilot, 1e7);
     must_model(&d.s, dmb_model_add_bit(d.s.model, &bit, &d.bit));
-    reamer.ring = d.ring;
+    reamer.stabiliser = d.ring;
     if (with_reamer) must_model(&d.s, dmb_model_add_bit(d.s.model, &reamer, &d.reamer));
     (void)add_simple_drive(&d.s, feed > 0.0 ? DMB_DRIVE_MOTION : DMB_DRIVE_LOAD, d.string, DMB_X,
                            add_ramp(&d.s, feed > 0.0 ? feed : push));
@@ -80,9 +80,9 @@ static dmb_bit_state state_of(const drilling *d, dmb_id id)
 
 static double value_of(const drilling *d, int32_t quantity, dmb_place place)
 {
-    const dmb_channel channel = {.place = place, .quantity = quantity};
+    const dmb_output output = {.place = place, .quantity = quantity};
     double value = 0.0;
-    must(&d->s, dmb_query_channel(d->s.sim, &channel, &value));
+    must(&d->s, dmb_query_output(d->s.sim, &output, &value));
     return value;
 }
 
@@ -101,18 +101,18 @@ static void check_split(int32_t kind, int32_t law)
     const double time = dmb_sim_time(d.s.sim) - at;
     const dmb_bit_state pilot_bit = state_of(&d, d.bit), behind = state_of(&d, d.reamer);
     check_relative("rate of penetration [m/s]",
-                   value_of(&d, DMB_CHANNEL_RATE_OF_PENETRATION, dmb_station(d.string, 0, 0.0)),
-                   cut * spin / (2.0 * PI), 1e-6);
+                   value_of(&d, DMB_OUTPUT_RATE_OF_PENETRATION, dmb_station(d.string, 0, 0.0)), cut * spin / (2.0 * PI),
+                   1e-6);
     check_relative("weight on the bit [N]", pilot_bit.weight, weight_at(&bit, cut), 1e-6);
     check_relative("weight on the reamer [N]", behind.weight, weight_at(&reamer, cut), 1e-6);
     check_relative("their sum [N]", pilot_bit.weight + behind.weight, push, 1e-6);
     check_relative("torque on the bit [N m]", pilot_bit.torque, torque_at(&bit, cut), 1e-6);
     check_relative("torque on the reamer [N m]", behind.torque, torque_at(&reamer, cut), 1e-6);
-    check_relative("channel of the weight on bit, without the reamer [N]",
-                   value_of(&d, DMB_CHANNEL_WEIGHT_ON_BIT, dmb_station(d.string, 0, 0.0)), weight_at(&bit, cut), 1e-6);
+    check_relative("output of the weight on bit, without the reamer [N]",
+                   value_of(&d, DMB_OUTPUT_WEIGHT_ON_BIT, dmb_station(d.string, 0, 0.0)), weight_at(&bit, cut), 1e-6);
     check_relative("axial force behind the reamer [N]",
-                   value_of(&d, DMB_CHANNEL_AXIAL_FORCE, dmb_station(d.string, 2, 0.5)), -weight_at(&bit, cut), 1e-6);
-    check_relative("axial force before it [N]", value_of(&d, DMB_CHANNEL_AXIAL_FORCE, dmb_station(d.string, 0, 0.5)),
+                   value_of(&d, DMB_OUTPUT_AXIAL_FORCE, dmb_station(d.string, 2, 0.5)), -weight_at(&bit, cut), 1e-6);
+    check_relative("axial force before it [N]", value_of(&d, DMB_OUTPUT_AXIAL_FORCE, dmb_station(d.string, 0, 0.5)),
                    -push, 1e-6);
     check_relative("energy that the rock takes [J]", after.rock - before.rock,
                    (push * cut / (2.0 * PI) + torque) * spin * time, 1e-6);
@@ -154,7 +154,7 @@ static void it_adds_nothing_else(void **state)
     dmb_model_info a = dmb_model_info_default(), b = dmb_model_info_default();
     must_model(&with.s, dmb_model_get_info(with.s.model, &a));
     must_model(&without.s, dmb_model_get_info(without.s.model, &b));
-    assert_true(a.mass == b.mass && a.contact_sites == b.contact_sites && a.nodes == b.nodes);
+    assert_true(a.mass == b.mass && a.contact_points == b.contact_points && a.nodes == b.nodes);
     const double place = pose_at(&with.s, dmb_station(with.reamer, 0, 0.0)).position[0];
     check_relative("its place is that of the ring [m]", place,
                    pose_at(&with.s, dmb_station(with.ring, 0, 0.0)).position[0], 1e-15);
@@ -197,10 +197,10 @@ static void what_it_cannot_is_refused(void **state)
     bit.inner_radius = (double)NAN;
     assert_int_equal(dmb_model_add_bit(s.model, &bit, NULL), DMB_ERR_NOT_FINITE);
     bit.inner_radius = 0.0;
-    bit.ring.index = 1;
-    bit.ring.generation = 77;
+    bit.stabiliser.index = 1;
+    bit.stabiliser.generation = 77;
     assert_int_equal(dmb_model_add_bit(s.model, &bit, NULL), DMB_ERR_ID);
-    assert_non_null(strstr(dmb_model_message(s.model), "ring"));
+    assert_non_null(strstr(dmb_model_message(s.model), "stabiliser"));
     rig_close(&s);
 }
 

@@ -34,7 +34,8 @@ static dmb_id open_shaft(rig *s)
     return pipe.string;
 }
 
-static double complex in_axes(const rig *s, int32_t axes, dmb_input input, dmb_output output, double frequency)
+static double complex in_axes(const rig *s, int32_t axes, dmb_excitation input, dmb_response_output output,
+                              double frequency)
 {
     dmb_response_options options = dmb_response_options_default();
     double complex value;
@@ -44,10 +45,10 @@ static double complex in_axes(const rig *s, int32_t axes, dmb_input input, dmb_o
 }
 
 /* [m/N] of a force that goes round with w in the axes that turn: y + z/i, or against it where w < 0. */
-static double complex round_in_turning_axes(const rig *s, dmb_place place, dmb_output output, double w)
+static double complex round_in_turning_axes(const rig *s, dmb_place place, dmb_response_output output, double w)
 {
     const double complex z = w < 0.0 ? i_ : -i_;
-    dmb_input along[2] = {force_at(place, DMB_Y), force_at(place, DMB_Z)};
+    dmb_excitation along[2] = {force_at(place, DMB_Y), force_at(place, DMB_Z)};
     double complex sum = 0.0;
     for (int k = 0; k < 2; k++) {
         along[k].frame = DMB_FRAME_BODY;
@@ -65,11 +66,11 @@ static void out_of_balance(void **state)
     rig s;
     const dmb_id shaft = open_shaft(&s);
     const dmb_place place = dmb_station(shaft, 0, 0.4);
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(shaft, 0, 0.7), DMB_Y);
-    dmb_output inside = output;
-    dmb_input unbalance = force_at(place, DMB_RX);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(shaft, 0, 0.7), DMB_Y);
+    dmb_response_output inside = output;
+    dmb_excitation unbalance = force_at(place, DMB_RX);
     inside.frame = DMB_FRAME_BODY;
-    unbalance.kind = DMB_INPUT_UNBALANCE;
+    unbalance.kind = DMB_EXCITATION_UNBALANCE;
     unbalance.frame = DMB_FRAME_BODY;
     for (int k = 0; k < 4; k++) {
         const double w = speeds[k];
@@ -96,7 +97,7 @@ static void speeds_of_a_turning_shaft(void **state)
     dmb_order order = dmb_order_default();
     dmb_speed_band band = dmb_speed_band_default();
     uint32_t bands = 1;
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(shaft, 0, 0.5), DMB_Y);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(shaft, 0, 0.5), DMB_Y);
     how.kind = DMB_MODES_DAMPED;
     how.axes = DMB_MODES_AXES_AT_REST;
     dmb_modes *modes = find_modes(&s, &how);
@@ -104,9 +105,9 @@ static void speeds_of_a_turning_shaft(void **state)
     for (uint32_t i = 0; i < info_of(modes).count && forward == 0.0; i++)
         if (mode_at(modes, i).whirl > 0.5) forward = 2.0 * PI * frequency_at(modes, i);
     dmb_modes_destroy(&modes);
-    order.input = force_at(dmb_station(shaft, 0, 0.5), DMB_RX);
-    order.input.kind = DMB_INPUT_UNBALANCE;
-    order.input.amplitude = 1e-3;
+    order.excitation = force_at(dmb_station(shaft, 0, 0.5), DMB_RX);
+    order.excitation.kind = DMB_EXCITATION_UNBALANCE;
+    order.excitation.amplitude = 1e-3;
     options.speed_low = 20.0;
     options.speed_high = 150.0;
     must(&s, dmb_analysis_speeds(s.sim, &options, &order, 1, &output, &limit, 1, &band, &bands, NULL));
@@ -132,7 +133,7 @@ static void refused_in_axes_at_rest(void **state)
     (void)add_pipes(&s, &pipe, 1);
     load.frame = DMB_FRAME_BODY;
     load.place = dmb_station(pipe.string, 0, 1.0);
-    load.programme = add_constant(&s, 0.0);
+    load.time_function = add_constant(&s, 0.0);
     load.force[1] = 1.0;
     const dmb_id across = add_load(&s, &load);
     load.force[1] = 0.0;
@@ -140,16 +141,16 @@ static void refused_in_axes_at_rest(void **state)
     const dmb_id along = add_load(&s, &load);
     const dmb_id held = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_RX, add_constant(&s, 0.0));
     rig_start(&s, NULL);
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, load.place, DMB_X);
-    dmb_input input = input_of(DMB_INPUT_LOAD, across, DMB_X);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, load.place, DMB_X);
+    dmb_excitation input = input_of(DMB_EXCITATION_LOAD, across, DMB_X);
     options.axes = DMB_RESPONSE_AXES_AT_REST;
     assert_int_equal(dmb_analysis_response(s.sim, &options, &input, 1, &output, 1, &response), DMB_ERR_UNSUPPORTED);
-    assert_non_null(strstr(dmb_sim_message(s.sim), "input 0: the load turns with its part"));
+    assert_non_null(strstr(dmb_sim_message(s.sim), "excitation 0: the load turns with its part"));
     assert_null(response);
-    input = input_of(DMB_INPUT_LOAD, along, DMB_X);
+    input = input_of(DMB_EXCITATION_LOAD, along, DMB_X);
     must(&s, dmb_analysis_response(s.sim, &options, &input, 1, &output, 1, &response));
     dmb_response_destroy(&response);
-    input = input_of(DMB_INPUT_DRIVE, held, DMB_X);
+    input = input_of(DMB_EXCITATION_DRIVE, held, DMB_X);
     must(&s, dmb_analysis_response(s.sim, &options, &input, 1, &output, 1, &response));
     dmb_response_destroy(&response);
     options.axes = 2;
@@ -174,7 +175,7 @@ static void open_turning(turning *s, double shake, double frequency)
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def def = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_static_options statics = dmb_static_options_default();
     dmb_sim_options options = dmb_sim_options_default();
     rig_open(&s->rig, 0.0, 0.0, -9.81);
@@ -191,12 +192,12 @@ static void open_turning(turning *s, double shake, double frequency)
     s->string = pipe.string = add_string(&s->rig, &def);
     (void)add_pipes(&s->rig, &pipe, 3);
     (void)add_simple_drive(&s->rig, DMB_DRIVE_MOTION, s->string, DMB_RX, add_constant(&s->rig, SPEED));
-    term.kind = DMB_TERM_HARMONIC;
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = shake;
     term.omega = 2.0 * PI * frequency;
     load.place = dmb_station(s->string, 2, 0.0);
     load.force[1] = 1.0;
-    load.programme = add_programme(&s->rig, &term, 1);
+    load.time_function = add_time_function(&s->rig, &term, 1);
     (void)add_load(&s->rig, &load);
     options.newton_tolerance = 1e-12;
     (void)rig_start(&s->rig, &options);
@@ -204,18 +205,18 @@ static void open_turning(turning *s, double shake, double frequency)
     (void)find_equilibrium(&s->rig, &statics);
 }
 
-static void outputs_of(const turning *s, dmb_output out[OUTPUTS])
+static void outputs_of(const turning *s, dmb_response_output out[OUTPUTS])
 {
-    out[0] = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Y);
-    out[1] = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Z);
-    out[2] = output_at(DMB_OUTPUT_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_Y);
-    out[3] = output_at(DMB_OUTPUT_CONTACT, dmb_station(s->string, 2, 0.0), DMB_Z); /* site 2, the end */
+    out[0] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Y);
+    out[1] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(s->string, 1, 0.5), DMB_Z);
+    out[2] = output_at(DMB_RESPONSE_VELOCITY, dmb_station(s->string, 2, 1.0), DMB_Y);
+    out[3] = output_at(DMB_RESPONSE_CONTACT, dmb_station(s->string, 2, 0.0), DMB_Z); /* site 2, the end */
 }
 
 static void linear_on_the_wall(double frequency, double complex out[OUTPUTS])
 {
     turning s;
-    dmb_output outputs[OUTPUTS];
+    dmb_response_output outputs[OUTPUTS];
     open_turning(&s, 0.0, frequency);
     outputs_of(&s, outputs);
     for (int k = 0; k < OUTPUTS; k++)
@@ -230,7 +231,7 @@ static void in_time(double frequency, uint32_t steps, double complex out[OUTPUTS
     const double shake = 0.01;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_output outputs[OUTPUTS];
+    dmb_response_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_turning(&s, shake, frequency);
     outputs_of(&s, outputs);

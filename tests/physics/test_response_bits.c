@@ -36,7 +36,7 @@ static dmb_id add_bit(rig *s, dmb_id string, dmb_id ring)
     dmb_id id = {0, 0};
     bit.rock_law = DMB_ROCK_RATE;
     bit.string = string;
-    bit.ring = ring;
+    bit.stabiliser = ring;
     if (ring.generation != 0) bit.inner_radius = bit.radius, bit.radius += 0.02;
     must_model(s, dmb_model_add_bit(s->model, &bit, &id));
     return id;
@@ -47,7 +47,7 @@ static drilling drill(int32_t kind, int crowded)
 {
     drilling d;
     dmb_wall_def hole = s1_hole();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_id other_feed, reamed = {0, 0};
     const dmb_id none = {0, 0};
     rig_open(&d.s, 0.0, 0.0, 0.0);
@@ -61,7 +61,7 @@ static drilling drill(int32_t kind, int crowded)
         ring.pipe = 1;
         ring.fraction = 0.5;
         ring.outer_diameter = 0.134;
-        must_model(&d.s, dmb_model_add_ring(d.s.model, &ring, &reamed));
+        must_model(&d.s, dmb_model_add_stabiliser(d.s.model, &ring, &reamed));
         (void)add_bit(&d.s, d.string, reamed);
         (void)add_bit(&d.s, other, none);
     }
@@ -71,12 +71,12 @@ static drilling drill(int32_t kind, int crowded)
     return d;
 }
 
-static double complex weight_by(const drilling *d, const dmb_output *output)
+static double complex weight_by(const drilling *d, const dmb_response_output *output)
 {
     const double frequency = 8.0;
     double complex h = 0.0;
     dmb_response_options options = dmb_response_options_default();
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, d->feed, DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, d->feed, DMB_X);
     options.equilibrium_tolerance = 1.0;
     transfer(&d->s, &options, &input, output, &frequency, 1, &h);
     assert_true(cabs(h) > 0.0);
@@ -87,10 +87,11 @@ static void one_bit_of_a_string(void **state)
 {
     (void)state;
     drilling d = drill(DMB_PIPE_FLEXIBLE, 1);
-    const dmb_output bit = output_at(DMB_OUTPUT_BIT, dmb_station(d.bit, 0, 0.0), DMB_X);
-    const dmb_output channel = output_at(DMB_OUTPUT_CHANNEL, dmb_station(d.string, 0, 0.0), DMB_CHANNEL_WEIGHT_ON_BIT);
+    const dmb_response_output bit = output_at(DMB_RESPONSE_BIT, dmb_station(d.bit, 0, 0.0), DMB_X);
+    const dmb_response_output reading =
+        output_at(DMB_RESPONSE_OUTPUT, dmb_station(d.string, 0, 0.0), DMB_OUTPUT_WEIGHT_ON_BIT);
     const double complex wanted = weight_by(&d, &bit);
-    check_below("weight of the string", cabs(weight_by(&d, &channel) / wanted - 1.0), 1e-12);
+    check_below("weight of the string", cabs(weight_by(&d, &reading) / wanted - 1.0), 1e-12);
     rig_close(&d.s);
 }
 
@@ -101,7 +102,8 @@ static void on_the_axis_of_the_hole(void **state)
     for (int path = 0; path < 2; path++) {
         drilling d = drill(path ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE, 0);
         for (int c = 0; c < 2; c++) {
-            const dmb_output bit = output_at(DMB_OUTPUT_BIT, dmb_station(d.bit, 0, 0.0), c == 0 ? DMB_X : DMB_RX);
+            const dmb_response_output bit =
+                output_at(DMB_RESPONSE_BIT, dmb_station(d.bit, 0, 0.0), c == 0 ? DMB_X : DMB_RX);
             weight[path][c] = weight_by(&d, &bit);
         }
         rig_close(&d.s);

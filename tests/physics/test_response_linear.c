@@ -26,11 +26,11 @@ static void jeffcott_rotor(void **state)
     rig s;
     const dmb_id body = open_rotor(&s, 0.0);
     for (int i = 0; i < 5; i++) frequencies[i] = ratio[i] * natural / (2.0 * PI);
-    const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
-    dmb_input unbalance = force_at(dmb_station(body, 0, 0.0), DMB_RX);
-    unbalance.kind = DMB_INPUT_UNBALANCE;
-    const dmb_output at_y = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y);
-    const dmb_output at_z = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z);
+    const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    dmb_excitation unbalance = force_at(dmb_station(body, 0, 0.0), DMB_RX);
+    unbalance.kind = DMB_EXCITATION_UNBALANCE;
+    const dmb_response_output at_y = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y);
+    const dmb_response_output at_z = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z);
     transfer(&s, NULL, &own, &at_y, frequencies, 5, y);
     transfer(&s, NULL, &own, &at_z, frequencies, 5, z);
     transfer(&s, NULL, &unbalance, &at_y, frequencies, 5, given);
@@ -75,10 +75,11 @@ static void eccentric_in_one_way(void **state)
         (void)rig_start(&s, NULL);
         const double size = way < 2 ? m * 1e-4 : 0.01, left = way < 2 ? k - m * w * w : k_r - inertia * w * w;
         const double g[2] = {way == 0 || way == 3 ? size : 0.0, way == 1 ? size : way == 2 ? -size : 0.0};
-        const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+        const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
         double complex got[2];
         for (int c = 0; c < 2; c++) {
-            const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, place, (way < 2 ? DMB_Y : DMB_RY) + c);
+            const dmb_response_output move =
+                output_at(DMB_RESPONSE_DISPLACEMENT, place, (way < 2 ? DMB_Y : DMB_RY) + c);
             transfer(&s, NULL, &own, &move, &frequency, 1, got + c);
         }
         check_below("eccentric in one way: y", violation(got[0], w * w * (g[0] + i_ * g[1]) / left), 1e-11);
@@ -112,8 +113,8 @@ static void spinning_rotor(void **state)
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, add_constant(&s, W));
     (void)rig_start(&s, NULL);
     take_steps(&s, 1e-3, 7);
-    dmb_input force = force_at(shaft.place_b, DMB_Y);
-    dmb_output at_y = output_at(DMB_OUTPUT_DISPLACEMENT, shaft.place_b, DMB_Y), at_z = at_y;
+    dmb_excitation force = force_at(shaft.place_b, DMB_Y);
+    dmb_response_output at_y = output_at(DMB_RESPONSE_DISPLACEMENT, shaft.place_b, DMB_Y), at_z = at_y;
     at_z.component = DMB_Z;
     force.frame = at_y.frame = at_z.frame = DMB_FRAME_BODY;
     transfer(&s, NULL, &force, &at_y, frequencies, 3, y);
@@ -156,8 +157,8 @@ static void receptance_of_a_cantilever(void **state)
         const dmb_id string = add_beam(&s, &pipe, DMB_FREE_NONE);
         (void)rig_start(&s, NULL);
         const dmb_place tip = dmb_station(string, 0, 1.0);
-        const dmb_input force = force_at(tip, DMB_Z);
-        const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, tip, DMB_Z);
+        const dmb_excitation force = force_at(tip, DMB_Z);
+        const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, tip, DMB_Z);
         transfer(&s, &options, &force, &move, frequencies, 5, h);
         for (int i = 0; i < 5; i++) worst = fmax(worst, fabs(cabs(h[i]) / receptance[i] - 1.0));
         print_message("tip receptance, %u elements: worst of five frequencies %.3e\n", elements, worst);
@@ -191,9 +192,9 @@ static double rod_moved_at_its_end(int32_t c, uint32_t elements)
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, c, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
     const dmb_place end = dmb_station(pipe.string, 99, 1.0), start = dmb_station(pipe.string, 0, 0.0);
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
-    const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, end, c);
-    const dmb_output load = output_at(DMB_OUTPUT_SECTION_FORCE, start, c);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
+    const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, end, c);
+    const dmb_response_output load = output_at(DMB_RESPONSE_SECTION_FORCE, start, c);
     transfer(&s, NULL, &input, &move, frequencies, 3, tip);
     transfer(&s, NULL, &input, &load, frequencies, 3, section);
     for (int i = 0; i < 3; i++) {
@@ -234,14 +235,15 @@ static void controlled_mass(void **state)
     drive.part = body;
     drive.gain = 40.0;
     drive.integral_gain = 300.0;
-    drive.programme = add_constant(&s, 0.0);
+    drive.time_function = add_constant(&s, 0.0);
     const dmb_id control = add_drive(&s, &drive);
     const dmb_id other = add_body(&s, &def);
     const dmb_id push = add_simple_drive(&s, DMB_DRIVE_LOAD, other, DMB_X, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, control, DMB_X), force = input_of(DMB_INPUT_DRIVE, push, DMB_X);
-    const dmb_output v = output_at(DMB_OUTPUT_VELOCITY, dmb_station(body, 0, 0.0), DMB_X);
-    const dmb_output a = output_at(DMB_OUTPUT_ACCELERATION, dmb_station(other, 0, 0.0), DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, control, DMB_X),
+                         force = input_of(DMB_EXCITATION_DRIVE, push, DMB_X);
+    const dmb_response_output v = output_at(DMB_RESPONSE_VELOCITY, dmb_station(body, 0, 0.0), DMB_X);
+    const dmb_response_output a = output_at(DMB_RESPONSE_ACCELERATION, dmb_station(other, 0, 0.0), DMB_X);
     transfer(&s, NULL, &input, &v, frequencies, 4, h);
     transfer(&s, NULL, &force, &a, frequencies, 4, free);
     for (int i = 0; i < 4; i++) {
@@ -296,9 +298,9 @@ static void reciprocity(void **state)
     for (int32_t i = DMB_X; i <= DMB_RZ; i++)
         for (int32_t k = DMB_X; k <= DMB_RZ; k++) {
             double complex there[3], back[3], own_a[3], own_b[3];
-            const dmb_input at_a = force_at(a, i), at_b = force_at(b, k);
-            const dmb_output of_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, i);
-            const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, k);
+            const dmb_excitation at_a = force_at(a, i), at_b = force_at(b, k);
+            const dmb_response_output of_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, i);
+            const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, k);
             transfer(&s, NULL, &at_a, &of_b, frequencies, 3, there);
             transfer(&s, NULL, &at_b, &of_a, frequencies, 3, back);
             transfer(&s, NULL, &at_a, &of_a, frequencies, 3, own_a);
@@ -310,9 +312,9 @@ static void reciprocity(void **state)
     rig_close(&s);
 }
 
-/* Forces on what guides hold, and eccentric masses there, go into the guides. Of a pipe that only slides and turns at
- * its rig end, half an eccentric element hangs on the first node: the rest shakes as if that half were not there. */
-static void forces_on_guides(void **state)
+/* Forces on what supports hold, and eccentric masses there, go into the supports. Of a pipe that only slides and turns
+ * at its rig end, half an eccentric element hangs on the first node: the rest shakes as if that half were not there. */
+static void forces_on_supports(void **state)
 {
     (void)state;
     const double frequency = 3.0;
@@ -325,17 +327,17 @@ static void forces_on_guides(void **state)
     pipe.string = add_string(&s, &def);
     (void)add_pipes(&s, &pipe, 2);
     (void)rig_start(&s, NULL);
-    const dmb_place guide = dmb_station(pipe.string, 0, 0.0), tip = dmb_station(pipe.string, 1, 1.0);
+    const dmb_place support = dmb_station(pipe.string, 0, 0.0), tip = dmb_station(pipe.string, 1, 1.0);
     const dmb_place middle = dmb_station(pipe.string, 0, 1.0);
-    const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, tip, DMB_Y);
+    const dmb_response_output move = output_at(DMB_RESPONSE_DISPLACEMENT, tip, DMB_Y);
     double complex none, own, at_middle, at_tip;
-    dmb_input force = force_at(guide, DMB_Y);
+    dmb_excitation force = force_at(support, DMB_Y);
     transfer(&s, NULL, &force, &move, &frequency, 1, &none);
-    check_below("force on a guide: displacement of the tip", cabs(none), 0.0);
-    const dmb_input eccentric = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    check_below("force on a support: displacement of the tip", cabs(none), 0.0);
+    const dmb_excitation eccentric = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
     transfer(&s, NULL, &eccentric, &move, &frequency, 1, &own);
     force = force_at(middle, DMB_Y);
-    force.kind = DMB_INPUT_UNBALANCE;
+    force.kind = DMB_EXCITATION_UNBALANCE;
     transfer(&s, NULL, &force, &move, &frequency, 1, &at_middle);
     force.place = tip;
     transfer(&s, NULL, &force, &move, &frequency, 1, &at_tip);
@@ -357,11 +359,11 @@ static void joint_against_shared_node(void **state)
     open_chain(&two, 1, &c, &d);
     for (int32_t i = DMB_X; i <= DMB_RZ; i++) {
         double complex x[4], y[4], p[4], q[4];
-        const dmb_input at_a = force_at(a, i), at_c = force_at(c, i);
-        const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, i);
-        const dmb_output of_d = output_at(DMB_OUTPUT_DISPLACEMENT, d, i);
-        const dmb_output load_b = output_at(DMB_OUTPUT_SECTION_FORCE, a, i);
-        const dmb_output load_d = output_at(DMB_OUTPUT_SECTION_FORCE, c, i);
+        const dmb_excitation at_a = force_at(a, i), at_c = force_at(c, i);
+        const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, i);
+        const dmb_response_output of_d = output_at(DMB_RESPONSE_DISPLACEMENT, d, i);
+        const dmb_response_output load_b = output_at(DMB_RESPONSE_SECTION_FORCE, a, i);
+        const dmb_response_output load_d = output_at(DMB_RESPONSE_SECTION_FORCE, c, i);
         transfer(&one, NULL, &at_a, &of_b, frequencies, 4, x);
         transfer(&two, NULL, &at_c, &of_d, frequencies, 4, y);
         transfer(&one, NULL, &at_a, &load_b, frequencies, 4, p);
@@ -404,9 +406,9 @@ static void many_joints_against_none(void **state)
     const dmb_place a = open_many(&one, 0), b = open_many(&many, 1);
     for (int32_t c = DMB_X; c <= DMB_RZ; c++) {
         double complex x[4], y[4];
-        const dmb_input at_a = force_at(a, c), at_b = force_at(b, c);
-        const dmb_output of_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, c);
-        const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, c);
+        const dmb_excitation at_a = force_at(a, c), at_b = force_at(b, c);
+        const dmb_response_output of_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, c);
+        const dmb_response_output of_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, c);
         transfer(&one, NULL, &at_a, &of_a, frequencies, 4, x);
         transfer(&many, NULL, &at_b, &of_b, frequencies, 4, y);
         for (int f = 0; f < 4; f++) worst = fmax(worst, violation(y[f], x[f]));
@@ -437,7 +439,7 @@ static dmb_id open_turned(rig *s, int32_t jointed, int32_t kind, dmb_place *tip)
     }
     drive.kind = kind;
     drive.component = DMB_RX;
-    drive.programme = add_constant(s, 0.0);
+    drive.time_function = add_constant(s, 0.0);
     drive.gain = 300.0;
     drive.integral_gain = 2000.0;
     drive.limit_low = -500.0;
@@ -448,7 +450,7 @@ static dmb_id open_turned(rig *s, int32_t jointed, int32_t kind, dmb_place *tip)
     return id;
 }
 
-/* Speed, torque and control of a revolute joint against those of the string's own guide. */
+/* Speed, torque and control of a revolute joint against those of the string's own support. */
 static void drives_of_joints(void **state)
 {
     (void)state;
@@ -460,10 +462,10 @@ static void drives_of_joints(void **state)
         double worst = 0.0;
         rig own, jointed;
         dmb_place a, b;
-        const dmb_input of_string = input_of(DMB_INPUT_DRIVE, open_turned(&own, 0, kind, &a), DMB_X);
-        const dmb_input of_joint = input_of(DMB_INPUT_DRIVE, open_turned(&jointed, 1, kind, &b), DMB_X);
-        const dmb_output at_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, DMB_RX);
-        const dmb_output at_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, DMB_RX);
+        const dmb_excitation of_string = input_of(DMB_EXCITATION_DRIVE, open_turned(&own, 0, kind, &a), DMB_X);
+        const dmb_excitation of_joint = input_of(DMB_EXCITATION_DRIVE, open_turned(&jointed, 1, kind, &b), DMB_X);
+        const dmb_response_output at_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, DMB_RX);
+        const dmb_response_output at_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, DMB_RX);
         transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
         transfer(&jointed, NULL, &of_joint, &at_b, frequencies, 3, y);
         for (int f = 0; f < 3; f++) worst = fmax(worst, violation(y[f], x[f]));
@@ -483,7 +485,7 @@ static void drive_of_a_part_with_joints(void **state)
     double worst = 0.0;
     rig own, s;
     dmb_place a;
-    const dmb_input of_string = input_of(DMB_INPUT_DRIVE, open_turned(&own, 0, DMB_DRIVE_MOTION, &a), DMB_X);
+    const dmb_excitation of_string = input_of(DMB_EXCITATION_DRIVE, open_turned(&own, 0, DMB_DRIVE_MOTION, &a), DMB_X);
     rig_open(&s, 0.0, 0.0, 0.0);
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
@@ -502,11 +504,11 @@ static void drive_of_a_part_with_joints(void **state)
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, jaws.place_a.part, DMB_RX, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
     const dmb_place b = dmb_station(pipe.string, PIPES - 1, 1.0);
-    const dmb_input of_chuck = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
-    const dmb_output at_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, DMB_RX);
-    const dmb_output at_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, DMB_RX);
-    const dmb_output in_a = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(a.part, 0, 0.0), DMB_RX);
-    const dmb_output in_b = output_at(DMB_OUTPUT_SECTION_FORCE, jaws.place_b, DMB_RX);
+    const dmb_excitation of_chuck = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
+    const dmb_response_output at_a = output_at(DMB_RESPONSE_DISPLACEMENT, a, DMB_RX);
+    const dmb_response_output at_b = output_at(DMB_RESPONSE_DISPLACEMENT, b, DMB_RX);
+    const dmb_response_output in_a = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(a.part, 0, 0.0), DMB_RX);
+    const dmb_response_output in_b = output_at(DMB_RESPONSE_SECTION_FORCE, jaws.place_b, DMB_RX);
     transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
     transfer(&s, NULL, &of_chuck, &at_b, frequencies, 3, y);
     transfer(&own, NULL, &of_string, &in_a, frequencies, 3, p);
@@ -541,12 +543,12 @@ static void peaks_and_sums(void **state)
     spring.damping[0] = 2.0 * 1e-4 * sqrt(1000.0);
     must_model(&s, dmb_model_add_joint(s.model, &spring, NULL));
     (void)rig_start(&s, NULL);
-    dmb_input inputs[2] = {force_at(spring.place_b, DMB_X), force_at(spring.place_b, DMB_X)};
+    dmb_excitation inputs[2] = {force_at(spring.place_b, DMB_X), force_at(spring.place_b, DMB_X)};
     inputs[0].amplitude = 2.0;
-    inputs[1].kind = DMB_INPUT_UNBALANCE;
+    inputs[1].kind = DMB_EXCITATION_UNBALANCE;
     inputs[1].amplitude = 0.3;
     inputs[1].phase = 0.7;
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, spring.place_b, DMB_X);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, spring.place_b, DMB_X);
     dmb_response_options options = dmb_response_options_default();
     dmb_response *response = NULL;
     options.points = GRID;
@@ -594,21 +596,22 @@ static void eccentricity_grows_friction_does_not(void **state)
     (void)add_pipes(&s, &pipe, 20);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
-    const dmb_input friction = input_of(DMB_INPUT_FRICTION, (dmb_id){0, 0}, DMB_X);
-    const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
-    const dmb_output axial = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
-    const dmb_output sideways = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(pipe.string, 10, 0.5), DMB_Y);
+    const dmb_excitation friction = input_of(DMB_EXCITATION_FRICTION, (dmb_id){0, 0}, DMB_X);
+    const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    const dmb_response_output axial = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
+    const dmb_response_output sideways = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(pipe.string, 10, 0.5), DMB_Y);
     transfer(&s, NULL, &friction, &axial, frequencies, 3, rub);
     transfer(&s, NULL, &own, &sideways, frequencies, 3, whirl);
     check_close("friction: slope of the response by frequency", log10(cabs(rub[1]) / cabs(rub[0])), 0.0, 1e-6);
     check_close("eccentricity: slope", log10(cabs(whirl[1]) / cabs(whirl[0])), 2.0, 1e-6);
-    const dmb_input around = input_of(DMB_INPUT_FRICTION, (dmb_id){0, 0}, DMB_RX);
-    const dmb_output torque = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_RX);
+    const dmb_excitation around = input_of(DMB_EXCITATION_FRICTION, (dmb_id){0, 0}, DMB_RX);
+    const dmb_response_output torque = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_RX);
     double complex turn[3];
     transfer(&s, NULL, &around, &torque, frequencies, 3, turn);
     check_relative("torque of the rings over their normal forces times their radius",
                    cabs(turn[0]) / contacts_of(&s).normal_force, 0.0365, 1e-5);
-    /* a coefficient of one drags with the weight of the string on its rings; the rig end's own ring rests on its guide
+    /* a coefficient of one drags with the weight of the string on its rings; the rig end's own ring rests on its
+     * support
      */
     const double weight = s1_values().weight * 30.0;
     print_message("    drag for a coefficient of 1: %.3f of the weight\n", creal(rub[0]) / weight);
@@ -637,9 +640,9 @@ static void load_on_the_bit(void **state)
     must_model(&s, dmb_model_add_bit(s.model, &def, &bit));
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
-    const dmb_input load = input_of(DMB_INPUT_BIT_LOAD, bit, DMB_X);
-    const dmb_input force = force_at(dmb_station(bit, 0, 0.0), DMB_X);
-    const dmb_output thrust = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
+    const dmb_excitation load = input_of(DMB_EXCITATION_BIT_LOAD, bit, DMB_X);
+    const dmb_excitation force = force_at(dmb_station(bit, 0, 0.0), DMB_X);
+    const dmb_response_output thrust = output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
     transfer(&s, NULL, &load, &thrust, frequencies, 3, by_load);
     transfer(&s, NULL, &force, &thrust, frequencies, 3, by_force);
     for (int i = 0; i < 3; i++)
@@ -658,7 +661,7 @@ int main(void)
         cmocka_unit_test(moved_rods),
         cmocka_unit_test(controlled_mass),
         cmocka_unit_test(reciprocity),
-        cmocka_unit_test(forces_on_guides),
+        cmocka_unit_test(forces_on_supports),
         cmocka_unit_test(joint_against_shared_node),
         cmocka_unit_test(many_joints_against_none),
         cmocka_unit_test(drives_of_joints),

@@ -65,13 +65,13 @@ static int32_t find_bands(const rig *s, dmb_place place, double margin, uint32_t
     const double limit = 1e-3;
     dmb_speeds_options options = dmb_speeds_options_default();
     dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, place, DMB_Y);
-    orders[0].input = force_at(place, DMB_Y);
-    orders[0].input.kind = DMB_INPUT_UNBALANCE;
-    orders[0].input.amplitude = 5e-3;
+    const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Y);
+    orders[0].excitation = force_at(place, DMB_Y);
+    orders[0].excitation.kind = DMB_EXCITATION_UNBALANCE;
+    orders[0].excitation.amplitude = 5e-3;
     orders[1].order = 2.0;
-    orders[1].input = force_at(place, DMB_Y);
-    orders[1].input.amplitude = 60.0;
+    orders[1].excitation = force_at(place, DMB_Y);
+    orders[1].excitation.amplitude = 60.0;
     options.points = GRID;
     options.speed_low = 30.0;
     options.speed_high = 300.0;
@@ -155,14 +155,14 @@ static void bands_that_run_into_each_other(void **state)
         dmb_speeds_report report = dmb_speeds_report_default();
         dmb_order orders[3] = {dmb_order_default(), dmb_order_default(), dmb_order_default()};
         dmb_speed_band bands[BANDS];
-        const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, place, DMB_Y),
-                                       output_at(DMB_OUTPUT_VELOCITY, place, DMB_Y)};
+        const dmb_response_output outputs[2] = {output_at(DMB_RESPONSE_DISPLACEMENT, place, DMB_Y),
+                                                output_at(DMB_RESPONSE_VELOCITY, place, DMB_Y)};
         uint32_t count = (uint32_t)room;
         for (int i = 0; i < BANDS; i++) bands[i] = dmb_speed_band_default();
         for (int i = 0; i < 3; i++) {
             orders[i].order = i == 0 ? 2.0 : i == 1 ? 1.3 : 1.0;
-            orders[i].input = force_at(place, DMB_Y);
-            orders[i].input.amplitude = i == 0 ? 60.0 : i == 1 + higher ? 100.0 : 80.0;
+            orders[i].excitation = force_at(place, DMB_Y);
+            orders[i].excitation.amplitude = i == 0 ? 60.0 : i == 1 + higher ? 100.0 : 80.0;
         }
         options.points = 400;
         options.speed_low = 30.0;
@@ -210,9 +210,10 @@ static int32_t ask(int flags, double eta, double low, double high, dmb_speeds_re
     shaft.damping[1] = flags & UNDAMPED ? 0.0 : 100.0;
     must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
     (void)rig_start(&s, NULL);
-    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, shaft.place_b, flags & HELD_OUTPUT ? DMB_Z : DMB_Y);
-    order.input = force_at(shaft.place_b, DMB_Y);
-    order.input.amplitude = flags & SILENT ? 0.0 : 200.0;
+    const dmb_response_output output =
+        output_at(DMB_RESPONSE_DISPLACEMENT, shaft.place_b, flags & HELD_OUTPUT ? DMB_Z : DMB_Y);
+    order.excitation = force_at(shaft.place_b, DMB_Y);
+    order.excitation.amplitude = flags & SILENT ? 0.0 : 200.0;
     options.points = 61;
     options.speed_low = low;
     options.speed_high = high;
@@ -283,8 +284,8 @@ static void gyroscopic_terms_do_not_damp(void **state)
         pipe.damping_time = damped ? 1e-4 : 0.0;
         const dmb_id id = add_pipes(&s, &pipe, 4);
         (void)rig_start(&s, NULL);
-        const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(id, 3, 1.0), DMB_Y);
-        order.input = force_at(dmb_station(id, 3, 1.0), DMB_Y);
+        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(id, 3, 1.0), DMB_Y);
+        order.excitation = force_at(dmb_station(id, 3, 1.0), DMB_Y);
         options.report = &report;
         options.points = 5;
         must(&s, dmb_analysis_speeds(s.sim, &options, &order, 1, &output, &limit, 1, &band, &count, NULL));

@@ -24,8 +24,8 @@ static double complex rotor_amplitude(double r, dmb_stepped_sine_report *report)
     options.steps_per_period = 400;
     options.harmonics = 1;
     options.tolerance = 1e-4;
-    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
-                                   output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
+    const dmb_response_output outputs[2] = {output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
+                                            output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
     const int32_t status =
         dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
     must(&s, status);
@@ -58,8 +58,8 @@ static void spinning_jeffcott_rotor(void **state)
 
 enum { OUTPUTS = 4 };
 
-static void compare_with_linear(const rig *s, const char *what, double frequency, const dmb_input *input,
-                                double amplitude, const dmb_output *outputs)
+static void compare_with_linear(const rig *s, const char *what, double frequency, const dmb_excitation *input,
+                                double amplitude, const dmb_response_output *outputs)
 {
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
@@ -83,11 +83,11 @@ static void compare_with_linear(const rig *s, const char *what, double frequency
 
 static dmb_id add_sine(rig *s, double amplitude, double frequency)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_HARMONIC;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_HARMONIC;
     term.h1 = amplitude;
     term.omega = 2.0 * PI * frequency;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
 /* S1 cantilever of 1.5 m with material damping, a sideways force at its tip below and above its first resonance. */
@@ -105,15 +105,15 @@ static void shaken_cantilever(void **state)
         dmb_load_def load = dmb_load_def_default();
         load.place = dmb_station(string, 0, 1.0);
         load.force[2] = 1.0;
-        load.programme = add_sine(&s, 0.5, frequencies[i]);
+        load.time_function = add_sine(&s, 0.5, frequencies[i]);
         const dmb_id push = add_load(&s, &load);
         (void)rig_start(&s, NULL);
         (void)find_equilibrium(&s, NULL);
         const dmb_place inside = dmb_station(string, 0, 0.45), clamp = dmb_station(string, 0, 0.0);
-        const dmb_input input = input_of(DMB_INPUT_LOAD, push, DMB_X);
-        const dmb_output outputs[OUTPUTS] = {
-            output_at(DMB_OUTPUT_DISPLACEMENT, inside, DMB_Z), output_at(DMB_OUTPUT_VELOCITY, load.place, DMB_Z),
-            output_at(DMB_OUTPUT_ACCELERATION, inside, DMB_RY), output_at(DMB_OUTPUT_SECTION_FORCE, clamp, DMB_RY)};
+        const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, push, DMB_X);
+        const dmb_response_output outputs[OUTPUTS] = {
+            output_at(DMB_RESPONSE_DISPLACEMENT, inside, DMB_Z), output_at(DMB_RESPONSE_VELOCITY, load.place, DMB_Z),
+            output_at(DMB_RESPONSE_ACCELERATION, inside, DMB_RY), output_at(DMB_RESPONSE_SECTION_FORCE, clamp, DMB_RY)};
         compare_with_linear(&s, "cantilever", frequencies[i], &input, 0.5, outputs);
         rig_close(&s);
     }
@@ -140,27 +140,27 @@ static void string_on_its_wall(void **state)
         pipe.damping_time = 2e-3;
         pipe.string = add_string(&s, &def);
         (void)add_pipes(&s, &pipe, 10);
-        dmb_input input;
+        dmb_excitation input;
         if (pulled) {
             dmb_load_def load = dmb_load_def_default();
             load.place = dmb_station(pipe.string, 4, 1.0);
             load.force[2] = -1.0;
-            load.programme = add_sine(&s, amplitude, frequency);
-            input = input_of(DMB_INPUT_LOAD, add_load(&s, &load), DMB_X);
+            load.time_function = add_sine(&s, amplitude, frequency);
+            input = input_of(DMB_EXCITATION_LOAD, add_load(&s, &load), DMB_X);
         } else {
             input = input_of(
-                DMB_INPUT_DRIVE,
+                DMB_EXCITATION_DRIVE,
                 add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_sine(&s, amplitude, frequency)), DMB_X);
         }
         (void)rig_start(&s, NULL);
         (void)find_equilibrium(&s, NULL);
         const int32_t c = pulled ? DMB_Z : DMB_X;
         const dmb_place middle = dmb_station(pipe.string, 5, 0.3);
-        const dmb_output outputs[OUTPUTS] = {
-            output_at(DMB_OUTPUT_DISPLACEMENT, middle, c),
-            output_at(DMB_OUTPUT_VELOCITY, dmb_station(pipe.string, 5, 1.0), c),
-            output_at(DMB_OUTPUT_ACCELERATION, middle, c),
-            output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 5, 0.0), pulled ? DMB_RY : DMB_X)};
+        const dmb_response_output outputs[OUTPUTS] = {
+            output_at(DMB_RESPONSE_DISPLACEMENT, middle, c),
+            output_at(DMB_RESPONSE_VELOCITY, dmb_station(pipe.string, 5, 1.0), c),
+            output_at(DMB_RESPONSE_ACCELERATION, middle, c),
+            output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 5, 0.0), pulled ? DMB_RY : DMB_X)};
         compare_with_linear(&s, pulled ? "pulled down on the wall" : "fed to and fro on the wall", frequency, &input,
                             amplitude, outputs);
         rig_close(&s);
@@ -175,7 +175,7 @@ static void two_inputs_together(void **state)
     const double frequency = 11.0, load = 30.0, push = 20.0, lead = 0.9;
     double complex h[2];
     double amplitudes[2][4][2];
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     dmb_id bit = {0, 0};
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -184,7 +184,7 @@ static void two_inputs_together(void **state)
     dmb_pipe_def pipe = s1_pipe();
     dmb_joint_def spring = dmb_joint_def_default();
     for (int k = 0; k < 2; k++) {
-        terms[k].kind = DMB_TERM_HARMONIC;
+        terms[k].kind = DMB_SEGMENT_HARMONIC;
         terms[k].omega = 2.0 * PI * frequency;
     }
     terms[0].h1 = load;
@@ -195,21 +195,23 @@ static void two_inputs_together(void **state)
     pipe.string = add_string(&s, &string);
     (void)add_pipes(&s, &pipe, 4);
     def.string = pipe.string;
-    def.load = add_programme(&s, terms, 1);
+    def.load = add_time_function(&s, terms, 1);
     must_model(&s, dmb_model_add_bit(s.model, &def, &bit));
     spring.kind = DMB_JOINT_FREE;
     spring.place_b = dmb_station(pipe.string, 0, 0.0);
     spring.stiffness[0] = 4e5;
     spring.damping[0] = 2e3;
     must_model(&s, dmb_model_add_joint(s.model, &spring, NULL));
-    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_programme(&s, terms + 1, 1));
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_time_function(&s, terms + 1, 1));
     (void)rig_start(&s, NULL);
-    dmb_input inputs[2] = {input_of(DMB_INPUT_BIT_LOAD, bit, DMB_X), input_of(DMB_INPUT_DRIVE, drive, DMB_X)};
+    dmb_excitation inputs[2] = {input_of(DMB_EXCITATION_BIT_LOAD, bit, DMB_X),
+                                input_of(DMB_EXCITATION_DRIVE, drive, DMB_X)};
     inputs[0].amplitude = load;
     inputs[1].amplitude = push;
     inputs[1].phase = lead;
-    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(bit, 0, 0.0), DMB_X),
-                                   output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
+    const dmb_response_output outputs[2] = {
+        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(bit, 0, 0.0), DMB_X),
+        output_at(DMB_RESPONSE_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
     dmb_response_options about = dmb_response_options_default();
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_response *response = NULL;
@@ -262,9 +264,9 @@ static void eccentric_string_that_turns(void **state)
         rig still, turning;
         open_eccentric(&still, 0.0, &at_rest);
         open_eccentric(&turning, 2.0 * PI * frequency, &string);
-        const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
-        const dmb_output there = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(at_rest, 3, 1.0), DMB_Y);
-        const dmb_output here = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(string, 3, 1.0), DMB_Y);
+        const dmb_excitation own = input_of(DMB_EXCITATION_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+        const dmb_response_output there = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(at_rest, 3, 1.0), DMB_Y);
+        const dmb_response_output here = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(string, 3, 1.0), DMB_Y);
         options.steps_per_period = 400;
         options.tolerance = 1e-4;
         transfer(&still, NULL, &own, &there, &frequency, 1, &linear);
@@ -298,7 +300,7 @@ static dmb_id open_turned_body(rig *s, const double tilt[3], double frequency, c
     }
     const dmb_id body = add_body(s, &def);
     load.place = dmb_station(body, 0, 0.0);
-    load.programme = add_sine(s, 1.0, frequency);
+    load.time_function = add_sine(s, 1.0, frequency);
     (void)add_load(s, &load);
     dmb_joint_def springs = joint_between(DMB_JOINT_FREE, dmb_station((dmb_id){0, 0}, 0, 0.0), load.place);
     springs.match = 1;
@@ -321,13 +323,13 @@ static void body_in_its_own_axes(void **state)
     const double complex by_force = 1.0 / (800.0 - 2.0 * w * w + i_ * w * 8.0);
     const double complex by_moment = 1.0 / (300.0 - 0.5 * w * w + i_ * w * 4.0);
     double amplitudes[TURNED_OUTPUTS][4][2];
-    dmb_output outputs[TURNED_OUTPUTS];
+    dmb_response_output outputs[TURNED_OUTPUTS];
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     rig s;
     const dmb_id body = open_turned_body(&s, tilt, frequency, force, moment);
     const dmb_pose pose = pose_at(&s, dmb_station(body, 0, 0.0));
     for (int k = 0; k < TURNED_OUTPUTS; k++) {
-        outputs[k] = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), k % 6);
+        outputs[k] = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), k % 6);
         outputs[k].frame = k < 6 ? DMB_FRAME_WORLD : DMB_FRAME_BODY;
     }
     options.steps_per_period = 400;
@@ -396,7 +398,7 @@ static void oscillator_that_meets_a_stop(void **state)
         dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
         options.steps_per_period = 4000;
         options.periods = 1;
-        const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_X);
+        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_X);
         must(&s, dmb_analysis_stepped_sine(s.sim, frequencies[i], &options, &output, 1, &amplitudes[0][0][0], &report));
         assert_int_equal(report.settled, 1);
         reference_harmonics(frequencies[i], want);

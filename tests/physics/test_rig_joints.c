@@ -9,7 +9,7 @@ typedef struct rig_pair {
     rig whole, parts;
     dmb_id string, head, bit;              /* of the whole */
     dmb_id pipe[PIPES], own_head, own_bit; /* of the parts */
-    dmb_id fixed[PIPES + 1], guide;
+    dmb_id fixed[PIPES + 1], support;
     dmb_id drive[2], own_drive[2]; /* feed and rotation */
 } rig_pair;
 
@@ -45,10 +45,10 @@ static dmb_body_def bit_body(void)
 
 static dmb_id add_start_up(rig *s, double speed)
 {
-    dmb_term rise = dmb_term_default();
-    rise.kind = DMB_TERM_STEP;
+    dmb_segment rise = dmb_segment_default();
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = speed;
-    return add_programme(s, &rise, 1);
+    return add_time_function(s, &rise, 1);
 }
 
 static void add_drives(rig *s, dmb_id part, dmb_id drive[2])
@@ -101,13 +101,13 @@ static void describe_parts(rig_pair *p)
     bit.position[0] = PIPES;
     p->own_bit = add_body(s, &bit);
     dmb_place last = dmb_station(p->own_head, 0, 0.0);
-    p->guide = add_joint_between(s, DMB_JOINT_CYLINDRICAL, dmb_station(ground, 0, 0.0), last);
+    p->support = add_joint_between(s, DMB_JOINT_CYLINDRICAL, dmb_station(ground, 0, 0.0), last);
     for (uint32_t i = 0; i < PIPES; i++) {
         p->fixed[i] = add_joint_between(s, DMB_JOINT_FIXED, last, dmb_station(p->pipe[i], 0, 0.0));
         last = dmb_station(p->pipe[i], 0, 1.0);
     }
     p->fixed[PIPES] = add_joint_between(s, DMB_JOINT_FIXED, last, dmb_station(p->own_bit, 0, 0.0));
-    add_drives(s, p->guide, p->own_drive);
+    add_drives(s, p->support, p->own_drive);
 }
 
 static void open_pair(rig_pair *p, const choice *c)
@@ -139,9 +139,9 @@ static dmb_model_info info_of(const rig *s)
     return info;
 }
 
-/* 101 fixed joints hold 606 equations, the guide 4 and the two drives on its coordinates 2. The guide and its drives
- * share a cluster with the joint of the head. 200 pipe ends and 2 bodies have 1212 coordinates, 612 of them dependent:
- * what is left is what the string has. */
+/* 101 fixed joints hold 606 equations, the support 4 and the two drives on its coordinates 2. The support and its
+ * drives share a cluster with the joint of the head. 200 pipe ends and 2 bodies have 1212 coordinates, 612 of them
+ * dependent: what is left is what the string has. */
 static void counts(void **state)
 {
     (void)state;
@@ -162,8 +162,8 @@ static void counts(void **state)
     assert_int_equal(parts.prescribed, 0);
     assert_int_equal(statistics.dependent, 612);
     assert_int_equal(statistics.redundant, 0);
-    assert_int_equal(whole.contact_sites, 101); /* the rig end of the string is guided; the rig end of pipe 0 is not */
-    assert_int_equal(parts.contact_sites, 201);
+    assert_int_equal(whole.contact_points, 101); /* the rig end of the string is guided; the rig end of pipe 0 is not */
+    assert_int_equal(parts.contact_points, 201);
     check_relative("mass", parts.mass, whole.mass, 1e-14);
     tell("bytes of the sim", (double)parts.sim_bytes);
     tell("bytes of the sim of the whole", (double)whole.sim_bytes);
@@ -327,7 +327,7 @@ static void start_up_from_rest(void **state)
     close_pair(&p);
 }
 
-/* Statics with friction of an assumed slip: feed and torque that the drives of the guide hold against it. */
+/* Statics with friction of an assumed slip: feed and torque that the drives of the support hold against it. */
 static void statics_with_slip(void **state)
 {
     (void)state;

@@ -68,21 +68,22 @@ static dmb_id add_arc(rig *s, const dmb_string_def *def, const dmb_pipe_def *pip
     return add_pipes(s, &with, 1);
 }
 
-/* `push` [N] acts down on the highest point, times the programme. */
-static void add_push(rig *s, dmb_place place, double push, dmb_id programme)
+/* `push` [N] acts down on the highest point, times the time function. */
+static void add_push(rig *s, dmb_place place, double push, dmb_id time_function)
 {
     dmb_load_def load = dmb_load_def_default();
     load.place = place;
     load.force[2] = -push;
-    load.programme = programme;
+    load.time_function = time_function;
     (void)add_load(s, &load);
 }
 
-static void open_ring(ring *r, uint32_t elements, double push, const dmb_term *release, const dmb_sim_options *options)
+static void open_ring(ring *r, uint32_t elements, double push, const dmb_segment *release,
+                      const dmb_sim_options *options)
 {
     dmb_string_def def = dmb_string_def_default();
     const dmb_pipe_def pipe = ring_pipe(elements, PI * RADIUS);
-    dmb_id programme = {0, 0};
+    dmb_id time_function = {0, 0};
     rig *const s = &r->s;
     rig_open(s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -94,8 +95,8 @@ static void open_ring(ring *r, uint32_t elements, double push, const dmb_term *r
     r->clamp = add_joint_between(s, DMB_JOINT_FIXED, ground(), dmb_station(r->half[0], 0, 0.0));
     r->top = add_joint_between(s, DMB_JOINT_FIXED, dmb_station(r->half[0], 0, 1.0), dmb_station(r->half[1], 0, 0.0));
     r->bottom = add_joint_between(s, DMB_JOINT_FIXED, dmb_station(r->half[1], 0, 1.0), dmb_station(r->half[0], 0, 0.0));
-    if (release != NULL) programme = add_programme(s, release, 1);
-    add_push(s, dmb_station(r->half[0], 0, 1.0), push, programme);
+    if (release != NULL) time_function = add_time_function(s, release, 1);
+    add_push(s, dmb_station(r->half[0], 0, 1.0), push, time_function);
     (void)rig_start(s, options);
 }
 
@@ -185,10 +186,10 @@ static void ring_sways_under_a_large_push(void **state)
 static void ring_let_go(void **state)
 {
     (void)state;
-    dmb_term release = dmb_term_default();
+    dmb_segment release = dmb_segment_default();
     dmb_sim_options options = sharp_options(1.0, 1e-11);
     double error[3];
-    release.kind = DMB_TERM_STEP5;
+    release.kind = DMB_SEGMENT_STEP5;
     release.x1 = 0.01;
     release.h0 = 1.0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -225,11 +226,11 @@ typedef struct slider_crank {
 
 static dmb_id add_motor(rig *s, dmb_id joint, double speed, double rise)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP5;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP5;
     term.x1 = rise;
     term.h1 = speed;
-    return add_simple_drive(s, DMB_DRIVE_MOTION, joint, DMB_RX, add_programme(s, &term, 1));
+    return add_simple_drive(s, DMB_DRIVE_MOTION, joint, DMB_RX, add_time_function(s, &term, 1));
 }
 
 static dmb_id add_coupler(rig *s, uint32_t elements, double EI, int32_t kind)
@@ -442,17 +443,17 @@ static dmb_id add_rod(rig *s, uint32_t number)
 static void open_rods(rods *r, double speed)
 {
     rig *const s = &r->s;
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     rig_open(s, 0.0, 0.0, -9.81);
     add_bent_hole(s);
     for (uint32_t i = 0; i < RODS; i++) r->rod[i] = add_rod(s, i);
     for (uint32_t i = 0; i + 1 < RODS; i++)
         r->cross[i] = add_joint_between(s, DMB_JOINT_UNIVERSAL, dmb_station(r->rod[i], 0, 1.0),
                                         dmb_station(r->rod[i + 1], 0, 0.0));
-    rise.kind = DMB_TERM_STEP5;
+    rise.kind = DMB_SEGMENT_STEP5;
     rise.h1 = speed;
     r->drive[0] = add_simple_drive(s, DMB_DRIVE_MOTION, r->rod[0], DMB_X, add_constant(s, 0.0));
-    r->drive[1] = add_simple_drive(s, DMB_DRIVE_MOTION, r->rod[0], DMB_RX, add_programme(s, &rise, 1));
+    r->drive[1] = add_simple_drive(s, DMB_DRIVE_MOTION, r->rod[0], DMB_RX, add_time_function(s, &rise, 1));
     (void)rig_start(s, NULL);
 }
 
@@ -672,7 +673,7 @@ static void centralisers_hold_a_string_off_the_wall(void **state)
     dmb_id string = open_long(&s, 0, centraliser);
     tell("without: static iterations", rest_on_wall(&s));
     must(&s, dmb_query_reaction(s.sim, string, reaction));
-    check_relative("without: wall and guide", contacts_of(&s).normal_force + reaction[2], weight, 1e-10);
+    check_relative("without: wall and support", contacts_of(&s).normal_force + reaction[2], weight, 1e-10);
     assert_int_equal(contacts_of(&s).closed, 95);
     rig_close(&s);
     string = open_long(&s, 1, centraliser);
@@ -680,7 +681,7 @@ static void centralisers_hold_a_string_off_the_wall(void **state)
     must(&s, dmb_query_reaction(s.sim, string, reaction));
     double sum = reaction[2];
     for (uint32_t i = 0; i < LONG / SPACING; i++) sum += joint_at(&s, centraliser[i]).reaction[2];
-    check_relative("with: centralisers and guide", sum, weight, 1e-10);
+    check_relative("with: centralisers and support", sum, weight, 1e-10);
     assert_int_equal(contacts_of(&s).closed, 0);
     check_relative("a centraliser in the middle", joint_at(&s, centraliser[4]).reaction[2], w * SPACING, 1e-6);
     for (uint32_t x = 1; x < 3; x++) {

@@ -7,16 +7,16 @@
 #include "hash.h"
 #include "modal.h"
 
-static dmb_id add_ring(rig *s, const dmb_ring_def *def)
+static dmb_id add_stabiliser(rig *s, const dmb_stabiliser_def *def)
 {
     dmb_id id = {0, 0};
-    must_model(s, dmb_model_add_ring(s->model, def, &id));
+    must_model(s, dmb_model_add_stabiliser(s->model, def, &id));
     return id;
 }
 
-static dmb_ring_def ring_at(double fraction)
+static dmb_stabiliser_def ring_at(double fraction)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.fraction = fraction;
     return ring;
 }
@@ -26,7 +26,7 @@ static dmb_contact contact_of_part(const rig *s, dmb_id part)
     dmb_contact contact = dmb_contact_default();
     for (uint32_t i = 0; dmb_query_contact(s->sim, i, &contact) >= 0; i++)
         if (contact.part.index == part.index && contact.part.generation == part.generation) return contact;
-    fail_msg("the part has no contact site");
+    fail_msg("the part has no contact point");
     return contact;
 }
 
@@ -71,9 +71,9 @@ static void reactions_of_a_continuous_beam(void **state)
         (void)add_string(&s, &string);
         (void)add_pipes(&s, &pipe, 1);
         for (uint32_t i = 0; i < 3; i++) {
-            dmb_ring_def def = ring_at(0.25 * (i + 1));
+            dmb_stabiliser_def def = ring_at(0.25 * (i + 1));
             def.mass = 3.0;
-            ring[i] = add_ring(&s, &def);
+            ring[i] = add_stabiliser(&s, &def);
         }
         (void)rig_start(&s, NULL);
         (void)find_equilibrium(&s, NULL);
@@ -114,14 +114,14 @@ static double lowest_root(double x, double ratio)
 static double frequency_with(double fraction, uint32_t elements, double mass)
 {
     dmb_pipe_def pipe = heavy_beam(1.0, elements, 2.0, 100.0);
-    dmb_ring_def ring = ring_at(fraction);
+    dmb_stabiliser_def ring = ring_at(fraction);
     rig s;
     pipe.outer_diameter = 0.004; /* no node is near enough to carry the ring on an arm */
     (void)lay_string(&s, &pipe, 1, DMB_FREE_SPHERICAL, DMB_FREE_SPHERICAL);
     ring.mass = mass;
     ring.length = 1e-3;
     ring.inertia[0] = ring.inertia[1] = 1e-12;
-    (void)add_ring(&s, &ring);
+    (void)add_stabiliser(&s, &ring);
     (void)rig_start(&s, NULL);
     dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 6);
     const double frequency = frequency_of_kind(modes, 2, 0);
@@ -147,7 +147,7 @@ static void weight_in_mud(void **state)
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = ring_at(0.3);
+    dmb_stabiliser_def ring = ring_at(0.3);
     dmb_section section = dmb_section_default();
     rig s;
     rig_open(&s, 0.0, 0.0, -g);
@@ -161,7 +161,7 @@ static void weight_in_mud(void **state)
     ring.pipe = 1;
     ring.density = 2700.0;
     ring.mass = 8.0;
-    (void)add_ring(&s, &ring);
+    (void)add_stabiliser(&s, &ring);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
     const s1_section S = s1_values();
@@ -180,7 +180,7 @@ static void energy_of_a_turning_ring(void **state)
     (void)state;
     dmb_string_def string = dmb_string_def_default();
     const dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def def = ring_at(0.4);
+    dmb_stabiliser_def def = ring_at(0.4);
     double energy;
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -188,7 +188,7 @@ static void energy_of_a_turning_ring(void **state)
     string.velocity[3] = 20.0;
     (void)add_string(&s, &string);
     (void)add_pipes(&s, &pipe, 1);
-    const dmb_id ring = add_ring(&s, &def);
+    const dmb_id ring = add_stabiliser(&s, &def);
     (void)rig_start(&s, NULL);
     const double m = 7850.0 * 0.25 * PI * (0.09 * 0.09 - 0.073 * 0.073) * 0.3;
     must(&s, dmb_query_kinetic_energy(s.sim, ring, 0, &energy));
@@ -208,7 +208,7 @@ static pressed press_beside(double beside, uint32_t elements)
 {
     dmb_wall_def wall = s1_hole();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = ring_at(0.5 + beside / 9.0);
+    dmb_stabiliser_def ring = ring_at(0.5 + beside / 9.0);
     dmb_string_def string = dmb_string_def_default();
     pressed out;
     rig s;
@@ -221,7 +221,7 @@ static pressed press_beside(double beside, uint32_t elements)
     pipe.elements = elements;
     (void)add_pipes(&s, &pipe, 1);
     ring.mass = 10.0;
-    const dmb_id id = add_ring(&s, &ring);
+    const dmb_id id = add_stabiliser(&s, &ring);
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
     out.force = contact_of_part(&s, id).normal_force;
@@ -263,7 +263,7 @@ static turning turning_string(int32_t friction_law, uint32_t pipes, double start
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def string = dmb_string_def_default();
     dmb_environment_def environment = dmb_environment_def_default();
-    dmb_ring_def ring = ring_at(0.3);
+    dmb_stabiliser_def ring = ring_at(0.3);
     turning s;
     memset(&s, 0, sizeof s);
     rig_open(&s.r, 0.0, 0.0, -9.81);
@@ -279,7 +279,7 @@ static turning turning_string(int32_t friction_law, uint32_t pipes, double start
     for (uint32_t i = 0; i < 2; i++) {
         ring.pipe = pipes - 3 + i;
         ring.fraction = i == 0 ? 0.3 : 0.8;
-        s.ring[i] = add_ring(&s.r, &ring);
+        s.ring[i] = add_stabiliser(&s.r, &ring);
     }
     (void)add_simple_drive(&s.r, DMB_DRIVE_MOTION, s.string, DMB_X, add_constant(&s.r, 0.0));
     (void)add_simple_drive(&s.r, DMB_DRIVE_MOTION, s.string, DMB_RX, add_constant(&s.r, spin));
@@ -374,7 +374,7 @@ static void axial_torsional_pipes_rub_at_the_ring(void **state)
     const double g = 9.81;
     dmb_wall_def wall = s1_hole();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = ring_at(0.5);
+    dmb_stabiliser_def ring = ring_at(0.5);
     dmb_static_options options = dmb_static_options_default();
     dmb_section section = dmb_section_default();
     rig s;
@@ -384,7 +384,7 @@ static void axial_torsional_pipes_rub_at_the_ring(void **state)
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     const dmb_id string = add_pipes(&s, &pipe, 1);
     ring.mass = 20.0;
-    (void)add_ring(&s, &ring);
+    (void)add_stabiliser(&s, &ring);
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, string, DMB_X, add_constant(&s, 0.0));
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, string, DMB_RX, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
@@ -459,41 +459,41 @@ static void bad_rings_are_refused(void **state)
 {
     (void)state;
     rig s;
-    dmb_ring_def ring = ring_at(0.5), other;
+    dmb_stabiliser_def ring = ring_at(0.5), other;
     open_refused(&s);
     ring.pipe = 3;
-    (void)add_ring(&s, &ring);
-    check_compile(&s, DMB_ERR_VALUE, "ring 0: pipe = 3, must be < 3");
+    (void)add_stabiliser(&s, &ring);
+    check_compile(&s, DMB_ERR_VALUE, "stabiliser 0: pipe = 3, must be < 3");
     open_refused(&s);
     ring.pipe = 1, ring.outer_diameter = 0.072;
-    (void)add_ring(&s, &ring);
-    check_compile(&s, DMB_ERR_GEOMETRY, "ring 0: outer_diameter = 0.072 m, must be >= 0.073 m");
+    (void)add_stabiliser(&s, &ring);
+    check_compile(&s, DMB_ERR_GEOMETRY, "stabiliser 0: outer_diameter = 0.072 m, must be >= 0.073 m");
     open_refused(&s);
     ring.outer_diameter = 0.08, ring.fraction = 0.95;
-    (void)add_ring(&s, &ring);
+    (void)add_stabiliser(&s, &ring);
     check_compile(&s, DMB_ERR_GEOMETRY, "tool joint");
     open_refused(&s);
     ring.outer_diameter = 0.0941;
-    (void)add_ring(&s, &ring);
-    check_compile(&s, DMB_ERR_GEOMETRY, "ring 0: outer_diameter");
+    (void)add_stabiliser(&s, &ring);
+    check_compile(&s, DMB_ERR_GEOMETRY, "stabiliser 0: outer_diameter");
     open_refused(&s);
     ring = other = ring_at(0.5);
     (void)snprintf(other.name, sizeof other.name, "second");
-    (void)add_ring(&s, &ring);
-    (void)add_ring(&s, &other);
+    (void)add_stabiliser(&s, &ring);
+    (void)add_stabiliser(&s, &other);
     check_compile(&s, DMB_ERR_GEOMETRY, "must be >= 0.3 m, half of both lengths");
     open_refused(&s);
     ring.fraction = 0.99, other.fraction = 0.01, other.pipe = 1;
-    (void)add_ring(&s, &other);
-    (void)add_ring(&s, &ring);
+    (void)add_stabiliser(&s, &other);
+    (void)add_stabiliser(&s, &ring);
     check_compile(&s, DMB_ERR_GEOMETRY, "second");
     open_refused(&s);
     ring.fraction = 1.01;
-    assert_int_equal(dmb_model_add_ring(s.model, &ring, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_stabiliser(s.model, &ring, NULL), DMB_ERR_VALUE);
     ring.fraction = (double)NAN;
-    assert_int_equal(dmb_model_add_ring(s.model, &ring, NULL), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_model_add_stabiliser(s.model, &ring, NULL), DMB_ERR_NOT_FINITE);
     ring.fraction = 0.5, ring.inertia[0] = 1.0, ring.inertia[1] = 0.1;
-    assert_int_equal(dmb_model_add_ring(s.model, &ring, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_stabiliser(s.model, &ring, NULL), DMB_ERR_VALUE);
     rig_close(&s);
 }
 

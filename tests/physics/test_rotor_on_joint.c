@@ -16,7 +16,7 @@
 #define TILT 1.0     /* [rad] T */
 #define SPIN 1000.0  /* [rad/s] w3 */
 
-enum { ALONE, GUIDED, IN_CARRIER, IN_GIMBALS, KINDS };
+enum { ALONE, SUPPORTD, IN_CARRIER, IN_GIMBALS, KINDS };
 
 static const char *const names[KINDS] = {"on a spherical joint", "on a fixed point", "in a carrier", "in gimbals"};
 
@@ -100,9 +100,9 @@ static gyroscope open_gyroscope(int kind, const dmb_sim_options *options)
 {
     gyroscope g = {.precession = precession_of(kind)};
     rig_open(&g.s, 0.0, 0.0, -GRAVITY);
-    dmb_body_def rotor = body_on_axis(kind == GUIDED ? 0.0 : arm, g.precession, SPIN);
+    dmb_body_def rotor = body_on_axis(kind == SUPPORTD ? 0.0 : arm, g.precession, SPIN);
     take_inertia(mass, C, A, &rotor);
-    if (kind == GUIDED) rotor.free_mask = DMB_FREE_SPHERICAL, rotor.centre[0] = arm;
+    if (kind == SUPPORTD) rotor.free_mask = DMB_FREE_SPHERICAL, rotor.centre[0] = arm;
     g.rotor = add_body(&g.s, &rotor);
     if (kind == ALONE) add_tip(&g.s, g.rotor);
     if (kind == IN_CARRIER) add_tip(&g.s, add_carrier(&g));

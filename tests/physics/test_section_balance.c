@@ -113,7 +113,7 @@ static void add_contacts(const pipe_row *r, double from, double to, wrench_sum *
 {
     dmb_model_info info = dmb_model_info_default();
     must(&r->s, dmb_model_get_info(r->s.model, &info));
-    for (uint32_t site = 0; site < info.contact_sites; site++) {
+    for (uint32_t site = 0; site < info.contact_points; site++) {
         const double x = site_at(r, site);
         dmb_contact c = dmb_contact_default();
         dmb_hole_point axis = dmb_hole_point_default();

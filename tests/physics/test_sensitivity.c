@@ -5,18 +5,18 @@
 
 #include "rig.h"
 
-enum { CHANNELS_MAX = 8 };
+enum { OUTPUTS_MAX = 8 };
 
 /* A scene and one of its parameters. */
 typedef struct scene_case {
     const char *name;
     void (*describe)(rig *s);
     double *parameter;
-    uint32_t (*channels)(const rig *s, dmb_channel *out);
+    uint32_t (*outputs)(const rig *s, dmb_output *out);
     double step;       /* of the sims on both sides of it */
     double difference; /* of the whole runs that it is held against */
     double time_step;
-    double bound; /* [-] of the error over the largest derivative of its channel along the run */
+    double bound; /* [-] of the error over the largest derivative of its output along the run */
     uint32_t steps;
     int settled; /* 1: begins with dmb_analysis_static */
 } scene_case;
@@ -52,22 +52,22 @@ static rig begin(const scene_case *c, double beside)
 
 static dmb_id last_string, last_body, last_drive, last_bit, last_joint;
 
-static dmb_channel channel_of(dmb_place place, int32_t quantity)
+static dmb_output output_of(dmb_place place, int32_t quantity)
 {
-    const dmb_channel channel = {place, quantity, 0};
-    return channel;
+    const dmb_output output = {place, quantity, 0};
+    return output;
 }
 
 static void run_to_end(const scene_case *c, double beside, double *out)
 {
-    dmb_channel channels[CHANNELS_MAX];
+    dmb_output outputs[OUTPUTS_MAX];
     rig s = begin(c, beside);
-    const uint32_t count = c->channels(&s, channels);
-    double table[CHANNELS_MAX + 1];
+    const uint32_t count = c->outputs(&s, outputs);
+    double table[OUTPUTS_MAX + 1];
     for (uint32_t i = 0; i < c->steps; i++) must(&s, dmb_sim_step(s.sim, c->time_step, NULL));
     dmb_recorder recorder = dmb_recorder_default();
-    recorder.channels = channels;
-    recorder.channel_count = count;
+    recorder.outputs = outputs;
+    recorder.output_count = count;
     recorder.table = table;
     recorder.capacity = 1;
     must(&s, dmb_recorder_take(&recorder, s.sim));
@@ -78,7 +78,7 @@ static void run_to_end(const scene_case *c, double beside, double *out)
 /* (4 D(d) - D(2 d))/3 */
 static void differences(const scene_case *c, double *out)
 {
-    double low[CHANNELS_MAX], high[CHANNELS_MAX], far_low[CHANNELS_MAX], far_high[CHANNELS_MAX];
+    double low[OUTPUTS_MAX], high[OUTPUTS_MAX], far_low[OUTPUTS_MAX], far_high[OUTPUTS_MAX];
     const double d = c->difference;
     memset(low, 0, sizeof low), memset(high, 0, sizeof high);
     memset(far_low, 0, sizeof far_low), memset(far_high, 0, sizeof far_high);
@@ -86,19 +86,19 @@ static void differences(const scene_case *c, double *out)
     run_to_end(c, d, high);
     run_to_end(c, -2.0 * d, far_low);
     run_to_end(c, 2.0 * d, far_high);
-    for (int i = 0; i < CHANNELS_MAX; i++)
+    for (int i = 0; i < OUTPUTS_MAX; i++)
         out[i] = (4.0 * (high[i] - low[i]) / (2.0 * d) - (far_high[i] - far_low[i]) / (4.0 * d)) / 3.0;
 }
 
 static void check_case(const scene_case *c)
 {
-    dmb_channel channels[CHANNELS_MAX];
-    double derivatives[CHANNELS_MAX] = {0.0}, reference[CHANNELS_MAX], largest[CHANNELS_MAX] = {0.0};
+    dmb_output outputs[OUTPUTS_MAX];
+    double derivatives[OUTPUTS_MAX] = {0.0}, reference[OUTPUTS_MAX], largest[OUTPUTS_MAX] = {0.0};
     rig low = begin(c, -c->step), high = begin(c, c->step);
     rig s = begin(c, 0.0); /* last, for the ids */
     dmb_sensitivity *sensitivity;
     dmb_parameter parameter = dmb_parameter_default();
-    const uint32_t count = c->channels(&s, channels);
+    const uint32_t count = c->outputs(&s, outputs);
     parameter.step = c->step;
     parameter.one_sided = one_sided;
     parameter.low = low.sim;
@@ -108,7 +108,7 @@ static void check_case(const scene_case *c)
     rig_close(&high);
     for (uint32_t i = 0; i < c->steps; i++) {
         must(&s, dmb_sensitivity_step(sensitivity, c->time_step, NULL));
-        must(&s, dmb_sensitivity_channels(sensitivity, channels, count, NULL, derivatives));
+        must(&s, dmb_sensitivity_outputs(sensitivity, outputs, count, NULL, derivatives));
         for (uint32_t k = 0; k < count; k++) largest[k] = fmax(largest[k], fabs(derivatives[k]));
     }
     differences(c, reference);
@@ -117,8 +117,8 @@ static void check_case(const scene_case *c)
     must(&s, dmb_sensitivity_kinks(sensitivity, 0, &kinks));
     for (uint32_t k = 0; k < count; k++) {
         const double error = fabs(derivatives[k] - reference[k]) / largest[k];
-        printf("%s, channel %d: derivative %.12g, by runs %.12g, error %.1e, kinks %llu\n", c->name,
-               channels[k].quantity, derivatives[k], reference[k], error, (unsigned long long)kinks);
+        printf("%s, output %d: derivative %.12g, by runs %.12g, error %.1e, kinks %llu\n", c->name, outputs[k].quantity,
+               derivatives[k], reference[k], error, (unsigned long long)kinks);
         worst = fmax(worst, error);
     }
     if (worst > c->bound) print_message("%s: worst error %.2e, bound %.1e\n", c->name, worst, c->bound);
@@ -140,8 +140,8 @@ static void drive_string(rig *s)
     dmb_drive_def turn = dmb_drive_def_default(), push = dmb_drive_def_default();
     turn.kind = DMB_DRIVE_CONTROL;
     turn.component = DMB_RX;
-    dmb_term ramp = dmb_term_default();
-    ramp.kind = DMB_TERM_STEP5;
+    dmb_segment ramp = dmb_segment_default();
+    ramp.kind = DMB_SEGMENT_STEP5;
     ramp.x1 = 0.1;
     ramp.h1 = direction * speed;
     turn.lag = lag;
@@ -150,14 +150,14 @@ static void drive_string(rig *s)
         turn.drag = 3.0;
         turn.back_drag = back_drag;
     }
-    turn.programme = add_programme(s, &ramp, 1);
+    turn.time_function = add_time_function(s, &ramp, 1);
     turn.gain = 400.0;
     turn.integral_gain = 200.0;
     turn.part = last_string;
     last_drive = add_drive(s, &turn);
     push.kind = DMB_DRIVE_CONTROL;
     push.component = DMB_X;
-    push.programme = add_constant(s, 0.01);
+    push.time_function = add_constant(s, 0.01);
     push.gain = 2e5;
     push.integral_gain = 1e5;
     push.part = last_string;
@@ -221,30 +221,30 @@ static void describe_regenerative(rig *s)
     rock_law = DMB_ROCK_RATE;
 }
 
-static uint32_t string_channels(const rig *s, dmb_channel *out)
+static uint32_t string_outputs(const rig *s, dmb_output *out)
 {
     (void)s;
-    out[0] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_ROTATION);
-    out[1] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_SPIN);
-    out[2] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_TORQUE);
-    out[3] = channel_of(dmb_station(last_drive, 0, 0.0), DMB_CHANNEL_DRIVE_FORCE);
-    out[4] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_AXIAL_FORCE);
-    out[5] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_POSITION_X);
+    out[0] = output_of(dmb_station(last_string, 5, 1.0), DMB_OUTPUT_ROTATION);
+    out[1] = output_of(dmb_station(last_string, 5, 1.0), DMB_OUTPUT_SPIN);
+    out[2] = output_of(dmb_station(last_string, 2, 0.5), DMB_OUTPUT_TORQUE);
+    out[3] = output_of(dmb_station(last_drive, 0, 0.0), DMB_OUTPUT_DRIVE_FORCE);
+    out[4] = output_of(dmb_station(last_string, 2, 0.5), DMB_OUTPUT_AXIAL_FORCE);
+    out[5] = output_of(dmb_station(last_string, 5, 1.0), DMB_OUTPUT_POSITION_X);
     return 6;
 }
 
-static uint32_t bending_channels(const rig *s, dmb_channel *out)
+static uint32_t bending_outputs(const rig *s, dmb_output *out)
 {
-    (void)string_channels(s, out);
-    out[6] = channel_of(dmb_station(last_string, 3, 0.0), DMB_CHANNEL_POSITION_Z);
-    out[7] = channel_of(dmb_station(last_string, 3, 0.0), DMB_CHANNEL_NORMAL_FORCE);
+    (void)string_outputs(s, out);
+    out[6] = output_of(dmb_station(last_string, 3, 0.0), DMB_OUTPUT_POSITION_Z);
+    out[7] = output_of(dmb_station(last_string, 3, 0.0), DMB_OUTPUT_NORMAL_FORCE);
     return 8;
 }
 
-static uint32_t drilling_channels(const rig *s, dmb_channel *out)
+static uint32_t drilling_outputs(const rig *s, dmb_output *out)
 {
-    (void)string_channels(s, out);
-    out[6] = channel_of(dmb_station(last_bit, 0, 0.0), DMB_CHANNEL_BIT_WEIGHT);
+    (void)string_outputs(s, out);
+    out[6] = output_of(dmb_station(last_bit, 0, 0.0), DMB_OUTPUT_BIT_WEIGHT);
     return 7;
 }
 
@@ -265,12 +265,12 @@ static void describe_ball(rig *s)
     last_body = add_body(s, &body);
 }
 
-static uint32_t ball_channels(const rig *s, dmb_channel *out)
+static uint32_t ball_outputs(const rig *s, dmb_output *out)
 {
     (void)s;
-    out[0] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_POSITION_Z);
-    out[1] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_Z);
-    out[2] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_SPIN);
+    out[0] = output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_POSITION_Z);
+    out[1] = output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_VELOCITY_Z);
+    out[2] = output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_SPIN);
     return 3;
 }
 
@@ -319,12 +319,12 @@ static void describe_rotor(rig *s)
     last_joint = add_joint_between(s, DMB_JOINT_REVOLUTE, dmb_station(carrier, 0, 0.0), dmb_station(last_body, 0, 0.0));
 }
 
-static uint32_t rod_channels(const rig *s, dmb_channel *out)
+static uint32_t rod_outputs(const rig *s, dmb_output *out)
 {
     (void)s;
     for (int i = 0; i < 2; i++) {
-        out[2 * i] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_POSITION_X + 2 * i);
-        out[2 * i + 1] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_X + 2 * i);
+        out[2 * i] = output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_POSITION_X + 2 * i);
+        out[2 * i + 1] = output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_VELOCITY_X + 2 * i);
     }
     return 4;
 }
@@ -333,11 +333,11 @@ static uint32_t rod_channels(const rig *s, dmb_channel *out)
 static void describe_corners(rig *s)
 {
     const double time[4] = {0.0, 0.02, 0.05, 0.2}, speeds[4] = {0.0, speed, 0.5 * speed, speed};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
     rig_open(s, 0.0, 0.0, 0.0);
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = speeds;
     term.table_count = 4;
@@ -346,16 +346,16 @@ static void describe_corners(rig *s)
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     pipe.damping_time = 1e-4;
     (void)dmb_model_add_pipes(s->model, &pipe, 6, NULL);
-    last_drive = add_simple_drive(s, DMB_DRIVE_MOTION, last_string, DMB_RX, add_programme(s, &term, 1));
+    last_drive = add_simple_drive(s, DMB_DRIVE_MOTION, last_string, DMB_RX, add_time_function(s, &term, 1));
 }
 
-static uint32_t turning_channels(const rig *s, dmb_channel *out)
+static uint32_t turning_outputs(const rig *s, dmb_output *out)
 {
     (void)s;
-    out[0] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_ROTATION);
-    out[1] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_SPIN);
-    out[2] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_TORQUE);
-    out[3] = channel_of(dmb_station(last_drive, 0, 0.0), DMB_CHANNEL_DRIVE_FORCE);
+    out[0] = output_of(dmb_station(last_string, 5, 1.0), DMB_OUTPUT_ROTATION);
+    out[1] = output_of(dmb_station(last_string, 5, 1.0), DMB_OUTPUT_SPIN);
+    out[2] = output_of(dmb_station(last_string, 2, 0.5), DMB_OUTPUT_TORQUE);
+    out[3] = output_of(dmb_station(last_drive, 0, 0.0), DMB_OUTPUT_DRIVE_FORCE);
     return 4;
 }
 
@@ -402,13 +402,13 @@ static void describe_held(rig *s)
     (void)add_pipes(s, &pipe, 3);
 }
 
-static uint32_t held_channels(const rig *s, dmb_channel *out)
+static uint32_t held_outputs(const rig *s, dmb_output *out)
 {
     const dmb_place end = dmb_station(last_string, 0, 0.0);
     (void)s;
-    out[0] = channel_of(end, DMB_CHANNEL_REACTION + DMB_Z);
-    out[1] = channel_of(end, DMB_CHANNEL_REACTION + DMB_RY);
-    out[2] = channel_of(dmb_station(last_string, 1, 0.5), DMB_CHANNEL_DISPLACEMENT_Z);
+    out[0] = output_of(end, DMB_OUTPUT_REACTION + DMB_Z);
+    out[1] = output_of(end, DMB_OUTPUT_REACTION + DMB_RY);
+    out[2] = output_of(dmb_station(last_string, 1, 0.5), DMB_OUTPUT_DISPLACEMENT_Z);
     return 3;
 }
 
@@ -417,13 +417,13 @@ static uint32_t held_channels(const rig *s, dmb_channel *out)
 static void test_strings(void **state)
 {
     const scene_case cases[] = {
-        {"friction", describe_string, &mu, bending_channels, 1e-4, 1e-4, 1e-3, 1e-6, 80, 0},
-        {"stiffness of the wall", describe_string, &stiffness, bending_channels, 300.0, 3000.0, 1e-3, 1e-6, 80, 0},
-        {"outer diameter", describe_string, &diameter, bending_channels, 1e-6, 1e-5, 1e-3, 1e-6, 80, 0},
-        {"damping by mud", describe_string, &damping, bending_channels, 0.07, 0.3, 1e-3, 1e-6, 80, 0},
-        {"modulus", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
-        {"modulus of a beam held at both ends", describe_held, &young, held_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
-        {"friction of bars", describe_bars, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 80, 0},
+        {"friction", describe_string, &mu, bending_outputs, 1e-4, 1e-4, 1e-3, 1e-6, 80, 0},
+        {"stiffness of the wall", describe_string, &stiffness, bending_outputs, 300.0, 3000.0, 1e-3, 1e-6, 80, 0},
+        {"outer diameter", describe_string, &diameter, bending_outputs, 1e-6, 1e-5, 1e-3, 1e-6, 80, 0},
+        {"damping by mud", describe_string, &damping, bending_outputs, 0.07, 0.3, 1e-3, 1e-6, 80, 0},
+        {"modulus", describe_string, &young, bending_outputs, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
+        {"modulus of a beam held at both ends", describe_held, &young, held_outputs, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
+        {"friction of bars", describe_bars, &mu, string_outputs, 1e-5, 1e-4, 1e-3, 1e-6, 80, 0},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_case(&cases[i]);
@@ -440,7 +440,7 @@ static void test_settings(void **state)
         const scene_case c = {"setting",
                               describe_settable,
                               &set_to[i],
-                              drilling_channels,
+                              drilling_outputs,
                               1e-3 * size[i],
                               3e-3 * largest[i],
                               1e-3,
@@ -492,10 +492,10 @@ static void test_settings_stay(void **state)
     for (int i = 0; i < 3; i++) rig_close(&sides[i]);
 }
 
-/* Rows of bars: along the hole and about it, as channels tell them. */
+/* Rows of bars: along the hole and about it, as outputs tell them. */
 static void test_rows_of_bars(void **state)
 {
-    const scene_case c = {"rows of bars", describe_bars, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 30, 0};
+    const scene_case c = {"rows of bars", describe_bars, &mu, string_outputs, 1e-5, 1e-4, 1e-3, 1e-6, 30, 0};
     rig low = begin(&c, -c.step), high = begin(&c, c.step), s = begin(&c, 0.0);
     dmb_sensitivity *sensitivity;
     dmb_parameter parameter = dmb_parameter_default();
@@ -511,13 +511,13 @@ static void test_rows_of_bars(void **state)
     assert_int_equal(rows, 14);
     for (uint32_t k = 0; k < 6; k++) {
         const dmb_place end = dmb_station(last_string, k, 1.0);
-        const dmb_channel channels[4] = {channel_of(end, DMB_CHANNEL_POSITION_X), channel_of(end, DMB_CHANNEL_ROTATION),
-                                         channel_of(end, DMB_CHANNEL_BODY_VELOCITY + DMB_X),
-                                         channel_of(end, DMB_CHANNEL_SPIN)};
+        const dmb_output outputs[4] = {output_of(end, DMB_OUTPUT_POSITION_X), output_of(end, DMB_OUTPUT_ROTATION),
+                                       output_of(end, DMB_OUTPUT_BODY_VELOCITY + DMB_X),
+                                       output_of(end, DMB_OUTPUT_SPIN)};
         const double *row = pose + 2 * (size_t)(k + 1), *rate = velocity + 2 * (size_t)(k + 1);
         const double got[4] = {row[0], row[1], rate[0], rate[1]};
         double want[4];
-        must(&s, dmb_sensitivity_channels(sensitivity, channels, 4, NULL, want));
+        must(&s, dmb_sensitivity_outputs(sensitivity, outputs, 4, NULL, want));
         for (int i = 0; i < 4; i++) check_close("a row of bars", got[i], want[i], 1e-6 * fabs(want[i]) + 1e-10);
     }
     dmb_sensitivity_destroy(&sensitivity);
@@ -529,9 +529,8 @@ static void test_rows_of_bars(void **state)
 static void test_bristles(void **state)
 {
     const scene_case c = {
-        "friction of bristles", describe_bristles, &mu, string_channels, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
-    const scene_case bars = {
-        "bristles of bars", describe_bristles, &mu, string_channels, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
+        "friction of bristles", describe_bristles, &mu, string_outputs, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
+    const scene_case bars = {"bristles of bars", describe_bristles, &mu, string_outputs, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
     (void)state;
     check_case(&c);
     pipe_kind = DMB_PIPE_AXIAL_TORSIONAL;
@@ -544,8 +543,8 @@ static void test_bristles(void **state)
 static void test_actuators(void **state)
 {
     const scene_case cases[2] = {
-        {"lag of an actuator", describe_bars, &lag, string_channels, 2e-5, 2e-4, 1e-3, 1e-5, 80, 0},
-        {"drag of an actuator, backwards", describe_bars, &back_drag, string_channels, 1e-3, 3e-3, 1e-3, 1e-5, 80, 0},
+        {"lag of an actuator", describe_bars, &lag, string_outputs, 2e-5, 2e-4, 1e-3, 1e-5, 80, 0},
+        {"drag of an actuator, backwards", describe_bars, &back_drag, string_outputs, 1e-3, 3e-3, 1e-3, 1e-5, 80, 0},
     };
     (void)state;
     lag = 0.02;
@@ -561,8 +560,8 @@ static void test_actuators(void **state)
 static void test_one_side(void **state)
 {
     const scene_case cases[2] = {
-        {"modulus, one side", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 2e-3, 80, 0},
-        {"spring of a joint, one side", describe_rods, &joint_spring, rod_channels, 1e-6, 1e-3, 2e-3, 1e-5, 300, 0},
+        {"modulus, one side", describe_string, &young, bending_outputs, 1e8, 3e8, 1e-3, 2e-3, 80, 0},
+        {"spring of a joint, one side", describe_rods, &joint_spring, rod_outputs, 1e-6, 1e-3, 2e-3, 1e-5, 300, 0},
     };
     (void)state;
     one_sided = 1;
@@ -574,9 +573,9 @@ static void test_drilling(void **state)
 {
     const scene_case cases[] = {
         /* runs by other differences scatter by 3e-6 of the largest */
-        {"energy of the rock", describe_drilling, &energy, drilling_channels, 1e4, 3e4, 1e-3, 1e-5, 240, 0},
-        {"rotary speed", describe_drilling, &speed, drilling_channels, 5e-5, 5e-4, 1e-3, 1e-5, 240, 0},
-        {"energy, regenerative", describe_regenerative, &energy, drilling_channels, 1e4, 3e4, 1e-3, 1e-6, 240, 0},
+        {"energy of the rock", describe_drilling, &energy, drilling_outputs, 1e4, 3e4, 1e-3, 1e-5, 240, 0},
+        {"rotary speed", describe_drilling, &speed, drilling_outputs, 5e-5, 5e-4, 1e-3, 1e-5, 240, 0},
+        {"energy, regenerative", describe_regenerative, &energy, drilling_outputs, 1e4, 3e4, 1e-3, 1e-6, 240, 0},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_case(&cases[i]);
@@ -585,7 +584,7 @@ static void test_drilling(void **state)
 static void test_ball(void **state)
 {
     const scene_case c = {
-        "stiffness under a ball", describe_ball, &stiffness, ball_channels, 10.0, 100.0, 1e-4, 1e-6, 1200, 0};
+        "stiffness under a ball", describe_ball, &stiffness, ball_outputs, 10.0, 100.0, 1e-4, 1e-6, 1200, 0};
     (void)state;
     check_case(&c);
 }
@@ -597,7 +596,7 @@ static void test_corners(void **state)
     (void)state;
     for (int i = 0; i < 3; i++) {
         const scene_case c = {
-            "table of a motion drive", describe_corners, &speed, turning_channels, 1e-2, 1e-1, 1e-3, 1e-9, steps[i], 0};
+            "table of a motion drive", describe_corners, &speed, turning_outputs, 1e-2, 1e-1, 1e-3, 1e-9, steps[i], 0};
         check_case(&c);
     }
 }
@@ -605,9 +604,9 @@ static void test_corners(void **state)
 static void test_joints(void **state)
 {
     const scene_case c = {
-        "spring of a joint", describe_rods, &joint_spring, rod_channels, 1e-6, 1e-3, 2e-3, 1e-6, 300, 0};
+        "spring of a joint", describe_rods, &joint_spring, rod_outputs, 1e-6, 1e-3, 2e-3, 1e-6, 300, 0};
     const scene_case rotor = {
-        "speed of a rotor", describe_rotor, &rotor_speed, rod_channels, 1e-4, 1e-2, 2e-3, 1e-6, 300, 0};
+        "speed of a rotor", describe_rotor, &rotor_speed, rod_outputs, 1e-4, 1e-2, 2e-3, 1e-6, 300, 0};
     (void)state;
     check_case(&c);
     check_case(&rotor);
@@ -636,7 +635,7 @@ static rig describe_oscillator(const oscillator *o)
     (void)add_joint(&s, &spring);
     load.kind = DMB_DRIVE_LOAD;
     load.part = last_body;
-    load.programme = add_constant(&s, o->force);
+    load.time_function = add_constant(&s, o->force);
     last_drive = add_drive(&s, &load);
     (void)rig_start(&s, &options);
     return s;
@@ -682,11 +681,11 @@ static double oscillator_error(double h)
         for (int i = 0; i < lround(1.0 / h); i++) must(&s, dmb_sensitivity_step(sensitivity, h, NULL));
     else
         must(&s, dmb_sensitivity_advance(sensitivity, 1.0, NULL));
-    const dmb_channel channels[2] = {channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_DISPLACEMENT_X),
-                                     channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_X)};
+    const dmb_output outputs[2] = {output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_DISPLACEMENT_X),
+                                   output_of(dmb_station(last_body, 0, 0.0), DMB_OUTPUT_VELOCITY_X)};
     double values[2], derivatives[6], pose[6], velocity[6], error = 0.0;
     uint32_t rows = 0;
-    must(&s, dmb_sensitivity_channels(sensitivity, channels, 2, values, derivatives));
+    must(&s, dmb_sensitivity_outputs(sensitivity, outputs, 2, values, derivatives));
     for (int i = 0; i < 3; i++) {
         const double place = (place_of(&high[i], 1.0) - place_of(&low[i], 1.0)) / (2.0 * step[i]);
         const double rate = (speed_of(&high[i], 1.0) - speed_of(&low[i], 1.0)) / (2.0 * step[i]);
@@ -742,11 +741,11 @@ static void test_input(void **state)
     dmb_id body = {0, 0};
     body = last_body;
     body.generation = drive.generation;
-    const dmb_channel channel = channel_of(dmb_station(body, 0, 0.0), DMB_CHANNEL_DISPLACEMENT_X);
+    const dmb_output output = output_of(dmb_station(body, 0, 0.0), DMB_OUTPUT_DISPLACEMENT_X);
     const double u = sqrt(still.w2 - still.z * still.z), t = 0.5;
     const double formula = (1.0 - exp(-still.z * t) * (cos(u * t) + still.z / u * sin(u * t))) / (2.0 * still.w2);
     double derivative;
-    must(&s, dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative));
+    must(&s, dmb_sensitivity_outputs(sensitivity, &output, 1, NULL, &derivative));
     printf("input: derivative %.9g, formula %.9g\n", derivative, formula);
     assert_true(fabs(derivative - formula) <= 5e-4 * fabs(formula));
     must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
@@ -754,7 +753,7 @@ static void test_input(void **state)
     const double told = derivative; /* of where the sim has been: not of where it is */
     double velocity[6];
     uint32_t rows = 0;
-    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative), DMB_ERR_ORDER);
+    assert_int_equal(dmb_sensitivity_outputs(sensitivity, &output, 1, NULL, &derivative), DMB_ERR_ORDER);
     assert_non_null(strstr(dmb_sim_message(s.sim), "moved by other calls"));
     assert_int_equal(dmb_sensitivity_rows(sensitivity, 0, NULL, velocity, &rows), DMB_ERR_ORDER);
     assert_int_equal(dmb_sensitivity_rows(sensitivity, 0, NULL, NULL, &rows), DMB_OK);

@@ -24,7 +24,7 @@ static void open_blade(blade *b, int32_t component, double mean, double shake, d
 {
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = beam_pipe(LENGTH, 8, 1e6, 1e10, 1e6, EI); /* soft along, so that it stretches */
-    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     rig_open(&b->rig, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
     def.start_free = 1 << component;
@@ -35,11 +35,11 @@ static void open_blade(blade *b, int32_t component, double mean, double shake, d
     b->string = pipe.string = add_string(&b->rig, &def);
     (void)add_pipes(&b->rig, &pipe, 1);
     terms[0].h0 = mean;
-    terms[1].kind = DMB_TERM_HARMONIC;
+    terms[1].kind = DMB_SEGMENT_HARMONIC;
     terms[1].h1 = shake;
     terms[1].omega = 2.0 * PI * frequency;
-    const dmb_id programme = add_programme(&b->rig, terms, shake != 0.0 ? 2 : 1);
-    b->drive = add_simple_drive(&b->rig, DMB_DRIVE_MOTION, b->string, component, programme);
+    const dmb_id time_function = add_time_function(&b->rig, terms, shake != 0.0 ? 2 : 1);
+    b->drive = add_simple_drive(&b->rig, DMB_DRIVE_MOTION, b->string, component, time_function);
     dmb_sim_options options = dmb_sim_options_default();
     options.newton_tolerance = 1e-12;
     (void)rig_start(&b->rig, &options);
@@ -50,12 +50,12 @@ static void open_blade(blade *b, int32_t component, double mean, double shake, d
 
 enum { OUTPUTS = 3 };
 
-static void outputs_of(const blade *b, int32_t component, dmb_output out[OUTPUTS])
+static void outputs_of(const blade *b, int32_t component, dmb_response_output out[OUTPUTS])
 {
-    for (int i = 0; i < OUTPUTS; i++) out[i] = dmb_output_default();
-    out[0].kind = DMB_OUTPUT_DRIVE;
+    for (int i = 0; i < OUTPUTS; i++) out[i] = dmb_response_output_default();
+    out[0].kind = DMB_RESPONSE_DRIVE;
     out[0].place.part = b->drive;
-    out[1].kind = out[2].kind = DMB_OUTPUT_SECTION_FORCE;
+    out[1].kind = out[2].kind = DMB_RESPONSE_SECTION_FORCE;
     out[1].place = out[2].place = dmb_station(b->string, 0, 0.0);
     out[1].component = DMB_X;
     out[2].component = component;
@@ -65,12 +65,12 @@ static void respond(int32_t component, double mean, double frequency, number out
 {
     blade b;
     dmb_response_options options = dmb_response_options_default();
-    dmb_input input = dmb_input_default();
-    dmb_output outputs[OUTPUTS];
+    dmb_excitation input = dmb_excitation_default();
+    dmb_response_output outputs[OUTPUTS];
     dmb_response *response = NULL;
     open_blade(&b, component, mean, 0.0, frequency);
     outputs_of(&b, component, outputs);
-    input.kind = DMB_INPUT_DRIVE;
+    input.kind = DMB_EXCITATION_DRIVE;
     input.place.part = b.drive;
     options.frequencies = &frequency;
     options.points = 1;
@@ -91,7 +91,7 @@ static void step_sine(int32_t component, double mean, double frequency, uint32_t
     const double shake = 1e-4 * mean;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_output outputs[OUTPUTS];
+    dmb_response_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_blade(&b, component, mean, shake, frequency);
     outputs_of(&b, component, outputs);
@@ -139,7 +139,7 @@ static void not_shaken(void **state)
     (void)state;
     blade b;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
-    dmb_output outputs[OUTPUTS];
+    dmb_response_output outputs[OUTPUTS];
     double amplitudes[OUTPUTS][2][2];
     open_blade(&b, DMB_RZ, 5.0, 0.0, 1.0);
     outputs_of(&b, DMB_RZ, outputs);
@@ -159,7 +159,7 @@ static void displacement_that_turns(void **state)
     blade b;
     dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     double amplitudes[2][2];
     open_blade(&b, DMB_RZ, 5.0, 5e-3, 1.3);
     output.place = dmb_station(b.string, 0, 1.0);

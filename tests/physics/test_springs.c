@@ -175,7 +175,7 @@ static void a_spring_holds_a_column(void **state)
     dmb_buckling_options options = dmb_buckling_options_default();
     dmb_buckling *found = NULL;
     dmb_load_def push = dmb_load_def_default();
-    const dmb_term off = dmb_term_default();
+    const dmb_segment off = dmb_segment_default();
     double factor;
     rig s;
     (void)state;
@@ -191,7 +191,7 @@ static void a_spring_holds_a_column(void **state)
     push.place = dmb_station(column, 0, 0.0);
     push.offset[0] = 1.0;
     push.force[2] = -1.0;
-    push.programme = add_programme(&s, &off, 1);
+    push.time_function = add_time_function(&s, &off, 1);
     options.part = add_load(&s, &push);
     options.scale = DMB_SCALE_PART;
     options.follow = 0;

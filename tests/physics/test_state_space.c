@@ -22,8 +22,8 @@ static double *matrix(const dmb_state_space *s, int32_t which, size_t rows, size
     return values;
 }
 
-static model space_of(const rig *s, const dmb_state_space_options *options, const dmb_input *inputs,
-                      uint32_t input_count, const dmb_output *outputs, uint32_t output_count)
+static model space_of(const rig *s, const dmb_state_space_options *options, const dmb_excitation *inputs,
+                      uint32_t input_count, const dmb_response_output *outputs, uint32_t output_count)
 {
     dmb_state_space *found = NULL;
     model m = {.info = dmb_state_space_info_default()};
@@ -91,8 +91,9 @@ static void transfer_of(const model *m, double frequency, uint32_t input, double
 }
 
 /* Largest difference to the frequency response, over the largest value of each transfer function. */
-static double against_response(const rig *s, const model *m, const dmb_response_options *about, const dmb_input *inputs,
-                               const dmb_output *outputs, const double *frequencies, uint32_t points)
+static double against_response(const rig *s, const model *m, const dmb_response_options *about,
+                               const dmb_excitation *inputs, const dmb_response_output *outputs,
+                               const double *frequencies, uint32_t points)
 {
     double worst = 0.0;
     for (uint32_t i = 0; i < m->info.inputs; i++) {
@@ -144,7 +145,8 @@ static void add_settings(string_rig *r, int moved)
  * without. */
 static string_rig open_string_with(int32_t kind, int moved, uint32_t pipes, double load_at, int settable)
 {
-    const dmb_term step = {.struct_size = sizeof step, .kind = DMB_TERM_STEP, .x0 = 0.0, .x1 = load_at, .h1 = 1.0};
+    const dmb_segment step = {
+        .struct_size = sizeof step, .kind = DMB_SEGMENT_STEP, .x0 = 0.0, .x1 = load_at, .h1 = 1.0};
     string_rig r;
     dmb_wall_def hole = s1_hole();
     dmb_string_def def = dmb_string_def_default();
@@ -165,7 +167,7 @@ static string_rig open_string_with(int32_t kind, int moved, uint32_t pipes, doub
     pipe.string = r.string;
     add_pipes(&r.s, &pipe, pipes);
     must_model(&r.s, dmb_model_add_bit(r.s.model, &bit, &r.bit));
-    drive.programme = add_constant(&r.s, 0.0);
+    drive.time_function = add_constant(&r.s, 0.0);
     drive.part = r.string;
     drive.gain = 3e3;
     drive.integral_gain = 2e5;
@@ -180,7 +182,7 @@ static string_rig open_string_with(int32_t kind, int moved, uint32_t pipes, doub
     load.frame = DMB_FRAME_BODY;
     load.force[0] = 30.0;
     load.moment[0] = 2.0;
-    load.programme = load_at > 0.0 ? add_programme(&r.s, &step, 1) : add_constant(&r.s, 0.0);
+    load.time_function = load_at > 0.0 ? add_time_function(&r.s, &step, 1) : add_constant(&r.s, 0.0);
     r.load = add_load(&r.s, &load);
     if (settable) add_settings(&r, moved);
     rig_start(&r.s, NULL);
@@ -193,9 +195,9 @@ static string_rig open_string(int32_t kind, int moved, uint32_t pipes, double lo
     return open_string_with(kind, moved, pipes, load_at, 0);
 }
 
-static dmb_output channel_at(dmb_id string, uint32_t pipe, double fraction, int32_t quantity)
+static dmb_response_output reading_at(dmb_id string, uint32_t pipe, double fraction, int32_t quantity)
 {
-    return output_at(DMB_OUTPUT_CHANNEL, dmb_station(string, pipe, fraction), quantity);
+    return output_at(DMB_RESPONSE_OUTPUT, dmb_station(string, pipe, fraction), quantity);
 }
 
 static void transfer_of_a_string(void **state)
@@ -206,20 +208,20 @@ static void transfer_of_a_string(void **state)
             for (int motion = 0; motion < 2; motion++) {
                 string_rig r = open_string(kind, moved, 6, 0.0);
                 dmb_state_space_options options = dmb_state_space_options_default();
-                const dmb_input inputs[4] = {
-                    input_of(DMB_INPUT_DRIVE, r.feed, DMB_X), input_of(DMB_INPUT_DRIVE, r.turn, DMB_X),
-                    input_of(DMB_INPUT_LOAD, r.load, DMB_X), force_at(dmb_station(r.string, 3, 0.5), DMB_X)};
+                const dmb_excitation inputs[4] = {
+                    input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X), input_of(DMB_EXCITATION_DRIVE, r.turn, DMB_X),
+                    input_of(DMB_EXCITATION_LOAD, r.load, DMB_X), force_at(dmb_station(r.string, 3, 0.5), DMB_X)};
                 const dmb_place none = dmb_station((dmb_id){0, 0}, 4, 0.0);
-                const dmb_output outputs[9] = {
-                    channel_at(r.string, 0, 0.0, DMB_CHANNEL_BIT_SPEED),
-                    channel_at(r.string, 2, 0.5, DMB_CHANNEL_SECTION_STRAIN),
-                    output_at(DMB_OUTPUT_VELOCITY, dmb_station(r.string, 5, 1.0), DMB_X),
-                    output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(r.string, 3, 1.0), DMB_RX),
-                    output_at(DMB_OUTPUT_CONTACT, none, DMB_X),
-                    output_at(DMB_OUTPUT_DRIVE, dmb_station(moved ? r.turn : r.feed, 0, 0.0), DMB_X),
-                    channel_at(r.string, 0, 0.0, DMB_CHANNEL_HOOK_LOAD),
-                    output_at(DMB_OUTPUT_DRIVE, dmb_station(moved ? r.feed : r.turn, 0, 0.0), DMB_X),
-                    output_at(DMB_OUTPUT_REACTION, dmb_station(r.string, 0, 0.0), DMB_RX)};
+                const dmb_response_output outputs[9] = {
+                    reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED),
+                    reading_at(r.string, 2, 0.5, DMB_OUTPUT_SECTION_STRAIN),
+                    output_at(DMB_RESPONSE_VELOCITY, dmb_station(r.string, 5, 1.0), DMB_X),
+                    output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 3, 1.0), DMB_RX),
+                    output_at(DMB_RESPONSE_CONTACT, none, DMB_X),
+                    output_at(DMB_RESPONSE_DRIVE, dmb_station(moved ? r.turn : r.feed, 0, 0.0), DMB_X),
+                    reading_at(r.string, 0, 0.0, DMB_OUTPUT_HOOK_LOAD),
+                    output_at(DMB_RESPONSE_DRIVE, dmb_station(moved ? r.feed : r.turn, 0, 0.0), DMB_X),
+                    output_at(DMB_RESPONSE_REACTION, dmb_station(r.string, 0, 0.0), DMB_RX)};
                 options.motion = motion;
                 const uint32_t count = motion == DMB_MOTION_SPEED ? 6 : 9;
                 model m = space_of(&r.s, &options, inputs, 4, outputs, count);
@@ -238,7 +240,7 @@ static void transfer_of_a_string(void **state)
                             }
                             check_below("acceleration of a drive: against the response", worst, 1e-6);
                         }
-                dmb_input forces[4];
+                dmb_excitation forces[4];
                 model n;
                 memcpy(forces, inputs, sizeof forces);
                 forces[moved ? 0 : 1] = inputs[2];
@@ -263,11 +265,11 @@ static void transfer_of_a_crowded_string(void **state)
     add_crowded_string(&s, &c);
     rig_start(&s, NULL);
     find_equilibrium(&s, NULL);
-    const dmb_input inputs[2] = {input_of(DMB_INPUT_DRIVE, c.drive, DMB_X),
-                                 force_at(dmb_station(c.string, 1, 0.35), DMB_Z)};
-    const dmb_output outputs[3] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(c.string, 2, 0.5), DMB_Z),
-                                   output_at(DMB_OUTPUT_VELOCITY, dmb_station(c.string, 1, 0.35), DMB_RX),
-                                   channel_at(c.string, 3, 0.2, DMB_CHANNEL_TORQUE)};
+    const dmb_excitation inputs[2] = {input_of(DMB_EXCITATION_DRIVE, c.drive, DMB_X),
+                                      force_at(dmb_station(c.string, 1, 0.35), DMB_Z)};
+    const dmb_response_output outputs[3] = {output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(c.string, 2, 0.5), DMB_Z),
+                                            output_at(DMB_RESPONSE_VELOCITY, dmb_station(c.string, 1, 0.35), DMB_RX),
+                                            reading_at(c.string, 3, 0.2, DMB_OUTPUT_TORQUE)};
     model m = space_of(&s, NULL, inputs, 2, outputs, 3);
     check_below("a crowded string: against the frequency response",
                 against_response(&s, &m, NULL, inputs, outputs, frequencies, 5), 1e-9);
@@ -280,8 +282,8 @@ static void rate_is_refused(void **state)
 {
     (void)state;
     string_rig r = open_string(DMB_PIPE_FLEXIBLE, 1, 3, 0.0);
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, r.feed, DMB_X);
-    const dmb_output output = output_at(DMB_OUTPUT_DRIVE, dmb_station(r.feed, 0, 0.0), DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X);
+    const dmb_response_output output = output_at(DMB_RESPONSE_DRIVE, dmb_station(r.feed, 0, 0.0), DMB_X);
     dmb_state_space *space = NULL;
     assert_int_equal(dmb_analysis_state_space(r.s.sim, NULL, &input, 1, &output, 1, &space), DMB_ERR_UNSUPPORTED);
     assert_null(space);
@@ -354,10 +356,10 @@ static void gyroscopic(void **state)
     add_joint(&s, &joint);
     rig_start(&s, NULL);
     const dmb_place centre = dmb_station(id, 0, 0.0);
-    dmb_input inputs[2] = {force_at(centre, DMB_Y), force_at(centre, DMB_RY)};
-    dmb_output outputs[3] = {output_at(DMB_OUTPUT_DISPLACEMENT, centre, DMB_Y),
-                             output_at(DMB_OUTPUT_VELOCITY, centre, DMB_RZ),
-                             output_at(DMB_OUTPUT_ACCELERATION, centre, DMB_Z)};
+    dmb_excitation inputs[2] = {force_at(centre, DMB_Y), force_at(centre, DMB_RY)};
+    dmb_response_output outputs[3] = {output_at(DMB_RESPONSE_DISPLACEMENT, centre, DMB_Y),
+                                      output_at(DMB_RESPONSE_VELOCITY, centre, DMB_RZ),
+                                      output_at(DMB_RESPONSE_ACCELERATION, centre, DMB_Z)};
     for (int i = 0; i < 2; i++) inputs[i].frame = DMB_FRAME_BODY;
     for (int i = 0; i < 3; i++) outputs[i].frame = DMB_FRAME_BODY;
     model m = space_of(&s, NULL, inputs, 2, outputs, 3);
@@ -409,7 +411,7 @@ static jointed open_jointed(int32_t drive_kind)
     drive.component = DMB_RX;
     drive.gain = 200.0;
     drive.integral_gain = 3e4;
-    drive.programme = add_constant(&r.s, 0.0);
+    drive.time_function = add_constant(&r.s, 0.0);
     r.drive = add_drive(&r.s, &drive);
     rig_start(&r.s, NULL);
     return r;
@@ -424,14 +426,15 @@ static void joints(void **state)
             rig_close(&r.s);
             continue; /* nothing would hold it */
         }
-        const dmb_input inputs[2] = {force_at(dmb_station(r.string, 0, 0.5), DMB_Z),
-                                     input_of(DMB_INPUT_DRIVE, r.drive, DMB_X)};
-        const dmb_output outputs[6] = {output_at(DMB_OUTPUT_JOINT_SPEED, dmb_station(r.slider, 0, 0.0), DMB_X),
-                                       output_at(DMB_OUTPUT_JOINT_POSITION, dmb_station(r.hinge, 0, 0.0), DMB_RX),
-                                       output_at(DMB_OUTPUT_JOINT_ACTION, dmb_station(r.slider, 0, 0.0), DMB_X),
-                                       output_at(DMB_OUTPUT_JOINT_REACTION, dmb_station(r.hinge, 0, 0.0), DMB_Z),
-                                       output_at(DMB_OUTPUT_MULTIPLIER, dmb_station(r.slider, 0, 0.0), 1),
-                                       output_at(DMB_OUTPUT_DRIVE, dmb_station(r.drive, 0, 0.0), DMB_X)};
+        const dmb_excitation inputs[2] = {force_at(dmb_station(r.string, 0, 0.5), DMB_Z),
+                                          input_of(DMB_EXCITATION_DRIVE, r.drive, DMB_X)};
+        const dmb_response_output outputs[6] = {
+            output_at(DMB_RESPONSE_JOINT_SPEED, dmb_station(r.slider, 0, 0.0), DMB_X),
+            output_at(DMB_RESPONSE_JOINT_POSITION, dmb_station(r.hinge, 0, 0.0), DMB_RX),
+            output_at(DMB_RESPONSE_JOINT_ACTION, dmb_station(r.slider, 0, 0.0), DMB_X),
+            output_at(DMB_RESPONSE_JOINT_REACTION, dmb_station(r.hinge, 0, 0.0), DMB_Z),
+            output_at(DMB_RESPONSE_MULTIPLIER, dmb_station(r.slider, 0, 0.0), 1),
+            output_at(DMB_RESPONSE_DRIVE, dmb_station(r.drive, 0, 0.0), DMB_X)};
         model force = space_of(&r.s, NULL, inputs, 1, outputs, 6);
         check_below("joints: a force against the response",
                     against_response(&r.s, &force, NULL, inputs, outputs, frequencies, 5), 1e-6);
@@ -446,7 +449,7 @@ static void joints(void **state)
 }
 
 /* A body that slides by its free_mask and one that a joint lets slide: one transfer function. */
-static void joint_or_guide(void **state)
+static void joint_or_support(void **state)
 {
     (void)state;
     double complex values[2][5];
@@ -466,10 +469,10 @@ static void joint_or_guide(void **state)
         drive.kind = DMB_DRIVE_CONTROL;
         drive.gain = 60.0;
         drive.integral_gain = 5e3;
-        drive.programme = add_constant(&s, 0.0);
-        const dmb_input input = input_of(DMB_INPUT_DRIVE, add_drive(&s, &drive), DMB_X);
+        drive.time_function = add_constant(&s, 0.0);
+        const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, add_drive(&s, &drive), DMB_X);
         rig_start(&s, NULL);
-        const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(id, 0, 0.0), DMB_X);
+        const dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(id, 0, 0.0), DMB_X);
         model m = space_of(&s, NULL, &input, 1, &output, 1);
         assert_int_equal(m.info.states, 3);
         for (int p = 0; p < 5; p++) {
@@ -483,7 +486,7 @@ static void joint_or_guide(void **state)
         rig_close(&s);
     }
     for (int p = 0; p < 5; p++)
-        check_below("sliding by a joint or a guide", cabs(values[0][p] - values[1][p]) / cabs(values[0][p]), 1e-10);
+        check_below("sliding by a joint or a support", cabs(values[0][p] - values[1][p]) / cabs(values[0][p]), 1e-10);
 }
 
 /* ---- Reduced, and in time ---------------------------------------------------------------------------------------- */
@@ -526,11 +529,11 @@ static void in_time(void **state)
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_modes *modes = NULL;
-    const dmb_input input = input_of(DMB_INPUT_LOAD, still.load, DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_LOAD, still.load, DMB_X);
     for (int which = 0; which < 2; which++) {
-        const int32_t quantity = which ? DMB_CHANNEL_BIT_SPEED : DMB_CHANNEL_POSITION_X;
-        const dmb_output output = channel_at(still.string, which ? 0 : 11, which ? 0.0 : 1.0, quantity);
-        const dmb_channel channel = {dmb_station(run.string, which ? 0 : 11, which ? 0.0 : 1.0), quantity, 0};
+        const int32_t quantity = which ? DMB_OUTPUT_BIT_SPEED : DMB_OUTPUT_POSITION_X;
+        const dmb_response_output output = reading_at(still.string, which ? 0 : 11, which ? 0.0 : 1.0, quantity);
+        const dmb_output reading = {dmb_station(run.string, which ? 0 : 11, which ? 0.0 : 1.0), quantity, 0};
         double before, after;
         model full = space_of(&still.s, NULL, &input, 1, &output, 1);
         lowest.count = 10;
@@ -541,11 +544,11 @@ static void in_time(void **state)
         assert_int_equal(reduced.info.coordinates, 11);
         assert_int_equal(reduced.info.mode_shapes, 10);
         dmb_modes_destroy(&modes);
-        dmb_channel at_rest = channel;
+        dmb_output at_rest = reading;
         at_rest.place.part = still.string;
-        must(&still.s, dmb_query_channel(still.s.sim, &at_rest, &before));
+        must(&still.s, dmb_query_output(still.s.sim, &at_rest, &before));
         if (which == 0) take_steps(&run.s, 5e-5, (uint32_t)(end / 5e-5 + 0.5));
-        must(&run.s, dmb_query_channel(run.s.sim, &channel, &after));
+        must(&run.s, dmb_query_output(run.s.sim, &reading, &after));
         const double by_full = simulate(&full, rise, end, 500), by_reduced = simulate(&reduced, rise, end, 500);
         tell("change of the output", after - before);
         check_relative("    by all coordinates", by_full, after - before, 2e-3);
@@ -566,14 +569,15 @@ static void settings_are_their_parts(void **state)
     for (int moved = 0; moved < 2; moved++) {
         string_rig r = open_string_with(DMB_PIPE_FLEXIBLE, moved, 4, 0.0, 1);
         const dmb_id parts[4] = {r.feed, r.turn, r.load, r.bit};
-        const int32_t kinds[4] = {DMB_INPUT_DRIVE, DMB_INPUT_DRIVE, DMB_INPUT_LOAD, DMB_INPUT_BIT_LOAD};
+        const int32_t kinds[4] = {DMB_EXCITATION_DRIVE, DMB_EXCITATION_DRIVE, DMB_EXCITATION_LOAD,
+                                  DMB_EXCITATION_BIT_LOAD};
         dmb_state_space_options options = dmb_state_space_options_default();
-        dmb_input by_part[4], by_setting[4];
-        const dmb_output outputs[2] = {channel_at(r.string, 0, 0.0, DMB_CHANNEL_BIT_SPEED),
-                                       channel_at(r.string, 0, 0.0, DMB_CHANNEL_WEIGHT_ON_BIT)};
+        dmb_excitation by_part[4], by_setting[4];
+        const dmb_response_output outputs[2] = {reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED),
+                                                reading_at(r.string, 0, 0.0, DMB_OUTPUT_WEIGHT_ON_BIT)};
         for (int i = 0; i < 4; i++) {
             by_part[i] = input_of(kinds[i], parts[i], DMB_X);
-            by_setting[i] = input_of(DMB_INPUT_SETTING, r.setting[i], DMB_X);
+            by_setting[i] = input_of(DMB_EXCITATION_SETTING, r.setting[i], DMB_X);
         }
         options.motion = DMB_MOTION_ACCELERATION;
         model a = space_of(&r.s, &options, by_part, 4, outputs, 2),
@@ -593,7 +597,7 @@ static void settings_are_their_parts(void **state)
     }
 }
 
-/* A small step of one input in a run against the state space: the far end, and the bit load's own channel. */
+/* A small step of one input in a run against the state space: the far end, and the bit load's own output. */
 static void step_of_a_setting(void **state)
 {
     (void)state;
@@ -602,17 +606,17 @@ static void step_of_a_setting(void **state)
     for (int i = 0; i < 4; i++) {
         const int moved = i == 1;
         string_rig r = open_string_with(DMB_PIPE_AXIAL_TORSIONAL, moved, 12, 0.0, 1);
-        const int32_t quantity = i == 1 ? DMB_CHANNEL_ROTATION : DMB_CHANNEL_POSITION_X;
+        const int32_t quantity = i == 1 ? DMB_OUTPUT_ROTATION : DMB_OUTPUT_POSITION_X;
         const uint32_t pipe = i < 2 ? 2 : 11; /* drives push the rig end, the others the far end */
-        const dmb_input input = input_of(DMB_INPUT_SETTING, r.setting[i], DMB_X);
-        const dmb_output output = channel_at(r.string, pipe, 1.0, quantity);
-        const dmb_channel channel = {output.place, quantity, 0};
+        const dmb_excitation input = input_of(DMB_EXCITATION_SETTING, r.setting[i], DMB_X);
+        const dmb_response_output output = reading_at(r.string, pipe, 1.0, quantity);
+        const dmb_output reading = {output.place, quantity, 0};
         double before, after;
         model m = space_of(&r.s, NULL, &input, 1, &output, 1);
-        must(&r.s, dmb_query_channel(r.s.sim, &channel, &before));
+        must(&r.s, dmb_query_output(r.s.sim, &reading, &before));
         must(&r.s, dmb_sim_set_input(r.s.sim, r.setting[i], steps[i]));
         take_steps(&r.s, 2.5e-5, (uint32_t)(end / 2.5e-5 + 0.5));
-        must(&r.s, dmb_query_channel(r.s.sim, &channel, &after));
+        must(&r.s, dmb_query_output(r.s.sim, &reading, &after));
         tell("change of the output", after - before);
         check_relative("    by the state space", steps[i] * simulate(&m, 0.0, end, 500), after - before, 1e-5);
         discard(&m);
@@ -643,14 +647,14 @@ static void step_of_a_load_drive(void **state)
     strcpy(def.name, "torque");
     must_model(&s, dmb_model_add_input(s.model, &def, &input));
     rig_start(&s, NULL);
-    const dmb_input asked = input_of(DMB_INPUT_SETTING, input, DMB_X);
-    const dmb_output output = channel_at(hinge, 0, 0.0, DMB_CHANNEL_JOINT_POSITION + DMB_RX);
-    const dmb_channel channel = {output.place, output.component, 0};
+    const dmb_excitation asked = input_of(DMB_EXCITATION_SETTING, input, DMB_X);
+    const dmb_response_output output = reading_at(hinge, 0, 0.0, DMB_OUTPUT_JOINT_POSITION + DMB_RX);
+    const dmb_output reading = {output.place, output.component, 0};
     model m = space_of(&s, NULL, &asked, 1, &output, 1);
-    must(&s, dmb_query_channel(s.sim, &channel, &before));
+    must(&s, dmb_query_output(s.sim, &reading, &before));
     must(&s, dmb_sim_set_input(s.sim, input, u));
     take_steps(&s, 1e-3, 700);
-    must(&s, dmb_query_channel(s.sim, &channel, &after));
+    must(&s, dmb_query_output(s.sim, &reading, &after));
     const double d = c / (2.0 * I), w = sqrt(k / I - d * d);
     const double want = u / k * (1.0 - exp(-d * end) * (cos(w * end) + d / w * sin(w * end)));
     check_relative("a load drive: the state space in steps", u * simulate(&m, 0.0, end, 2000), want, 1e-5);
@@ -659,22 +663,22 @@ static void step_of_a_load_drive(void **state)
     rig_close(&s);
 }
 
-static void refused(const rig *s, const dmb_state_space_options *o, const dmb_input *input, const dmb_output *output,
-                    int32_t status, const char *says);
+static void refused(const rig *s, const dmb_state_space_options *o, const dmb_excitation *input,
+                    const dmb_response_output *output, int32_t status, const char *says);
 
 static void settings_refused(void **state)
 {
     (void)state;
     string_rig r = open_string_with(DMB_PIPE_FLEXIBLE, 0, 3, 0.0, 1);
-    const dmb_output output = channel_at(r.string, 0, 0.0, DMB_CHANNEL_BIT_SPEED);
-    dmb_input input = input_of(DMB_INPUT_SETTING, r.setting[4], DMB_X);
+    const dmb_response_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_BIT_SPEED);
+    dmb_excitation input = input_of(DMB_EXCITATION_SETTING, r.setting[4], DMB_X);
     refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "input \"friction\" has target 7");
     input.place.part = r.feed;
     refused(&r.s, NULL, &input, &output, DMB_ERR_ID, "names no input of control.h");
     input.place.part = r.setting[1];
     must(&r.s, dmb_sim_set_input(r.s.sim, r.setting[1], 1e-6));
     refused(&r.s, NULL, &input, &output, DMB_ERR_VALUE, "on its way");
-    input.kind = DMB_INPUT_SETTING + 1;
+    input.kind = DMB_EXCITATION_SETTING + 1;
     refused(&r.s, NULL, &input, &output, DMB_ERR_VALUE, "kind");
     rig_close(&r.s);
 }
@@ -688,10 +692,11 @@ static void static_correction(void **state)
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_modes *modes = NULL;
     const int32_t chosen[3] = {0, 2, 3};
-    const dmb_input inputs[2] = {force_at(dmb_station(r.string, 5, 1.0), DMB_X),
-                                 input_of(DMB_INPUT_DRIVE, r.turn, DMB_X)};
-    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_X),
-                                   output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_RX)};
+    const dmb_excitation inputs[2] = {force_at(dmb_station(r.string, 5, 1.0), DMB_X),
+                                      input_of(DMB_EXCITATION_DRIVE, r.turn, DMB_X)};
+    const dmb_response_output outputs[2] = {
+        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_X),
+        output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 4, 0.5), DMB_RX)};
     const double slow = 1e-3;
     double off[2];
     lowest.count = 4;
@@ -764,7 +769,7 @@ static void shapes_of_the_coordinates(void **state)
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_state_space_options options = dmb_state_space_options_default();
     dmb_modes *modes = NULL;
-    const dmb_input input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
+    const dmb_excitation input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
     lowest.count = 4;
     must(&r.s, dmb_analysis_modes(r.s.sim, &lowest, &modes));
     for (int reduced = 0; reduced < 2; reduced++) {
@@ -809,7 +814,7 @@ static void numbers_of_matrices_and_handles(void **state)
 {
     (void)state;
     string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
-    const dmb_input input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
+    const dmb_excitation input = force_at(dmb_station(r.string, 2, 1.0), DMB_X);
     dmb_sim *none = (dmb_sim *)(void *)r.s.model;
     dmb_state_space *space = NULL;
     double values[24] = {7.0};
@@ -952,9 +957,9 @@ static void nothing_free(void **state)
     const dmb_id id = add_body(&s, &body);
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_X, add_constant(&s, 0.0));
     rig_start(&s, NULL);
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
-    const dmb_output speed = output_at(DMB_OUTPUT_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
-    const dmb_output force = output_at(DMB_OUTPUT_DRIVE, dmb_station(drive, 0, 0.0), DMB_X);
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, drive, DMB_X);
+    const dmb_response_output speed = output_at(DMB_RESPONSE_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
+    const dmb_response_output force = output_at(DMB_RESPONSE_DRIVE, dmb_station(drive, 0, 0.0), DMB_X);
     model m = space_of(&s, NULL, &input, 1, &speed, 1);
     assert_true(m.info.states == 1 && m.info.coordinates == 0);
     assert_true(m.A[0] == 0.0 && m.B[0] == 1.0 && m.C[0] == 0.0 && m.D[0] == 1.0);
@@ -976,9 +981,9 @@ static void memory_runs_out(void **state)
     scarce memory = {0, 0, 0};
     const dmb_allocator allocator = scarce_allocator(&memory);
     dmb_sim *sim = NULL;
-    const dmb_input input = input_of(DMB_INPUT_DRIVE, r.feed, DMB_X);
-    const dmb_output output = channel_at(r.string, 0, 0.0, DMB_CHANNEL_HOOK_LOAD);
-    const dmb_channel channel = {dmb_station(r.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD, 0};
+    const dmb_excitation input = input_of(DMB_EXCITATION_DRIVE, r.feed, DMB_X);
+    const dmb_response_output output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_HOOK_LOAD);
+    const dmb_output reading = {dmb_station(r.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD, 0};
     options.allocator = &allocator;
     must_model(&r.s, dmb_sim_create(r.s.model, &options, &sim));
     assert_true(dmb_analysis_static(sim, NULL, NULL) >= 0);
@@ -989,7 +994,7 @@ static void memory_runs_out(void **state)
             dmb_window *watched = NULL;
             memory.calls = 0;
             memory.refused = k;
-            const int32_t status = window ? dmb_window_create(sim, NULL, &channel, 1, &watched)
+            const int32_t status = window ? dmb_window_create(sim, NULL, &reading, 1, &watched)
                                           : dmb_analysis_state_space(sim, NULL, &input, 1, &output, 1, &found);
             const size_t calls = memory.calls;
             memory.refused = 0;
@@ -1011,8 +1016,8 @@ static void memory_runs_out(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
-static void refused(const rig *s, const dmb_state_space_options *o, const dmb_input *input, const dmb_output *output,
-                    int32_t status, const char *says)
+static void refused(const rig *s, const dmb_state_space_options *o, const dmb_excitation *input,
+                    const dmb_response_output *output, int32_t status, const char *says)
 {
     dmb_state_space *space = (dmb_state_space *)(uintptr_t)8;
     const uint64_t before = rig_hash(s);
@@ -1027,14 +1032,14 @@ static void refusals(void **state)
     (void)state;
     string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
     dmb_state_space_options o = dmb_state_space_options_default();
-    dmb_input input = force_at(dmb_station(r.string, 1, 0.5), DMB_X);
-    dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(r.string, 1, 0.5), DMB_X);
+    dmb_excitation input = force_at(dmb_station(r.string, 1, 0.5), DMB_X);
+    dmb_response_output output = output_at(DMB_RESPONSE_DISPLACEMENT, dmb_station(r.string, 1, 0.5), DMB_X);
     dmb_modes_options lowest = dmb_modes_options_default();
     dmb_modes *modes = NULL, *other = NULL;
     o.form = 3;
     refused(&r.s, &o, NULL, NULL, DMB_ERR_VALUE, "form = 3");
     o.form = DMB_STATE_MATRICES;
-    refused(&r.s, &o, &input, NULL, DMB_ERR_VALUE, "input_count = 1");
+    refused(&r.s, &o, &input, NULL, DMB_ERR_VALUE, "excitation_count = 1");
     o.form = DMB_STATE_REDUCED;
     refused(&r.s, &o, &input, &output, DMB_ERR_NULL, "modes = NULL");
     o.modes = (const dmb_modes *)(const void *)r.s.model;
@@ -1057,11 +1062,11 @@ static void refusals(void **state)
     o.shift = 0.0;
     o.equilibrium_tolerance = 0.0;
     refused(&r.s, &o, NULL, NULL, DMB_ERR_VALUE, "equilibrium_tolerance");
-    input.kind = DMB_INPUT_UNBALANCE;
+    input.kind = DMB_EXCITATION_UNBALANCE;
     refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "square of its frequency");
-    input.kind = DMB_INPUT_FORCE;
-    output = channel_at(r.string, 0, 0.0, DMB_CHANNEL_STRETCH);
-    refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "channel stretch");
+    input.kind = DMB_EXCITATION_FORCE;
+    output = reading_at(r.string, 0, 0.0, DMB_OUTPUT_STRETCH);
+    refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "output stretch");
     take_steps(&foreign.s, 1e-3, 1);
     dmb_modes_destroy(&modes);
     dmb_modes_destroy(&other);
@@ -1073,7 +1078,7 @@ static void refusals(void **state)
     const dmb_id id = add_body(&free_, &body);
     rig_start(&free_, NULL);
     input = force_at(dmb_station(id, 0, 0.0), DMB_X);
-    output = output_at(DMB_OUTPUT_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
+    output = output_at(DMB_RESPONSE_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
     lowest.count = 6;
     must(&free_, dmb_analysis_modes(free_.sim, &lowest, &modes));
     o = dmb_state_space_options_default();
@@ -1101,7 +1106,7 @@ int main(void)
         cmocka_unit_test(roots_are_modes),
         cmocka_unit_test(gyroscopic),
         cmocka_unit_test(joints),
-        cmocka_unit_test(joint_or_guide),
+        cmocka_unit_test(joint_or_support),
         cmocka_unit_test(in_time),
         cmocka_unit_test(settings_are_their_parts),
         cmocka_unit_test(step_of_a_setting),

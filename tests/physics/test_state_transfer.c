@@ -29,13 +29,13 @@ typedef struct scene {
 
 static void add_pulse(scene *s)
 {
-    dmb_term rise = dmb_term_default(), fall = dmb_term_default();
+    dmb_segment rise = dmb_segment_default(), fall = dmb_segment_default();
     dmb_load_def load = dmb_load_def_default();
-    rise.kind = fall.kind = DMB_TERM_STEP;
+    rise.kind = fall.kind = DMB_SEGMENT_STEP;
     rise.x1 = 0.05, rise.h1 = 1.0;
     fall.x0 = 0.05, fall.x1 = 0.1, fall.h1 = -1.0;
-    const dmb_term terms[2] = {rise, fall};
-    load.programme = add_programme(&s->r, terms, 2);
+    const dmb_segment terms[2] = {rise, fall};
+    load.time_function = add_time_function(&s->r, terms, 2);
     load.place = dmb_station(s->string, 0, 1.0);
     load.frame = DMB_FRAME_BODY;
     load.force[1] = 400.0, load.force[2] = -200.0, load.moment[0] = 60.0;
@@ -80,15 +80,15 @@ static scene flight_of(const choice *c)
 static dmb_id add_stop_and_go(rig *r, double speed)
 {
     static const double time[3] = {0.0, 0.3, 0.4};
-    dmb_term terms[3];
+    dmb_segment terms[3];
     for (int i = 0; i < 3; i++) {
-        terms[i] = dmb_term_default();
-        terms[i].kind = DMB_TERM_STEP;
+        terms[i] = dmb_segment_default();
+        terms[i].kind = DMB_SEGMENT_STEP;
         terms[i].x0 = time[i];
         terms[i].x1 = time[i] + 0.05;
         terms[i].h1 = i == 1 ? -speed : speed;
     }
-    return add_programme(r, terms, 3);
+    return add_time_function(r, terms, 3);
 }
 
 static void add_hole(scene *s, const choice *c)
@@ -374,11 +374,11 @@ static void check_contacts(const scene *a, const scene *b)
     double worst = 0.0;
     must_model(&a->r, dmb_model_get_info(a->r.model, &x));
     must_model(&b->r, dmb_model_get_info(b->r.model, &y));
-    const uint32_t common = x.contact_sites < y.contact_sites ? x.contact_sites : y.contact_sites;
+    const uint32_t common = x.contact_points < y.contact_points ? x.contact_points : y.contact_points;
     for (uint32_t k = 1; k <= common; k++) {
         dmb_contact p = dmb_contact_default(), q = dmb_contact_default();
-        must(&a->r, dmb_query_contact(a->r.sim, x.contact_sites - k, &p));
-        must(&b->r, dmb_query_contact(b->r.sim, y.contact_sites - k, &q));
+        must(&a->r, dmb_query_contact(a->r.sim, x.contact_points - k, &p));
+        must(&b->r, dmb_query_contact(b->r.sim, y.contact_points - k, &q));
         if (p.length != q.length) continue; /* the end of the string, where it was or is */
         worst = fmax(worst, fabs(p.normal_force - q.normal_force));
         worst = fmax(worst, largest_difference(2, p.friction, q.friction));
@@ -401,7 +401,7 @@ static void drill_on(choice c, double time, uint32_t pipes, double frames)
     c.pipes = pipes;
     b = rig_of(&c);
     const int32_t status = go_over(&b, &a);
-    if (pipes > before) { /* else the guide stops what swings at the new rig end */
+    if (pipes > before) { /* else the support stops what swings at the new rig end */
         assert_int_equal(status, DMB_OK);
         check_below("speeds too", apart(&a, before, &b, pipes), 1e-12 + frames);
     }
@@ -411,7 +411,7 @@ static void drill_on(choice c, double time, uint32_t pipes, double frames)
     const dmb_energy x = energy_of(&a.r), y = energy_of(&b.r);
     check_ledger(&x, &y);
     const double depth = depth_of(&b), turn = rotation_at(&b.r, dmb_station(b.string, pipes - 1, 1.0));
-    must(&b.r, dmb_sim_step(b.r.sim, 1e-4, NULL)); /* short: what the guide held springs free */
+    must(&b.r, dmb_sim_step(b.r.sim, 1e-4, NULL)); /* short: what the support held springs free */
     check_below("no jump of the bit", fabs(depth_of(&b) - depth), 1e-4);
     check_below("no jump of its turn", fabs(rotation_at(&b.r, dmb_station(b.string, pipes - 1, 1.0)) - turn), 0.05);
     for (int i = 0; i < 199; i++) must(&b.r, dmb_sim_step(b.r.sim, 1e-4, NULL));
@@ -533,11 +533,11 @@ static scene mixed_of(const char *kinds, int32_t start_free)
 static void rigid_pipes_merge(void **state)
 {
     static const char *const to[] = {"RRFR", "FRFR", "RFRFR", "FR", "RRRRFR"};
-    static const int32_t guide[] = {DMB_FREE_ALL, DMB_FREE_CYLINDRICAL, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z};
+    static const int32_t support[] = {DMB_FREE_ALL, DMB_FREE_CYLINDRICAL, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z};
     (void)state;
     for (int k = 0; k < 15; k++) {
         const char *kinds = to[k % 5];
-        scene a = mixed_of("RFR", guide[k / 5]), b = mixed_of(kinds, guide[k / 5]), back;
+        scene a = mixed_of("RFR", support[k / 5]), b = mixed_of(kinds, support[k / 5]), back;
         take_steps(&a.r, 1e-3, 20);
         (void)go_over(&b, &a);
         const uint32_t n = (uint32_t)strlen(kinds);
@@ -545,7 +545,7 @@ static void rigid_pipes_merge(void **state)
         const dmb_energy x = energy_of(&a.r), y = energy_of(&b.r);
         check_ledger(&x, &y);
         take_steps(&b.r, 1e-3, 20);
-        back = mixed_of("RFR", guide[k / 5]);
+        back = mixed_of("RFR", support[k / 5]);
         (void)go_over(&back, &b);
         if (n > 3 && k < 5) check_below("back", apart(&back, 3, &b, n), 1e-12);
         take_steps(&back.r, 1e-3, 2);
@@ -624,7 +624,7 @@ static scene head_of(uint32_t pipes, double retract)
     dmb_joint_def joint = dmb_joint_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_term back = dmb_term_default();
+    dmb_segment back = dmb_segment_default();
     memset(&s, 0, sizeof s);
     rig_open(&s.r, 0.0, 0.0, 0.0);
     s.string = add_string(&s.r, &string);
@@ -635,12 +635,12 @@ static scene head_of(uint32_t pipes, double retract)
     joint.place_a = dmb_station(s.head, 0, 0.0);
     joint.place_b = dmb_station(s.string, 0, 0.0);
     must_model(&s.r, dmb_model_add_joint(s.r.model, &joint, &s.joint));
-    back.kind = DMB_TERM_STEP;
+    back.kind = DMB_SEGMENT_STEP;
     back.x0 = 0.1, back.x1 = 0.2, back.h1 = -retract / 0.1 / 0.5;
-    dmb_term stop = back;
+    dmb_segment stop = back;
     stop.x0 = 0.2, stop.x1 = 0.3, stop.h1 = -back.h1;
-    const dmb_term terms[2] = {back, stop};
-    s.feed = add_simple_drive(&s.r, DMB_DRIVE_MOTION, s.head, DMB_X, add_programme(&s.r, terms, 2));
+    const dmb_segment terms[2] = {back, stop};
+    s.feed = add_simple_drive(&s.r, DMB_DRIVE_MOTION, s.head, DMB_X, add_time_function(&s.r, terms, 2));
     (void)rig_start(&s.r, NULL);
     return s;
 }

@@ -28,7 +28,7 @@ static void add_one(scene *s, int i, uint32_t pipes, double depth)
 {
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_body_def body = dmb_body_def_default();
     string.start_free = DMB_FREE_ALL;
     string.start_depth = depth;
@@ -43,7 +43,7 @@ static void add_one(scene *s, int i, uint32_t pipes, double depth)
     ring.string = s->string[i];
     ring.pipe = pipes - 1;
     ring.outer_diameter = 0.092;
-    must_model(&s->r, dmb_model_add_ring(s->r.model, &ring, &s->ring[i]));
+    must_model(&s->r, dmb_model_add_stabiliser(s->r.model, &ring, &s->ring[i]));
     body.string = s->string[i];
     body.attach = i ? DMB_ATTACH_START : DMB_ATTACH_END;
     body.mass = 2.0;
@@ -109,7 +109,7 @@ static uint32_t sites_of(const scene *s)
 {
     dmb_model_info info = dmb_model_info_default();
     must_model(&s->r, dmb_model_get_info(s->r.model, &info));
-    return info.contact_sites;
+    return info.contact_points;
 }
 
 static void check_contacts(const scene *from, const scene *to, uint32_t added)

@@ -156,7 +156,7 @@ static void add_bent_string(uint64_t *seed, rig *s, bent *b)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     const double bend = b->hole ? 0.02 : 0.3;
     wall.diameter = draw_whole(seed, 2) ? 0.094 : 0.2;
     if (b->hole) (void)add_wall(s, &wall);
@@ -167,7 +167,7 @@ static void add_bent_string(uint64_t *seed, rig *s, bent *b)
     (void)add_pipes(s, &pipe, b->pipes);
     ring.string = b->string, ring.pipe = draw_whole(seed, b->pipes), ring.outer_diameter = 0.09;
     ring.mass = draw_whole(seed, 2) ? 20.0 : 0.0;
-    must_model(s, dmb_model_add_ring(s->model, &ring, NULL));
+    must_model(s, dmb_model_add_stabiliser(s->model, &ring, NULL));
 }
 
 static void add_hanging_body(uint64_t *seed, rig *s, const bent *b)

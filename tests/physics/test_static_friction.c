@@ -1,6 +1,6 @@
 /* Contact queries after a static start that slips, against Newton's law of the whole: friction, normal forces, weight
- * and the force at the far end balance what the guide and the drive hold, in every law and direction, after a snapshot
- * too; a step in time takes it away again. */
+ * and the force at the far end balance what the support and the drive hold, in every law and direction, after a
+ * snapshot too; a step in time takes it away again. */
 #include <stdlib.h>
 
 #include "rig.h"
@@ -155,7 +155,7 @@ static void check_sum_query(const scene *s, const totals *sum)
     for (int k = 0; k < 2; k++) check_close("sum of friction", told.friction[k], sum->friction[k], 1e-9 * sum->normal);
 }
 
-/* Of the whole: the guide's reaction and the drive's force, in the axes of the rig end, with all others. */
+/* Of the whole: the support's reaction and the drive's force, in the axes of the rig end, with all others. */
 static void check_balance(const scene *s, const totals *sum)
 {
     const double weight = PIPES * 1.5 * s1_values().weight, *end = s->choice->end;

@@ -37,7 +37,7 @@ static void rest(double inclination, double stiffness)
     tell("iterations", report.iterations);
     check_below("relative residual", report.residual, 1e-8);
     must(dmb_query_reaction(sim, pipe.string, reaction), "reaction");
-    check_relative("wall and guide over the weight across", sum.normal_force + reaction[DMB_Z],
+    check_relative("wall and support over the weight across", sum.normal_force + reaction[DMB_Z],
                    info.mass * 9.81 * cos(inclination), 1e-5);
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);

@@ -47,7 +47,7 @@ static void slack_strings_hang(void **state)
 }
 
 /* A body that may turn about x alone, its centre 1 m off the axis, from up to 160 degrees: it hangs. */
-static void guided_body_hangs(void **state)
+static void supportd_body_hangs(void **state)
 {
     (void)state;
     for (int degrees = -160; degrees <= 160; degrees++) {
@@ -71,7 +71,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slack_strings_hang),
-        cmocka_unit_test(guided_body_hangs),
+        cmocka_unit_test(supportd_body_hangs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

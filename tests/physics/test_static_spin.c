@@ -85,7 +85,7 @@ static subject make(const scene_of *c)
     if (c->kind == CONTROL) {
         dmb_drive_def drive = dmb_drive_def_default();
         drive.kind = DMB_DRIVE_CONTROL, drive.part = made.string, drive.component = DMB_RX, drive.gain = 100.0;
-        drive.programme = add_constant(&s, c->torque / 100.0);
+        drive.time_function = add_constant(&s, c->torque / 100.0);
         (void)add_drive(&s, &drive);
     }
     (void)rig_start(&s, NULL);
@@ -198,21 +198,21 @@ static void runs_have_derivatives(void **state)
     dmb_sensitivity *sensitivity;
     parameter.step = step, parameter.low = side[0].s.sim, parameter.high = side[2].s.sim;
     const dmb_place end = dmb_station(side[1].string, c.pipes - 1, 1.0);
-    const dmb_channel channels[COUNT] = {{end, DMB_CHANNEL_DISPLACEMENT_X, 0},
-                                         {end, DMB_CHANNEL_DISPLACEMENT_Z, 0},
-                                         {dmb_station(side[1].string, 0, 0.0), DMB_CHANNEL_ROTATION, 0}};
+    const dmb_output outputs[COUNT] = {{end, DMB_OUTPUT_DISPLACEMENT_X, 0},
+                                       {end, DMB_OUTPUT_DISPLACEMENT_Z, 0},
+                                       {dmb_station(side[1].string, 0, 0.0), DMB_OUTPUT_ROTATION, 0}};
     must(&side[1].s, dmb_sensitivity_create(side[1].s.sim, &parameter, 1, &sensitivity));
     for (int i = 0; i < 10; i++) {
         must(&side[1].s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
         for (int k = 0; k < 3; k += 2) must(&side[k].s, dmb_sim_step(side[k].s.sim, 1e-3, NULL));
     }
-    must(&side[1].s, dmb_sensitivity_channels(sensitivity, channels, COUNT, NULL, rate));
+    must(&side[1].s, dmb_sensitivity_outputs(sensitivity, outputs, COUNT, NULL, rate));
     for (int k = 0; k < 3; k += 2) {
-        dmb_channel own[COUNT];
+        dmb_output own[COUNT];
         double row[COUNT + 1];
         dmb_recorder recorder = dmb_recorder_default();
-        for (int i = 0; i < COUNT; i++) own[i] = channels[i], own[i].place.part = side[k].string;
-        recorder.channels = own, recorder.channel_count = COUNT, recorder.table = row, recorder.capacity = 1;
+        for (int i = 0; i < COUNT; i++) own[i] = outputs[i], own[i].place.part = side[k].string;
+        recorder.outputs = own, recorder.output_count = COUNT, recorder.table = row, recorder.capacity = 1;
         must(&side[k].s, dmb_recorder_take(&recorder, side[k].s.sim));
         memcpy(value[k], row + 1, sizeof value[k]);
     }

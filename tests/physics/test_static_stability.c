@@ -34,16 +34,16 @@ static void add_moment(shaft *h, uint32_t end, int32_t frame, double moment)
 static void add_kick(shaft *h)
 {
     dmb_load_def load = dmb_load_def_default();
-    dmb_term on[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_segment on[2] = {dmb_segment_default(), dmb_segment_default()};
     for (int i = 0; i < 2; i++) {
-        on[i].kind = DMB_TERM_STEP;
+        on[i].kind = DMB_SEGMENT_STEP;
         on[i].x0 = 0.1 + 0.01 * i;
         on[i].x1 = 0.105 + 0.01 * i;
         on[i].h1 = i ? -1.0 : 1.0;
     }
     load.place = dmb_station(h->string, 0, 1.0);
     load.force[1] = 1e-6;
-    load.programme = add_programme(&h->s, on, 2);
+    load.time_function = add_time_function(&h->s, on, 2);
     h->kick = add_load(&h->s, &load);
 }
 
@@ -233,7 +233,7 @@ static void turning_about_the_load_is_neutral(void **state)
         dmb_pipe_def pipe = beam_pipe(LENGTH, 16, 1e6 * EI, 1e6 * EI, EI / 1.3, EI);
         dmb_load_def push = dmb_load_def_default();
         dmb_static_report report = dmb_static_report_default();
-        dmb_term aside = dmb_term_default();
+        dmb_segment aside = dmb_segment_default();
         rig_open(&s, 0.0, 0.0, 0.0);
         string.follows_hole = 0;
         string.start_free = jointed ? DMB_FREE_ALL : DMB_FREE_NONE;
@@ -243,10 +243,10 @@ static void turning_about_the_load_is_neutral(void **state)
         push.place = dmb_station(pipe.string, 0, 1.0);
         push.force[0] = -1.1 * PI * PI * EI / (4.0 * LENGTH * LENGTH);
         (void)add_load(&s, &push);
-        aside.kind = DMB_TERM_STEP;
+        aside.kind = DMB_SEGMENT_STEP;
         aside.h0 = 1.0;
         aside.x1 = 1e-6;
-        push.programme = add_programme(&s, &aside, 1);
+        push.time_function = add_time_function(&s, &aside, 1);
         push.force[0] = 0.0;
         push.force[1] = 0.6 * 500.0;
         push.force[2] = 0.8 * 500.0;
@@ -257,7 +257,7 @@ static void turning_about_the_load_is_neutral(void **state)
         const int32_t status = dmb_analysis_static(s.sim, NULL, &report);
         must(&s, status);
         const dmb_pose end = pose_at(&s, push.place);
-        print_message("    %s: end aside %.6f m, %d negative\n", jointed ? "on a joint" : "on a guide",
+        print_message("    %s: end aside %.6f m, %d negative\n", jointed ? "on a joint" : "on a support",
                       hypot(end.displacement[1], end.displacement[2]), report.negative);
         assert_true(hypot(end.displacement[1], end.displacement[2]) > 1.0);
         assert_int_equal(status, DMB_NOTE_INCOMPLETE);

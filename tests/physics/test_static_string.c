@@ -90,8 +90,8 @@ static void turning_axial_torsional_string(void **state)
     rig_close(&s);
 }
 
-/* A flexible string sags between pipe ends and hangs in its guide; wall and guide together carry the weight, and the
- * rig pushes with WOB + mu times what the wall carries. */
+/* A flexible string sags between pipe ends and hangs in its support; wall and support together carry the weight, and
+ * the rig pushes with WOB + mu times what the wall carries. */
 static void pushed_flexible_string(void **state)
 {
     (void)state;
@@ -104,9 +104,9 @@ static void pushed_flexible_string(void **state)
     rig_end_reaction(&s, string, reaction);
     const dmb_contact_total sum = contacts_of(&s);
     const dmb_pose tip = pose_at(&s, dmb_station(string, 99, 1.0));
-    check_relative("wall and guide carry the weight", sum.normal_force + reaction[2], weight, 1e-6);
+    check_relative("wall and support carry the weight", sum.normal_force + reaction[2], weight, 1e-6);
     check_relative("rig force", reaction[0], 2960.0 + 0.3 * sum.normal_force, 1e-9);
-    tell("    share of the guide [N]", reaction[2]);
+    tell("    share of the support [N]", reaction[2]);
     check_relative("compression against the stiff string", -tip.displacement[0], 2.40603599e-3, 0.01);
     check_below("iterations", report.iterations, 20.0);
     rig_close(&s);

@@ -411,7 +411,7 @@ static void decay_in_a_turning_run(void **state)
     load.place = dmb_station(b.string, 0, 1.0);
     load.frame = DMB_FRAME_BODY;
     load.force[2] = 1.0;
-    load.programme = add_callback(&b.rig, until_the_start, NULL);
+    load.time_function = add_callback(&b.rig, until_the_start, NULL);
     (void)add_load(&b.rig, &load);
     options.spectral_radius = 1.0;
     (void)rig_start(&b.rig, &options);

@@ -13,7 +13,7 @@ static const double length = 100.0, area = 1e-3, modulus = 2e11, density = 7800.
 /* A straight string along x without weight, free along and about its axis at the rig; loads there. */
 typedef struct stuck_rig {
     rig s;
-    dmb_id string, stuck, input, programme;
+    dmb_id string, stuck, input, time_function;
 } stuck_rig;
 
 static dmb_pipe_def pipe_of(int32_t kind, uint32_t elements)
@@ -33,16 +33,16 @@ static dmb_pipe_def pipe_of(int32_t kind, uint32_t elements)
 static void add_pull(stuck_rig *r, double force, double torque, double ramp)
 {
     dmb_load_def load = dmb_load_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     const double times[2] = {0.0, 1.0}, values[2] = {0.0, ramp};
     load.place = dmb_station(r->string, 0, 0.0);
     load.force[0] = -force;
     load.moment[0] = torque;
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = times;
     term.table_value = values;
     term.table_count = 2;
-    if (ramp > 0.0) must_model(&r->s, dmb_model_add_programme(r->s.model, &term, 1, &load.programme));
+    if (ramp > 0.0) must_model(&r->s, dmb_model_add_time_function(r->s.model, &term, 1, &load.time_function));
     must_model(&r->s, dmb_model_add_load(r->s.model, &load, NULL));
 }
 
@@ -74,11 +74,11 @@ static dmb_stuck_state state_of(const stuck_rig *r)
     return state;
 }
 
-static double channel(const stuck_rig *r, int32_t quantity, dmb_place place)
+static double output(const stuck_rig *r, int32_t quantity, dmb_place place)
 {
-    const dmb_channel c = {.place = place, .quantity = quantity};
+    const dmb_output c = {.place = place, .quantity = quantity};
     double value = 0.0;
-    must(&r->s, dmb_query_channel(r->s.sim, &c, &value));
+    must(&r->s, dmb_query_output(r->s.sim, &c, &value));
     return value;
 }
 
@@ -113,14 +113,14 @@ static void pull_and_twist(int32_t kind)
     (void)mechanism_start(&r.s, NULL);
     must(&r.s, dmb_analysis_static(r.s.sim, NULL, NULL));
     const dmb_stuck_state held = state_of(&r);
-    check_relative("stretch of the stuck string, F L/EA + F/k", -channel(&r, DMB_CHANNEL_DISPLACEMENT_X, top(&r)),
+    check_relative("stretch of the stuck string, F L/EA + F/k", -output(&r, DMB_OUTPUT_DISPLACEMENT_X, top(&r)),
                    force * length / (modulus * area) + force / def.stiffness[0], 1e-9);
-    check_relative("twist, T L/GJ + T/k", channel(&r, DMB_CHANNEL_ROTATION, top(&r)),
+    check_relative("twist, T L/GJ + T/k", output(&r, DMB_OUTPUT_ROTATION, top(&r)),
                    torque * length / gj + torque / def.stiffness[1], 1e-9);
     check_relative("force that holds it", held.force[0], force, 1e-9);
     check_relative("torque that holds it", held.force[3], -torque, 1e-9);
     check_relative("share of what frees it", held.share, fmax(force / def.overpull, torque / def.overtorque), 1e-9);
-    assert_true(channel(&r, DMB_CHANNEL_STUCK, dmb_station(r.stuck, 0, 0.0)) > 0.5);
+    assert_true(output(&r, DMB_OUTPUT_STUCK, dmb_station(r.stuck, 0, 0.0)) > 0.5);
     rig_close(&r.s);
 }
 
@@ -164,7 +164,7 @@ static ball fly(double step, int advance)
     dmb_stuck_def def = dmb_stuck_def_default();
     dmb_event_def event = dmb_event_def_default();
     dmb_event_report report = dmb_event_report_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_load_def load = dmb_load_def_default();
     const double times[2] = {0.0, 10.0}, values[2] = {0.0, 10.0 * rate};
     ball b;
@@ -176,16 +176,16 @@ static ball fly(double step, int advance)
     def.overpull = limit;
     must_model(&s, dmb_model_add_stuck(s.model, &def, &b.stuck));
     load.force[0] = 1.0;
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = times;
     term.table_value = values;
     term.table_count = 2;
-    must_model(&s, dmb_model_add_programme(s.model, &term, 1, &load.programme));
+    must_model(&s, dmb_model_add_time_function(s.model, &term, 1, &load.time_function));
     must_model(&s, dmb_model_add_load(s.model, &load, NULL));
     strcpy(event.name, "free");
     event.direction = DMB_EVENT_FALLING;
     event.level = 0.5;
-    event.output.quantity = DMB_CHANNEL_STUCK;
+    event.output.quantity = DMB_OUTPUT_STUCK;
     event.output.place = dmb_station(b.stuck, 0, 0.0);
     must_model(&s, dmb_model_add_event(s.model, &event, NULL));
     options.step_max = step;
@@ -230,7 +230,7 @@ static void it_lets_go_at_the_overpull(void **state)
     check_close("time of the release by an event [s]", told.release, t, 1e-7);
 }
 
-/* Held back to the rig by a guide, pulled to F at the far end's anchor and set free by the input: until the wave is
+/* Held back to the rig by a support, pulled to F at the far end's anchor and set free by the input: until the wave is
  * back, the far end moves at F/(A sqrt(E rho)). */
 static void a_wave_runs_up(void **state)
 {
@@ -243,14 +243,14 @@ static void a_wave_runs_up(void **state)
     add_pull(&r, force, 0.0, 0.0);
     (void)mechanism_start(&r.s, NULL);
     must(&r.s, dmb_analysis_static(r.s.sim, NULL, NULL));
-    const double before = channel(&r, DMB_CHANNEL_DISPLACEMENT_X, end(&r));
-    const double rest = channel(&r, DMB_CHANNEL_DISPLACEMENT_X, middle(&r));
+    const double before = output(&r, DMB_OUTPUT_DISPLACEMENT_X, end(&r));
+    const double rest = output(&r, DMB_OUTPUT_DISPLACEMENT_X, middle(&r));
     must(&r.s, dmb_sim_set_input(r.s.sim, r.input, 0.0));
     take_steps(&r.s, length / c / 640.0, 640);
     /* The load at the rig goes on pulling: the wave of free ends, v = -F c/(E A) behind it. */
-    const double moved = channel(&r, DMB_CHANNEL_DISPLACEMENT_X, end(&r)) - before;
+    const double moved = output(&r, DMB_OUTPUT_DISPLACEMENT_X, end(&r)) - before;
     check_relative("far end when the wave is at the rig, -F L/EA", moved, -force * length / (modulus * area), 2e-3);
-    check_relative("middle, which it passed half way", channel(&r, DMB_CHANNEL_DISPLACEMENT_X, middle(&r)) - rest,
+    check_relative("middle, which it passed half way", output(&r, DMB_OUTPUT_DISPLACEMENT_X, middle(&r)) - rest,
                    -0.5 * force * length / (modulus * area), 2e-3);
     e = energy_of(&r.s);
     check_below("energy balance over that of the wave", e.balance / e.kinetic, 1e-3);
@@ -377,7 +377,7 @@ static void one_that_is_free_is_not_there(void **state)
         add_pull(&r, 1e3, 50.0, 0.0);
         (void)mechanism_start(&r.s, NULL);
         take_steps(&r.s, 1e-3, 20);
-        position[with] = channel(&r, DMB_CHANNEL_DISPLACEMENT_X, end(&r));
+        position[with] = output(&r, DMB_OUTPUT_DISPLACEMENT_X, end(&r));
         rig_close(&r.s);
     }
     assert_memory_equal(position, position + 1, sizeof(double));
@@ -413,7 +413,7 @@ static void sensitivities_end_at_the_release(void **state)
     dmb_stuck_def def = dmb_stuck_def_default();
     dmb_parameter parameter = dmb_parameter_default();
     dmb_sensitivity *made = NULL;
-    dmb_channel channel = {.quantity = DMB_CHANNEL_DISPLACEMENT_X};
+    dmb_output output = {.quantity = DMB_OUTPUT_DISPLACEMENT_X};
     rig s[3];
     (void)state;
     for (int i = 0; i < 3; i++) { /* the sim, low, high: the pull at a body */
@@ -421,7 +421,7 @@ static void sensitivities_end_at_the_release(void **state)
         dmb_load_def load = dmb_load_def_default();
         rig_open(&s[i], 0.0, 0.0, 0.0);
         def.place = load.place = dmb_station(add_body(&s[i], &body), 0, 0.0);
-        if (i == 0) channel.place = def.place;
+        if (i == 0) output.place = def.place;
         def.stiffness[0] = spring;
         def.overpull = limit;
         must_model(&s[i], dmb_model_add_stuck(s[i].model, &def, NULL));
@@ -438,7 +438,7 @@ static void sensitivities_end_at_the_release(void **state)
     double position = 0.0, by_pull = 0.0;
     for (; steps < 1000 && status >= 0; steps++) {
         status = dmb_sensitivity_step(made, 1e-3, NULL);
-        if (steps == 40) must(&s[0], dmb_sensitivity_channels(made, &channel, 1, &position, &by_pull));
+        if (steps == 40) must(&s[0], dmb_sensitivity_outputs(made, &output, 1, &position, &by_pull));
     }
     assert_int_equal(status, DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_sim_message(s[0].sim), "lets go"));

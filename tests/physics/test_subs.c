@@ -242,9 +242,9 @@ static void by_its_mass(void **state)
     parameter.low = low.s.sim;
     parameter.high = high.s.sim;
     must(&r.s, dmb_sensitivity_create(r.s.sim, &parameter, 1, &sensitivity));
-    const dmb_channel channel = {dmb_station(r.second, PIPES - 1, 1.0), DMB_CHANNEL_POSITION_Z, 0};
+    const dmb_output output = {dmb_station(r.second, PIPES - 1, 1.0), DMB_OUTPUT_POSITION_Z, 0};
     for (int i = 0; i < STEPS; i++) must(&r.s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
-    must(&r.s, dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative));
+    must(&r.s, dmb_sensitivity_outputs(sensitivity, &output, 1, NULL, &derivative));
     for (int k = 0; k < 2; k++) {
         two_sections one = with_mass(mass + (k ? far : -far));
         take_steps(&one.s, 1e-3, STEPS);

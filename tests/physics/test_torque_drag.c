@@ -166,7 +166,7 @@ static void against_statics(void **state)
 }
 
 /* Stiff string of the same scene: bending hardly matters in the wide arc, and does in the narrow
- * one, where the guide at the rig end and stiff ends carry a part of what the soft string lays on the wall. */
+ * one, where the support at the rig end and stiff ends carry a part of what the soft string lays on the wall. */
 static double stiff_over_soft(double turn)
 {
     const double survey[6] = {0.0, 1.2, 0.0, 100.0, 1.2 + turn, 0.0};
@@ -476,7 +476,7 @@ static void tools_at_the_far_end(void **state)
         scene s = describe(10, down[0], 2);
         dmb_body_def tool = dmb_body_def_default();
         dmb_bit_def bit = dmb_bit_def_default();
-        dmb_ring_def ring = dmb_ring_def_default();
+        dmb_stabiliser_def ring = dmb_stabiliser_def_default();
         dmb_string_def other = dmb_string_def_default();
         dmb_pipe_def pipe = dmb_pipe_def_default();
         s.environment.fluid_density = density;
@@ -495,7 +495,7 @@ static void tools_at_the_far_end(void **state)
             must(dmb_model_add_string(s.model, &other, &pipe.string), dmb_model_message(s.model));
             must(dmb_model_add_pipes(s.model, &pipe, 3, NULL), dmb_model_message(s.model));
             ring.string = pipe.string;
-            must(dmb_model_add_ring(s.model, &ring, NULL), dmb_model_message(s.model));
+            must(dmb_model_add_stabiliser(s.model, &ring, NULL), dmb_model_message(s.model));
         }
         finish_scene(&s);
         hook[k] = row_of(&s, DMB_OPERATION_PICK_UP).hook_load;

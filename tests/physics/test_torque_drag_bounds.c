@@ -126,7 +126,7 @@ static void add_other(const scene *s)
 {
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_bit_def reamer = dmb_bit_def_default();
     dmb_stuck_def stuck = dmb_stuck_def_default();
     string.start_depth = 500.0;
@@ -134,7 +134,7 @@ static void add_other(const scene *s)
     must(dmb_model_add_pipes(s->model, &pipe, 2, NULL), dmb_model_message(s->model));
     ring.string = pipe.string;
     ring.outer_diameter = 0.09;
-    must(dmb_model_add_ring(s->model, &ring, &reamer.ring), dmb_model_message(s->model));
+    must(dmb_model_add_stabiliser(s->model, &ring, &reamer.stabiliser), dmb_model_message(s->model));
     reamer.inner_radius = 0.03;
     reamer.radius = 0.045;
     must(dmb_model_add_bit(s->model, &reamer, NULL), dmb_model_message(s->model));

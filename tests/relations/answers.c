@@ -127,7 +127,7 @@ static void put_contacts(taker *t)
     dmb_model_info info = dmb_model_info_default();
     memset(slot, 0, sizeof slot);
     (void)dmb_model_get_info(t->b->model, &info);
-    for (uint32_t i = 0; i < info.contact_sites; ++i) {
+    for (uint32_t i = 0; i < info.contact_points; ++i) {
         dmb_contact c = dmb_contact_default();
         double normal[3];
         if (dmb_query_contact(t->b->sim, i, &c) < 0) put(t, ANSWER_FORCE, (double)NAN);
@@ -137,7 +137,7 @@ static void put_contacts(taker *t)
         sum[3] += c.friction[0] / force_unit(t);
         sum[4] += t->view.handed * c.friction[1] / force_unit(t);
     }
-    for (uint32_t i = 0; i < SLOTS && info.contact_sites > 0; ++i)
+    for (uint32_t i = 0; i < SLOTS && info.contact_points > 0; ++i)
         for (int k = 0; k < 5; ++k) put(t, ANSWER_FORCE, slot[i][k]);
 }
 

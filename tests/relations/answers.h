@@ -11,7 +11,7 @@ typedef enum answer_group {
     ANSWER_ROTATION, /* [-] matrices, angles of nodes and joints */
     ANSWER_VELOCITY, /* [m/s] */
     ANSWER_SPIN,     /* [rad/s] */
-    ANSWER_FORCE,    /* [N] sections, joints, drives, guides, contacts */
+    ANSWER_FORCE,    /* [N] sections, joints, drives, supports, contacts */
     ANSWER_MOMENT,   /* [N m] */
     ANSWER_ENERGY,   /* [J] */
     ANSWER_GROUPS

@@ -30,17 +30,17 @@ static inline material_point draw_spot(const scene *s, stream *n, int32_t compon
     return out;
 }
 
-static inline dmb_input input_of(const built *b, const material_point *at)
+static inline dmb_excitation input_of(const built *b, const material_point *at)
 {
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.place = built_place(b, at->place);
     input.component = at->component;
     return input;
 }
 
-static inline dmb_output output_of(const built *b, const material_point *at)
+static inline dmb_response_output output_of(const built *b, const material_point *at)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.place = built_place(b, at->place);
     output.component = at->component;
     return output;

@@ -1,5 +1,5 @@
-/* Newton's second law of the whole: the guide's reaction against weight, loads and contacts at rest, and the impulse of
- * all of them against the momentum of a run. The energy ledger against one's own sum of force times speed, and work
+/* Newton's second law of the whole: the support's reaction against weight, loads and contacts at rest, and the impulse
+ * of all of them against the momentum of a run. The energy ledger against one's own sum of force times speed, and work
  * against energy plus dissipation. */
 #include "relations.h"
 
@@ -33,7 +33,7 @@ static void add_reaction(const built *b, forces *f)
     for (int i = 0; i < 3; ++i) f->moment[i] += moment[i];
 }
 
-/* part: the programme's value. */
+/* part: the time function's value. */
 static void add_load(const scene *s, const built *b, double part, forces *f)
 {
     double force[3], moment[3];
@@ -65,7 +65,7 @@ static void add_contacts(const scene *s, const built *b, forces *f)
     const double origin[3] = {0.0, 0.0, 0.0}, *const t = s->wall.direction; /* a unit vector */
     dmb_model_info info = dmb_model_info_default();
     (void)dmb_model_get_info(b->model, &info);
-    for (uint32_t i = 0; i < info.contact_sites; ++i) {
+    for (uint32_t i = 0; i < info.contact_points; ++i) {
         dmb_contact c = dmb_contact_default();
         double force[3];
         (void)dmb_query_contact(b->sim, i, &c);
@@ -176,7 +176,7 @@ static double drive_power(const scene *s, const built *b)
     return power;
 }
 
-/* STEP5 from 1 to 1.5 between the times 0 and `time`, as programme_step gives it. */
+/* STEP5 from 1 to 1.5 between the times 0 and `time`, as time_function_step gives it. */
 static double part_at(double now, double time)
 {
     const double d = fmin(1.0, fmax(0.0, now / time));
@@ -218,9 +218,9 @@ static double prepare_run(trial *t, double growing)
 {
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_BALANCE);
     no_fluid(&t->s);
-    if (t->s.loads > 0) t->s.load[0].programme = programme_step(1.0, 0.5, 0.0, growing);
+    if (t->s.loads > 0) t->s.load[0].time_function = time_function_step(1.0, 0.5, 0.0, growing);
     for (uint32_t i = 0; i < t->s.drives; ++i)
-        t->s.drive[i].programme = programme_step(
+        t->s.drive[i].time_function = time_function_step(
             0.0, draw_number(&n, -1.0, 1.0) * (t->s.drive[i].def.component == DMB_X ? 0.05 : 5.0), 0.0, growing);
     return growing;
 }

@@ -65,9 +65,9 @@ static void check_driven(trial *t)
     if (torque == 0.0) left_out(t, "a wall without friction");
     for (int k = 0; k < 2 && t->verdict == VERDICT_HELD; ++k) {
         drive->def.kind = kinds[k];
-        drive->programme.terms = 1;
-        drive->programme.term[0] = dmb_term_default();
-        drive->programme.term[0].h0 = kinds[k] == DMB_DRIVE_LOAD ? torque : torque > 0.0 ? 1e3 : -1e3;
+        drive->time_function.terms = 1;
+        drive->time_function.term[0] = dmb_segment_default();
+        drive->time_function.term[0].h0 = kinds[k] == DMB_DRIVE_LOAD ? torque : torque > 0.0 ? 1e3 : -1e3;
         drive->def.gain = 1e6;
         drive->def.limit_high = fabs(torque);
         drive->def.limit_low = -fabs(torque);

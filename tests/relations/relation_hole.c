@@ -2,7 +2,7 @@
 #include "random_hole.h"
 #include "relations.h"
 
-enum { TOPIC_HOLE_PARTS = TOPIC_OF_RELATION + 60, GUIDES = 3 };
+enum { TOPIC_HOLE_PARTS = TOPIC_OF_RELATION + 60, SUPPORTS = 3 };
 
 #define DESCRIBED_GAP 1e-9 /* [m] that the gap of a place on a node may be off */
 /* [-] of curvature times the square of its length: how far an element, with its shear, is off an axis whose curvature
@@ -68,14 +68,14 @@ static int32_t add_ball(in_hole *s)
     return dmb_model_add_body(s->model, &body, &s->ball);
 }
 
-/* Guides on the axis that the string stands on already. */
-static int32_t add_guides(in_hole *s)
+/* Supports on the axis that the string stands on already. */
+static int32_t add_supports(in_hole *s)
 {
     int32_t status = DMB_OK;
-    for (uint32_t i = 1; i <= GUIDES && status >= 0; ++i) {
+    for (uint32_t i = 1; i <= SUPPORTS && status >= 0; ++i) {
         dmb_joint_def joint = dmb_joint_def_default();
         joint.kind = DMB_JOINT_POINT_ON_HOLE;
-        joint.place_b = dmb_station(s->string, i * (s->pipes - 1) / GUIDES, 1.0);
+        joint.place_b = dmb_station(s->string, i * (s->pipes - 1) / SUPPORTS, 1.0);
         status = dmb_model_add_joint(s->model, &joint, NULL);
     }
     return status;
@@ -90,7 +90,7 @@ static int32_t open_hole(in_hole *s)
     int32_t status = dmb_model_create(NULL, &s->model);
     if (status >= 0) status = dmb_model_add_wall(s->model, &wall, NULL);
     if (status >= 0) status = add_string_of(s);
-    if (status >= 0) status = s->with_ball ? add_ball(s) : add_guides(s);
+    if (status >= 0) status = s->with_ball ? add_ball(s) : add_supports(s);
     if (status >= 0) status = dmb_model_compile(s->model, NULL);
     return status < 0 ? status : dmb_sim_create(s->model, NULL, &s->sim);
 }
@@ -110,7 +110,7 @@ static void hold_gaps(trial *t, const in_hole *s)
 {
     dmb_model_info info = dmb_model_info_default();
     (void)dmb_model_get_info(s->model, &info);
-    for (uint32_t i = 0; i < info.contact_sites; ++i) {
+    for (uint32_t i = 0; i < info.contact_points; ++i) {
         dmb_contact contact = dmb_contact_default();
         (void)dmb_query_contact(s->sim, i, &contact);
         const int ball = s->with_ball && is_of(contact.part, s->ball);
@@ -133,13 +133,13 @@ static void hold_depths(trial *t, const in_hole *s)
         }
 }
 
-/* Nothing was moved to close the guides. */
-static void hold_guides(trial *t, const in_hole *s)
+/* Nothing was moved to close the supports. */
+static void hold_supports(trial *t, const in_hole *s)
 {
     dmb_statistics counts = dmb_statistics_default();
     (void)dmb_query_statistics(s->sim, &counts);
-    hold(t, "moved by guides on the axis [m]", counts.assembly[0], 1e-8);
-    hold(t, "turned by guides on the axis [rad]", counts.assembly[1], 1e-8);
+    hold(t, "moved by supports on the axis [m]", counts.assembly[0], 1e-8);
+    hold(t, "turned by supports on the axis [rad]", counts.assembly[1], 1e-8);
 }
 
 static void find_ball(in_hole *s)
@@ -160,7 +160,7 @@ static void check_followed(trial *t)
         } else {
             hold_gaps(t, &s);
             hold_depths(t, &s);
-            if (!s.with_ball) hold_guides(t, &s);
+            if (!s.with_ball) hold_supports(t, &s);
             find_ball(&s);
         }
         close_hole(&s);
@@ -168,7 +168,7 @@ static void check_followed(trial *t)
 }
 
 const relation relation_followed = {"followed",
-                                    "a string, guides and a ball described on the axis of a hole that turns back",
+                                    "a string, supports and a ball described on the axis of a hole that turns back",
                                     {FAMILY_BENT, WISH_FLEXIBLE, 0},
                                     60,
                                     1.0,

@@ -105,7 +105,7 @@ static void check_locked(trial *t)
         left_out(t, "nothing that moves it");
         return;
     }
-    t->s.load[0].programme = programme_step(1.0, 0.5, 20.0 * t->s.step, 40.0 * t->s.step);
+    t->s.load[0].time_function = time_function_step(1.0, 0.5, 20.0 * t->s.step, 40.0 * t->s.step);
     scene_perturb(&t->s, PERTURBATION, &perturbed);
     const int32_t one = run_from_rest(&t->s, 0, first, &plain), two = run_from_rest(&t->s, 1, second, &other);
     const int32_t three = run_from_rest(&perturbed, 0, second, &aside);

@@ -66,7 +66,8 @@ static void answer_of(const dmb_state_space *space, uint32_t n, uint32_t input, 
 }
 
 /* Forces at two places and, where there is one, what a drive is asked for; places that move, and a section force. */
-static void choose(const scene *s, const built *b, stream *n, dmb_input in[PLACES], dmb_output out[PLACES])
+static void choose(const scene *s, const built *b, stream *n, dmb_excitation in[PLACES],
+                   dmb_response_output out[PLACES])
 {
     for (int i = 0; i < PLACES; ++i) {
         const material_point from = draw_spot(s, n, 6), to = draw_spot(s, n, 6);
@@ -74,20 +75,20 @@ static void choose(const scene *s, const built *b, stream *n, dmb_input in[PLACE
         out[i] = output_of(b, &to);
     }
     if (s->drives > 0) {
-        in[2].kind = DMB_INPUT_DRIVE;
+        in[2].kind = DMB_EXCITATION_DRIVE;
         in[2].place.part = b->drive[0];
     }
-    out[1].kind = s->drives == 0 ? DMB_OUTPUT_ACCELERATION : DMB_OUTPUT_VELOCITY;
+    out[1].kind = s->drives == 0 ? DMB_RESPONSE_ACCELERATION : DMB_RESPONSE_VELOCITY;
     if (s->drives > 0 && s->drive[0].def.kind == DMB_DRIVE_MOTION) return; /* forces beside it would feel its rate */
-    out[2].kind = DMB_OUTPUT_SECTION_FORCE;
+    out[2].kind = DMB_RESPONSE_SECTION_FORCE;
     out[2].place.fraction = 0.5;
 }
 
 static void check_spaced(trial *t)
 {
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_LINEAR);
-    dmb_input in[PLACES];
-    dmb_output out[PLACES];
+    dmb_excitation in[PLACES];
+    dmb_response_output out[PLACES];
     double list[FREQUENCIES], pair[FREQUENCIES][2];
     dmb_response *response = NULL;
     dmb_state_space *space = NULL;
@@ -288,8 +289,8 @@ static void check_seen(trial *t)
 /* Motion in the sense of turning that a force going round with it by w makes at a place, in some axes. */
 static int32_t circle(built *b, part_ref place, const dmb_response_options *options, double complex *out)
 {
-    dmb_input in[2];
-    dmb_output answer[2];
+    dmb_excitation in[2];
+    dmb_response_output answer[2];
     double pair[2];
     dmb_response *response = NULL;
     *out = 0.0;
@@ -485,9 +486,9 @@ static void check_walked(trial *t)
         left_out(t, "a path that loses its stability");
     scene_close(&b);
     if (t->verdict != VERDICT_HELD) return;
-    programme_data *const p = &t->s.load[0].programme;
+    time_function_data *const p = &t->s.load[0].time_function;
     const double now = p->terms > 0 ? p->term[0].h0 : 1.0;
-    *p = programme_step(now + end.factor, 0.0, 0.0, 1.0);
+    *p = time_function_step(now + end.factor, 0.0, 0.0, 1.0);
     status = open_at_rest(&t->s, NULL, &b);
     if (status != DMB_OK) {
         left_out(t, "another static state, or none, under the grown load alone");

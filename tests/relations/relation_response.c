@@ -29,8 +29,8 @@ static dmb_response_options frequencies_from(stream *n, double *list, double low
 static int32_t transfer(built *b, const dmb_response_options *options, const material_point *material_points,
                         double complex h[PLACES][PLACES][FREQUENCIES])
 {
-    dmb_input inputs[PLACES];
-    dmb_output outputs[PLACES];
+    dmb_excitation inputs[PLACES];
+    dmb_response_output outputs[PLACES];
     double values[FREQUENCIES][2];
     dmb_response *response = NULL;
     for (int i = 0; i < PLACES; ++i) {
@@ -162,7 +162,7 @@ static void hold_rigid_motions(trial *t, const dmb_modes *found)
     if (t->s.joints == 0 && info.rigid != wanted) broken(t, "rigid-body motions", info.rigid, wanted);
 }
 
-/* Free strings move as they are in each direction, guided ones along their guide: all of their mass does. */
+/* Free strings move as they are in each direction, guided ones along their support: all of their mass does. */
 static void check_masses(trial *t)
 {
     built b;
@@ -173,7 +173,7 @@ static void check_masses(trial *t)
     t->s.drives = 0;
     t->s.environment.gravity[2] = 0.0;
     if (t->s.family == FAMILY_LINE && t->s.string[0].def.start_free != DMB_FREE_CYLINDRICAL) {
-        left_out(t, "a guide that lets nothing move");
+        left_out(t, "a support that lets nothing move");
         return;
     }
     options.select = DMB_MODES_ALL;
@@ -325,7 +325,7 @@ static int32_t sine_at(const scene *s, const material_point *at, double frequenc
     sine.tolerance = 1e-5;
     sine.windows = 100;
     int32_t status = open_at_rest(s, &options, &b);
-    const dmb_output output = output_of(&b, at);
+    const dmb_response_output output = output_of(&b, at);
     if (status >= 0) status = dmb_analysis_stepped_sine(b.sim, frequency, &sine, &output, 1, amplitudes[0], &report);
     scene_close(&b);
     *out = number(amplitudes[1]);
@@ -340,7 +340,7 @@ static void check_sine(trial *t)
     dmb_response *response = NULL;
     dmb_modes *found = NULL;
     dmb_mode mode = dmb_mode_default();
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     double pair[2] = {0.0, 0.0};
     double complex coarse = 0.0, fine = 0.0;
     if (t->s.loads == 0) {
@@ -356,12 +356,12 @@ static void check_sine(trial *t)
     if (status >= 0) status = dmb_analysis_modes(b.sim, NULL, &found);
     if (status >= 0) status = dmb_modes_get(found, 0, &mode);
     double frequency = mode.frequency * draw_number(&n, 0.5, 3.0);
-    const dmb_output output = output_of(&b, &at);
+    const dmb_response_output output = output_of(&b, &at);
     dmb_response_options options = dmb_response_options_default();
     options.frequencies = &frequency;
     options.points = 1;
     options.frequency_low = options.frequency_high = frequency;
-    input.kind = DMB_INPUT_LOAD;
+    input.kind = DMB_EXCITATION_LOAD;
     input.place.part = b.load[0];
     if (status >= 0 && frequency > 0.0)
         status = dmb_analysis_response(b.sim, &options, &input, 1, &output, 1, &response);
@@ -380,11 +380,11 @@ static void check_sine(trial *t)
     if (t->verdict == VERDICT_HELD && cabs(wanted) < 1e-9 * t->s.span) left_out(t, "a load that does not move it");
     if (t->verdict != VERDICT_HELD) return;
     const double part = fmin(0.1, 1e-7 * t->s.span / cabs(wanted));
-    t->s.load[0].programme = programme_step(1.0, 0.0, 0.0, 1.0);
-    t->s.load[0].programme.term[1].kind = DMB_TERM_HARMONIC;
-    t->s.load[0].programme.term[1].h0 = 0.0;
-    t->s.load[0].programme.term[1].h1 = part;
-    t->s.load[0].programme.term[1].omega = 2.0 * PI * frequency;
+    t->s.load[0].time_function = time_function_step(1.0, 0.0, 0.0, 1.0);
+    t->s.load[0].time_function.term[1].kind = DMB_SEGMENT_HARMONIC;
+    t->s.load[0].time_function.term[1].h0 = 0.0;
+    t->s.load[0].time_function.term[1].h1 = part;
+    t->s.load[0].time_function.term[1].omega = 2.0 * PI * frequency;
     status = sine_at(&t->s, &at, frequency, 64, &coarse);
     if (status == DMB_OK) status = sine_at(&t->s, &at, frequency, 128, &fine);
     if (status < 0)

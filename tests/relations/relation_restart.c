@@ -117,7 +117,7 @@ static void check_carried(trial *t)
     char first[256], second[256], third[256];
     double floor[ANSWER_GROUPS];
     condition hair = {{0.0}, 0.0};
-    if (t->s.loads > 0) t->s.load[0].programme = programme_step(1.0, 0.5, 2.0 * t->s.step, 20.0 * t->s.step);
+    if (t->s.loads > 0) t->s.load[0].time_function = time_function_step(1.0, 0.5, 2.0 * t->s.step, 20.0 * t->s.step);
     lengthen(&t->s, &longer);
     scene_perturb(&t->s, PERTURBATION, &perturbed);
     const int32_t one = run_carried(&t->s, NULL, first, &plain);

@@ -108,7 +108,7 @@ void scene_perturb(const scene *s, double p, scene *out)
     for (uint32_t i = 0; i < s->bodies; ++i) perturb(p, 6, out->body[i].def.velocity);
     for (uint32_t i = 0; i < s->joints; ++i) perturb(p, 6, out->joint[i].def.stiffness);
     for (uint32_t i = 0; i < s->loads; ++i) perturb(p, 3, out->load[i].def.force);
-    for (uint32_t i = 0; i < s->drives; ++i) perturb(p, 1, &out->drive[i].programme.term[0].h1);
+    for (uint32_t i = 0; i < s->drives; ++i) perturb(p, 1, &out->drive[i].time_function.term[0].h1);
 }
 
 void condition_add(condition *c, const answers *a, const answers *perturbed, double perturbation)
@@ -148,11 +148,11 @@ void scene_kick(scene *s, const double force[3], double time)
     kick->def = dmb_load_def_default();
     memcpy(kick->def.force, force, sizeof kick->def.force);
     kick->place = s->load[0].place;
-    kick->programme = programme_step(0.0, 1.0, 0.0, 0.5 * time);
-    kick->programme.term[0] = kick->programme.term[1];
-    kick->programme.term[0].x0 = 0.5 * time;
-    kick->programme.term[0].x1 = time;
-    kick->programme.term[0].h1 = -1.0;
+    kick->time_function = time_function_step(0.0, 1.0, 0.0, 0.5 * time);
+    kick->time_function.term[0] = kick->time_function.term[1];
+    kick->time_function.term[0].x0 = 0.5 * time;
+    kick->time_function.term[0].x1 = time;
+    kick->time_function.term[0].h1 = -1.0;
 }
 
 /* ---- Runs ------------------------------------------------------------------------------------------------------- */

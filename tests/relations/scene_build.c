@@ -28,10 +28,10 @@ static void take(built *b, int32_t status)
     if (b->status >= 0 && status < 0) (void)built_fail(b, status);
 }
 
-static dmb_id add_programme(built *b, const programme_data *p)
+static dmb_id add_time_function(built *b, const time_function_data *p)
 {
     dmb_id id = {0, 0};
-    if (p->terms > 0) take(b, dmb_model_add_programme(b->model, p->term, p->terms, &id));
+    if (p->terms > 0) take(b, dmb_model_add_time_function(b->model, p->term, p->terms, &id));
     return id;
 }
 
@@ -74,7 +74,7 @@ static void add_bit(const scene *s, built *b)
     dmb_bit_def bit = s->bit;
     if (!s->has_bit) return;
     bit.string = b->string[s->bit_string];
-    bit.load = add_programme(b, &s->bit_load);
+    bit.load = add_time_function(b, &s->bit_load);
     take(b, dmb_model_add_bit(b->model, &bit, &b->bit));
 }
 
@@ -89,7 +89,7 @@ static void add_joint(const scene *s, uint32_t i, built *b)
 static void add_drive(const scene *s, uint32_t i, built *b)
 {
     dmb_drive_def drive = s->drive[i].def;
-    drive.programme = add_programme(b, &s->drive[i].programme);
+    drive.time_function = add_time_function(b, &s->drive[i].time_function);
     drive.part = built_place(b, s->drive[i].part).part;
     take(b, dmb_model_add_drive(b->model, &drive, &b->drive[i]));
 }
@@ -97,7 +97,7 @@ static void add_drive(const scene *s, uint32_t i, built *b)
 static void add_load(const scene *s, uint32_t i, built *b)
 {
     dmb_load_def load = s->load[i].def;
-    load.programme = add_programme(b, &s->load[i].programme);
+    load.time_function = add_time_function(b, &s->load[i].time_function);
     load.place = built_place(b, s->load[i].place);
     take(b, dmb_model_add_load(b->model, &load, &b->load[i]));
 }

@@ -30,41 +30,42 @@ static void scaled(double size, const double unit[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = size * unit[i];
 }
 
-/* ---- Programmes ------------------------------------------------------------------------------------------------- */
+/* ---- Time functions -------------------------------------------------------------------------------------------------
+ */
 
-static programme_data constant(double value)
+static time_function_data constant(double value)
 {
-    programme_data p = {1, {dmb_term_default(), dmb_term_default()}};
+    time_function_data p = {1, {dmb_segment_default(), dmb_segment_default()}};
     p.term[0].h0 = value;
     return p;
 }
 
 /* From 0 to value in the first `time` seconds. */
-static programme_data run_up(double value, double time)
+static time_function_data run_up(double value, double time)
 {
-    programme_data p = constant(0.0);
-    p.term[0].kind = DMB_TERM_STEP;
+    time_function_data p = constant(0.0);
+    p.term[0].kind = DMB_SEGMENT_STEP;
     p.term[0].x1 = time;
     p.term[0].h1 = value;
     return p;
 }
 
-programme_data programme_step(double c, double more, double begin, double time)
+time_function_data time_function_step(double c, double more, double begin, double time)
 {
-    programme_data p = constant(c);
+    time_function_data p = constant(c);
     p.terms = 2;
-    p.term[1].kind = DMB_TERM_STEP5;
+    p.term[1].kind = DMB_SEGMENT_STEP5;
     p.term[1].x0 = begin;
     p.term[1].x1 = begin + time;
     p.term[1].h1 = more;
     return p;
 }
 
-static programme_data shaken(double value, double part, double omega)
+static time_function_data shaken(double value, double part, double omega)
 {
-    programme_data p = constant(value);
+    time_function_data p = constant(value);
     p.terms = 2;
-    p.term[1].kind = DMB_TERM_HARMONIC;
+    p.term[1].kind = DMB_SEGMENT_HARMONIC;
     p.term[1].h1 = part * value;
     p.term[1].omega = omega;
     return p;
@@ -126,7 +127,7 @@ static void draw_wall(scene *s, uint32_t flags, double outer, double length)
 static int32_t draw_kind(scene *s, stream *t, uint32_t flags)
 {
     const double u = draw_number(t, 0.0, 1.0);
-    const int alone = flags & WISH_FLEXIBLE || s->family == FAMILY_RING;
+    const int alone = flags & WISH_FLEXIBLE || s->family == FAMILY_STABILISER;
     if (alone || u < 0.8) return DMB_PIPE_FLEXIBLE;
     if (u < 0.9) return s->family & (FAMILY_HOLE | FAMILY_BENT) ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE;
     return s->family == FAMILY_BENT ? DMB_PIPE_FLEXIBLE : DMB_PIPE_RIGID; /* would not fit into a bent hole */
@@ -247,14 +248,14 @@ static void draw_strings(scene *s, const scene_wish *wish, const double x[3], co
 
 /* ---- Drives and bits -------------------------------------------------------------------------------------------- */
 
-static drive_data *new_drive(scene *s, int32_t component, programme_data programme)
+static drive_data *new_drive(scene *s, int32_t component, time_function_data time_function)
 {
     drive_data *const d = &s->drive[s->drives++];
     const part_ref rig = {PART_STRING, 0, 0, 0.0};
     d->def = dmb_drive_def_default();
     d->def.component = component;
     d->part = rig;
-    d->programme = programme;
+    d->time_function = time_function;
     return d;
 }
 
@@ -352,7 +353,7 @@ static void draw_end_load(scene *s, uint32_t flags, const double axis[3])
         l->def.moment[i] = twists && !(flags & WISH_CONSERVATIVE) ? turn * moment[i] : 0.0;
     }
     l->place = string_place(s->strings - 1, s->string[s->strings - 1].pipes - 1, 1.0);
-    if (shakes && !(flags & WISH_STILL)) l->programme = shaken(1.0, 0.3, draw_size(&t, 1.0, 100.0));
+    if (shakes && !(flags & WISH_STILL)) l->time_function = shaken(1.0, 0.3, draw_size(&t, 1.0, 100.0));
 }
 
 static void draw_end_mass(scene *s, uint32_t flags)
@@ -400,7 +401,7 @@ static void draw_line(scene *s, const scene_wish *wish)
 }
 
 /* Pipes of curvature 2 pi/(n L) about z close upon themselves; a fixed joint holds the ends together. */
-static void draw_ring(scene *s, const scene_wish *wish)
+static void draw_stabiliser(scene *s, const scene_wish *wish)
 {
     stream t = topic_of(s, TOPIC_MOTION);
     dmb_pipe_def make = draw_make(s, wish->flags | WISH_FLEXIBLE);
@@ -500,7 +501,7 @@ void scene_draw(uint64_t seed, uint32_t number, const scene_wish *wish, scene *o
     draw_mud(out, wish->flags);
     if (out->family & (FAMILY_HOLE | FAMILY_BENT)) draw_in_hole(out, wish);
     if (out->family & (FAMILY_LINE | FAMILY_FREE)) draw_line(out, wish);
-    if (out->family == FAMILY_RING) draw_ring(out, wish);
+    if (out->family == FAMILY_STABILISER) draw_stabiliser(out, wish);
     if (out->family == FAMILY_BODIES) draw_bodies(out, wish);
 }
 

@@ -19,7 +19,7 @@ enum {
     SCENE_DRIVES = 3,
     SCENE_LOADS = 3,
     SCENE_SURVEY = 6,
-    SCENE_TERMS = 2
+    SCENE_SEGMENTS = 2
 };
 
 typedef enum part_kind { PART_NONE, PART_STRING, PART_BODY, PART_JOINT, PART_BIT } part_kind;
@@ -31,10 +31,10 @@ typedef struct part_ref {
     double fraction;
 } part_ref;
 
-typedef struct programme_data {
+typedef struct time_function_data {
     uint32_t terms; /* 0: none */
-    dmb_term term[SCENE_TERMS];
-} programme_data;
+    dmb_segment term[SCENE_SEGMENTS];
+} time_function_data;
 
 typedef struct string_data {
     dmb_string_def def;
@@ -55,13 +55,13 @@ typedef struct joint_data {
 typedef struct drive_data {
     dmb_drive_def def;
     part_ref part;
-    programme_data programme;
+    time_function_data time_function;
 } drive_data;
 
 typedef struct load_data {
     dmb_load_def def;
     part_ref place;
-    programme_data programme;
+    time_function_data time_function;
 } load_data;
 
 typedef struct scene {
@@ -83,16 +83,16 @@ typedef struct scene {
     load_data load[SCENE_LOADS];
     dmb_bit_def bit; /* at the end of bit_string */
     uint32_t bit_string;
-    programme_data bit_load;
+    time_function_data bit_load;
 } scene;
 
 enum {
-    FAMILY_HOLE = 1,    /* a string in a straight hole, guided and driven at the rig */
-    FAMILY_BENT = 2,    /* the same in a hole that bends */
-    FAMILY_LINE = 4,    /* strings without a hole, held at the rig end, loaded at the far end */
-    FAMILY_FREE = 8,    /* strings that nothing holds */
-    FAMILY_RING = 16,   /* pipes of constant curvature that close upon themselves */
-    FAMILY_BODIES = 32, /* chains and loops of rigid bodies */
+    FAMILY_HOLE = 1,        /* a string in a straight hole, guided and driven at the rig */
+    FAMILY_BENT = 2,        /* the same in a hole that bends */
+    FAMILY_LINE = 4,        /* strings without a hole, held at the rig end, loaded at the far end */
+    FAMILY_FREE = 8,        /* strings that nothing holds */
+    FAMILY_STABILISER = 16, /* pipes of constant curvature that close upon themselves */
+    FAMILY_BODIES = 32,     /* chains and loops of rigid bodies */
     FAMILY_ALL = 63
 };
 
@@ -138,7 +138,7 @@ double draw_size(stream *t, double low, double high);        /* evenly over the 
 uint32_t draw_count(stream *t, uint32_t low, uint32_t high); /* low .. high */
 int draw_chance(stream *t, double probability);
 /* c, and from `begin` on within `time` smoothly c + more (fifth-order step). */
-programme_data programme_step(double c, double more, double begin, double time);
+time_function_data time_function_step(double c, double more, double begin, double time);
 void draw_direction(stream *t, double unit[3]);
 enum { TOPIC_OF_RELATION = 100 }; /* topics from here on are free for relations */
 

@@ -11,7 +11,7 @@ const char *scene_family_name(uint32_t family)
     case FAMILY_BENT: return "bent";
     case FAMILY_LINE: return "line";
     case FAMILY_FREE: return "free";
-    case FAMILY_RING: return "ring";
+    case FAMILY_STABILISER: return "stabiliser";
     default: return "bodies";
     }
 }
@@ -51,7 +51,7 @@ void scene_print(const scene *s)
     printf(" drives=");
     for (uint32_t i = 0; i < s->drives; ++i)
         printf("%s%d:%d:%.4g", i > 0 ? "," : "", (int)s->drive[i].def.component, (int)s->drive[i].def.kind,
-               s->drive[i].programme.term[0].h1);
+               s->drive[i].time_function.term[0].h1);
     for (uint32_t i = 0; i < s->loads; ++i) {
         const dmb_load_def *const l = &s->load[i].def;
         printf(" load=%d:%.4g,%.4g,%.4g;%.4g,%.4g,%.4g", (int)l->frame, l->force[0], l->force[1], l->force[2],

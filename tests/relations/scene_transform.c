@@ -145,7 +145,7 @@ static void twist(const axes *a, double length, double v[6])
     polar(a->matrix, a->handed, v + 3);
 }
 
-static void scale_programme(double factor, programme_data *p)
+static void scale_time_function(double factor, time_function_data *p)
 {
     for (uint32_t i = 0; i < p->terms; ++i) {
         p->term[i].h0 *= factor;
@@ -249,7 +249,7 @@ static void transform_bit(const scene_view *v, scene *s)
     scale(M * L * L, 2, s->bit.inertia);
     s->bit.intrinsic_energy *= M / L;
     s->bit.contact_strength *= M / L;
-    scale_programme(M * L, &s->bit_load);
+    scale_time_function(M * L, &s->bit_load);
 }
 
 static void transform_side(const scene_view *v, const double *roll, part_ref place, double origin[3], double axis[3],
@@ -294,7 +294,7 @@ static void transform_drive(const scene_view *v, drive_data *d)
     const double sign =
         d->def.component == DMB_Z || d->def.component == DMB_RX || d->def.component == DMB_RY ? v->handed : 1.0;
     const double force = M * L * (turns ? L : 1.0);
-    scale_programme(sign * (d->def.kind == DMB_DRIVE_LOAD ? force : turns ? 1.0 : L), &d->programme);
+    scale_time_function(sign * (d->def.kind == DMB_DRIVE_LOAD ? force : turns ? 1.0 : L), &d->time_function);
     d->def.gain *= M * (turns ? L * L : 1.0);
     d->def.integral_gain *= M * (turns ? L * L : 1.0);
     if (d->def.limit_high < 1e29) { /* symmetric limits: no matter which way it turns */

@@ -14,7 +14,7 @@ typedef struct scene_view {
     double handed;
     int32_t halved;      /* pipes of two elements become two pipes of one each */
     int32_t doubled;     /* each joint is held a second time, by the joint as many numbers later */
-    int32_t motion_only; /* sections, contacts and guides are not compared */
+    int32_t motion_only; /* sections, contacts and supports are not compared */
 } scene_view;
 
 scene_view view_identity(void);

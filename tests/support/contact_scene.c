@@ -22,10 +22,10 @@ dmb_id scene_add_bit(rig *scene, const dmb_bit_def *bit)
     return id;
 }
 
-dmb_term scene_step_term(double x0, double h0, double x1, double h1)
+dmb_segment scene_step_segment(double x0, double h0, double x1, double h1)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x0 = x0;
     term.h0 = h0;
     term.x1 = x1;

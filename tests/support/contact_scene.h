@@ -27,7 +27,7 @@ int32_t scene_must(const rig *scene, int32_t status);
 
 dmb_id scene_add_bit(rig *scene, const dmb_bit_def *bit);
 /* A term h0 before x0, h1 after x1, cubic between. */
-dmb_term scene_step_term(double x0, double h0, double x1, double h1);
+dmb_segment scene_step_segment(double x0, double h0, double x1, double h1);
 
 /* A straight hole along x of radius 2.05 m: a ring of 0.1 m on the axis is 2 m away from the wall. */
 dmb_wall_def scene_wide_wall(int32_t normal_law, double stiffness, double exponent, double restitution);

@@ -29,14 +29,14 @@ static void add_hole(rig *s, const crowded_string *c)
 
 static void add_held(rig *s, crowded_string *c)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_stuck_def stuck = dmb_stuck_def_default();
     ring.string = c->string;
     ring.pipe = 1;
     ring.fraction = 0.35;
     ring.outer_diameter = c->ring_diameter;
     ring.mass = 6.0;
-    must_model(s, dmb_model_add_ring(s->model, &ring, &c->ring));
+    must_model(s, dmb_model_add_stabiliser(s->model, &ring, &c->ring));
     stuck.place = dmb_station(c->string, PIPES - 1, 1.0);
     stuck.stiffness[0] = 1e6; /* soft: a stiffer one takes digits of differences */
     stuck.stiffness[1] = 1e4;
@@ -64,6 +64,6 @@ void add_crowded_string(rig *s, crowded_string *c)
     turn.kind = DMB_DRIVE_CONTROL;
     turn.gain = 20.0;
     turn.integral_gain = 400.0;
-    turn.programme = add_constant(s, 0.0);
+    turn.time_function = add_constant(s, 0.0);
     c->drive = add_drive(s, &turn);
 }

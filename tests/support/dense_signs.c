@@ -57,8 +57,8 @@ static void clear_row(uint32_t n, uint32_t row, double *A)
     for (uint32_t j = 0; j < n; j++) A[(size_t)n * row + j] = A[(size_t)n * j + row] = 0.0;
 }
 
-/* [K J^T; J 0], J times the largest entry of K; rows that guides and drives hold are 0 but for a diagonal of that size.
- * Returns its rows, *joints those of J. */
+/* [K J^T; J 0], J times the largest entry of K; rows that supports and drives hold are 0 but for a diagonal of that
+ * size. Returns its rows, *joints those of J. */
 static uint32_t bordered_matrix(const rig *s, double **A, uint32_t *joints)
 {
     dmb_state_space *space = NULL;

@@ -10,7 +10,7 @@ typedef struct dense_signs {
     double bound;     /* [N/m, N m] part of the norm */
 } dense_signs;
 
-/* Of K on the motions that guides, drives and joints leave free: with K in the free rows and J the Jacobian of the
+/* Of K on the motions that supports, drives and joints leave free: with K in the free rows and J the Jacobian of the
  * joints there, scaled to the size of K, [K J^T; J 0] has the eigenvalues' signs of K on the null space of J, and as
  * many negative ones more as J has independent rows. bound = part times the largest eigenvalue. The state must be an
  * equilibrium. */

@@ -127,12 +127,12 @@ static void add_full_drives(rig *s, dmb_id string)
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = string;
     drive.component = DMB_RX;
-    drive.programme = add_constant(s, 3.0);
+    drive.time_function = add_constant(s, 3.0);
     drive.gain = 2.0;
     drive.integral_gain = 40.0;
     (void)add_drive(s, &drive);
     drive.component = DMB_X;
-    drive.programme = add_constant(s, 0.4);
+    drive.time_function = add_constant(s, 0.4);
     (void)add_drive(s, &drive);
 }
 

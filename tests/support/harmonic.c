@@ -1,31 +1,31 @@
 #include "harmonic.h"
 
-dmb_input force_at(dmb_place place, int32_t component)
+dmb_excitation force_at(dmb_place place, int32_t component)
 {
-    dmb_input input = dmb_input_default();
+    dmb_excitation input = dmb_excitation_default();
     input.place = place;
     input.component = component;
     return input;
 }
 
-dmb_input input_of(int32_t kind, dmb_id part, int32_t component)
+dmb_excitation input_of(int32_t kind, dmb_id part, int32_t component)
 {
-    dmb_input input = force_at(dmb_station(part, 0, 0.0), component);
+    dmb_excitation input = force_at(dmb_station(part, 0, 0.0), component);
     input.kind = kind;
     return input;
 }
 
-dmb_output output_at(int32_t kind, dmb_place place, int32_t component)
+dmb_response_output output_at(int32_t kind, dmb_place place, int32_t component)
 {
-    dmb_output output = dmb_output_default();
+    dmb_response_output output = dmb_response_output_default();
     output.kind = kind;
     output.place = place;
     output.component = component;
     return output;
 }
 
-void transfer(const rig *s, const dmb_response_options *options, const dmb_input *input, const dmb_output *output,
-              const double *frequencies, uint32_t points, double complex *values)
+void transfer(const rig *s, const dmb_response_options *options, const dmb_excitation *input,
+              const dmb_response_output *output, const double *frequencies, uint32_t points, double complex *values)
 {
     dmb_response_options with = options != NULL ? *options : dmb_response_options_default();
     dmb_response *response = NULL;

@@ -107,37 +107,37 @@ dmb_id add_joint_between(rig *s, int32_t kind, dmb_place a, dmb_place b)
     return add_joint(s, &joint);
 }
 
-dmb_id add_programme(rig *s, const dmb_term *terms, uint32_t count)
+dmb_id add_time_function(rig *s, const dmb_segment *terms, uint32_t count)
 {
     dmb_id id = {0, 0};
-    must_model(s, dmb_model_add_programme(s->model, terms, count, &id));
+    must_model(s, dmb_model_add_time_function(s->model, terms, count, &id));
     return id;
 }
 
 dmb_id add_constant(rig *s, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.h0 = value;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
-dmb_id add_callback(rig *s, dmb_programme_fn callback, void *context)
+dmb_id add_callback(rig *s, dmb_time_fn callback, void *context)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_CALLBACK;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_CALLBACK;
     term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     term.callback = callback;
     term.callback_context = context;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
-dmb_id add_simple_drive(rig *s, int32_t kind, dmb_id part, int32_t component, dmb_id programme)
+dmb_id add_simple_drive(rig *s, int32_t kind, dmb_id part, int32_t component, dmb_id time_function)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = kind;
     drive.part = part;
     drive.component = component;
-    drive.programme = programme;
+    drive.time_function = time_function;
     return add_drive(s, &drive);
 }
 

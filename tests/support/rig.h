@@ -34,12 +34,12 @@ dmb_id add_joint(rig *s, const dmb_joint_def *def);
 /* A joint of that kind between two places with all else by default; and the same, added. */
 dmb_joint_def joint_between(int32_t kind, dmb_place a, dmb_place b);
 dmb_id add_joint_between(rig *s, int32_t kind, dmb_place a, dmb_place b);
-dmb_id add_programme(rig *s, const dmb_term *terms, uint32_t count);
+dmb_id add_time_function(rig *s, const dmb_segment *terms, uint32_t count);
 dmb_id add_constant(rig *s, double value);
 /* A callback that provides value, rate and integral. */
-dmb_id add_callback(rig *s, dmb_programme_fn callback, void *context);
+dmb_id add_callback(rig *s, dmb_time_fn callback, void *context);
 /* A drive of that kind with all else by default. */
-dmb_id add_simple_drive(rig *s, int32_t kind, dmb_id part, int32_t component, dmb_id programme);
+dmb_id add_simple_drive(rig *s, int32_t kind, dmb_id part, int32_t component, dmb_id time_function);
 
 /* n equal steps of length h, each of which must succeed without being divided. */
 void take_steps(const rig *s, double h, uint32_t n);

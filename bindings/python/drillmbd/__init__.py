@@ -7,8 +7,8 @@ matplotlib for pictures where they are there.
     model.add_wall(diameter=0.094)
     string = model.add_pipes(100, outer_diameter=0.073, inner_diameter=0.061)
     model.add_bit(mass=5.0)
-    feed = model.add_programme(mbd.Term(kind=mbd.TERM_STEP, x1=1.0, h1=0.01))
-    model.add_drive(programme=feed)
+    feed = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP, x1=1.0, h1=0.01))
+    model.add_drive(time function=feed)
     model.compile()
     with model.sim() as sim:
         sim.run(40.0, step=1e-3)
@@ -20,15 +20,15 @@ that fails raises Error; a status above 0 is in the `status` of the answer. Ever
 The library is the file that the environment variable DRILLMBD_LIBRARY names, otherwise the one beside this package,
 otherwise the one the system finds.
 """
-from . import _structs, analysis, channels, enums, errors, model, profile, recorder, sim
+from . import _structs, analysis, outputs, enums, errors, model, profile, recorder, sim
 from ._keep import station
 from ._library import lib as _lib
 from ._optional import numpy
 from ._record import Sized as _Sized
 from ._structs import *  # noqa: F401,F403
 from ._structs import STRUCTS
-from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, output, usual_operation
-from .channels import channel_name, channel_names, channel_quantity, channel_unit
+from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, response_output, usual_operation
+from .outputs import output_name, output_names, output_quantity, output_unit
 from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
@@ -55,8 +55,8 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateSpace", "TorqueDrag", "Window", "channel_name",
-           "channel_names", "channel_quantity", "channel_unit", "motor_drive", "operation_name", "output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateSpace", "TorqueDrag", "Window", "output_name",
+           "output_names", "output_quantity", "output_unit", "motor_drive", "operation_name", "response_output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

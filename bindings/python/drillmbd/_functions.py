@@ -20,11 +20,11 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
     "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
     "dmb_analysis_place_rows": (c_int32, c_void_p, Place, c_int32, c_int32, POINTER(c_uint32), POINTER(c_double), POINTER(c_uint32),),
-    "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
-    "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(Output), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
-    "dmb_analysis_state_space": (c_int32, c_void_p, POINTER(StateSpaceOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
+    "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Excitation), c_uint32, POINTER(ResponseOutput), c_uint32, POINTER(c_void_p),),
+    "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(ResponseOutput), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
+    "dmb_analysis_state_space": (c_int32, c_void_p, POINTER(StateSpaceOptions), POINTER(Excitation), c_uint32, POINTER(ResponseOutput), c_uint32, POINTER(c_void_p),),
     "dmb_analysis_static": (c_int32, c_void_p, POINTER(StaticOptions), POINTER(StaticReport),),
-    "dmb_analysis_stepped_sine": (c_int32, c_void_p, c_double, POINTER(SteppedSineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SteppedSineReport),),
+    "dmb_analysis_stepped_sine": (c_int32, c_void_p, c_double, POINTER(SteppedSineOptions), POINTER(ResponseOutput), c_uint32, POINTER(c_double), POINTER(SteppedSineReport),),
     "dmb_analysis_torque_drag": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_uint32, POINTER(TorqueDragRow),),
     "dmb_analysis_torque_drag_profile": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double),),
     "dmb_bit_def_init": (c_int32, POINTER(BitDef), c_uint32,),
@@ -38,10 +38,6 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_buckling_options_init": (c_int32, POINTER(BucklingOptions), c_uint32,),
     "dmb_buckling_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(c_double),),
     "dmb_build_info": (c_char_p,),
-    "dmb_channel_check": (c_int32, c_void_p, POINTER(Channel), c_uint32,),
-    "dmb_channel_name": (c_char_p, c_int32, POINTER(c_char_p),),
-    "dmb_channel_next": (c_int32, c_int32,),
-    "dmb_channel_quantity": (c_int32, c_char_p, POINTER(c_int32),),
     "dmb_check_report_init": (c_int32, POINTER(CheckReport), c_uint32,),
     "dmb_compile_options_init": (c_int32, POINTER(CompileOptions), c_uint32,),
     "dmb_constraint_def_init": (c_int32, POINTER(ConstraintDef), c_uint32,),
@@ -54,6 +50,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
     "dmb_event_def_init": (c_int32, POINTER(EventDef), c_uint32,),
     "dmb_event_report_init": (c_int32, POINTER(EventReport), c_uint32,),
+    "dmb_excitation_init": (c_int32, POINTER(Excitation), c_uint32,),
     "dmb_fatigue_create": (c_int32, c_void_p, POINTER(FatigueOptions), POINTER(Place), c_uint32, POINTER(c_void_p),),
     "dmb_fatigue_destroy": (None, POINTER(c_void_p),),
     "dmb_fatigue_get": (c_int32, c_void_p, c_uint32, POINTER(FatigueResult),),
@@ -72,7 +69,6 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_hydraulics_init": (c_int32, POINTER(Hydraulics), c_uint32,),
     "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
     "dmb_input_info_init": (c_int32, POINTER(InputInfo), c_uint32,),
-    "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
     "dmb_input_state_init": (c_int32, POINTER(InputState), c_uint32,),
     "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
     "dmb_joint_state_init": (c_int32, POINTER(JointState), c_uint32,),
@@ -91,12 +87,12 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
     "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
-    "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
-    "dmb_model_add_ring": (c_int32, c_void_p, POINTER(RingDef), POINTER(Id),),
     "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
+    "dmb_model_add_stabiliser": (c_int32, c_void_p, POINTER(StabiliserDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
     "dmb_model_add_stuck": (c_int32, c_void_p, POINTER(StuckDef), POINTER(Id),),
     "dmb_model_add_sub": (c_int32, c_void_p, POINTER(SubDef), POINTER(Sub),),
+    "dmb_model_add_time_function": (c_int32, c_void_p, POINTER(Segment), c_uint32, POINTER(Id),),
     "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
     "dmb_model_clear_refused": (c_int32, c_void_p,),
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
@@ -133,7 +129,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_operation_name": (c_char_p, c_int32,),
     "dmb_operation_usual": (c_int32, c_int32, POINTER(Operation),),
     "dmb_order_init": (c_int32, POINTER(Order), c_uint32,),
-    "dmb_output_init": (c_int32, POINTER(Output), c_uint32,),
+    "dmb_output_check": (c_int32, c_void_p, POINTER(Output), c_uint32,),
+    "dmb_output_name": (c_char_p, c_int32, POINTER(c_char_p),),
+    "dmb_output_next": (c_int32, c_int32,),
+    "dmb_output_quantity": (c_int32, c_char_p, POINTER(c_int32),),
     "dmb_parameter_init": (c_int32, POINTER(Parameter), c_uint32,),
     "dmb_path_options_init": (c_int32, POINTER(PathOptions), c_uint32,),
     "dmb_path_point_init": (c_int32, POINTER(PathPoint), c_uint32,),
@@ -148,7 +147,6 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_profile_recorder_take": (c_int32, POINTER(ProfileRecorderStruct), c_void_p,),
     "dmb_profile_recorder_write_csv": (c_int32, POINTER(ProfileRecorderStruct), c_char_p,),
     "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
-    "dmb_query_channel": (c_int32, c_void_p, POINTER(Channel), POINTER(c_double),),
     "dmb_query_constraint_rows": (c_int32, c_void_p, Id, POINTER(c_uint32), POINTER(c_uint32),),
     "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
     "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
@@ -163,6 +161,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_motion": (c_int32, c_void_p, Place, POINTER(Motion),),
     "dmb_query_motion_at": (c_int32, c_void_p, Place, POINTER(c_double), POINTER(Motion),),
     "dmb_query_multipliers": (c_int32, c_void_p, Id, POINTER(c_double), POINTER(c_uint32),),
+    "dmb_query_output": (c_int32, c_void_p, POINTER(Output), POINTER(c_double),),
     "dmb_query_pose": (c_int32, c_void_p, Place, POINTER(Pose),),
     "dmb_query_pose_at": (c_int32, c_void_p, Place, POINTER(c_double), POINTER(Pose),),
     "dmb_query_profile": (c_int32, c_void_p, POINTER(ProfileStruct),),
@@ -180,16 +179,17 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_response_dimensions": (c_int32, c_void_p, POINTER(c_uint32),),
     "dmb_response_frequencies": (c_int32, c_void_p, POINTER(c_double),),
     "dmb_response_options_init": (c_int32, POINTER(ResponseOptions), c_uint32,),
+    "dmb_response_output_init": (c_int32, POINTER(ResponseOutput), c_uint32,),
     "dmb_response_transfer": (c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_double),),
     "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
-    "dmb_ring_def_init": (c_int32, POINTER(RingDef), c_uint32,),
     "dmb_row_init": (c_int32, POINTER(Row), c_uint32,),
     "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
+    "dmb_segment_init": (c_int32, POINTER(Segment), c_uint32,),
     "dmb_sensitivity_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
-    "dmb_sensitivity_channels": (c_int32, c_void_p, POINTER(Channel), c_uint32, POINTER(c_double), POINTER(c_double),),
     "dmb_sensitivity_create": (c_int32, c_void_p, POINTER(Parameter), c_uint32, POINTER(c_void_p),),
     "dmb_sensitivity_destroy": (None, POINTER(c_void_p),),
     "dmb_sensitivity_kinks": (c_int32, c_void_p, c_uint32, POINTER(c_uint64),),
+    "dmb_sensitivity_outputs": (c_int32, c_void_p, POINTER(Output), c_uint32, POINTER(c_double), POINTER(c_double),),
     "dmb_sensitivity_rows": (c_int32, c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_uint32),),
     "dmb_sensitivity_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
@@ -221,6 +221,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_speeds_report_init": (c_int32, POINTER(SpeedsReport), c_uint32,),
     "dmb_spring_def_init": (c_int32, POINTER(SpringDef), c_uint32,),
     "dmb_spring_state_init": (c_int32, POINTER(SpringState), c_uint32,),
+    "dmb_stabiliser_def_init": (c_int32, POINTER(StabiliserDef), c_uint32,),
     "dmb_state_space_dense": (c_int32, c_void_p, c_int32, POINTER(c_double),),
     "dmb_state_space_destroy": (None, POINTER(c_void_p),),
     "dmb_state_space_get_info": (c_int32, c_void_p, POINTER(StateSpaceInfo),),
@@ -241,12 +242,11 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_stuck_state_init": (c_int32, POINTER(StuckState), c_uint32,),
     "dmb_sub_def_init": (c_int32, POINTER(SubDef), c_uint32,),
     "dmb_sub_init": (c_int32, POINTER(Sub), c_uint32,),
-    "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
     "dmb_torque_drag_options_init": (c_int32, POINTER(TorqueDragOptions), c_uint32,),
     "dmb_torque_drag_row_init": (c_int32, POINTER(TorqueDragRow), c_uint32,),
     "dmb_version": (c_uint32,),
     "dmb_wall_def_init": (c_int32, POINTER(WallDef), c_uint32,),
-    "dmb_window_create": (c_int32, c_void_p, POINTER(WindowOptions), POINTER(Channel), c_uint32, POINTER(c_void_p),),
+    "dmb_window_create": (c_int32, c_void_p, POINTER(WindowOptions), POINTER(Output), c_uint32, POINTER(c_void_p),),
     "dmb_window_destroy": (None, POINTER(c_void_p),),
     "dmb_window_get": (c_int32, c_void_p, c_uint32, POINTER(WindowResult),),
     "dmb_window_options_init": (c_int32, POINTER(WindowOptions), c_uint32,),
@@ -280,17 +280,17 @@ FUNCTION_DOCS = {
     "dmb_analysis_place_rows":
         "A small motion of a place as a linear function of those of rows: component X .. RZ in the axes of `frame` (FRAME_WORLD, FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. A force there acts on the rows by the same numbers. The sim takes the message.",
     "dmb_analysis_response":
-        "Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks. Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the state, and section forces are told in axes that do not spin. Structural damping there is that of what does not turn. NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or a string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of straight parts, not across. Or coefficients that change while parts turn, as of modes. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be computed at a time.",
+        "Transfer functions from every excitation to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency. Of a state that spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the state, and section forces are told in axes that do not spin. Structural damping there is that of what does not turn. NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or a string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of straight parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes (excitation_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED (axes at rest: a load across a part that turns with it), _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + excitations)); of joints that share bodies the cube of their coordinates. One thread; several responses of one sim may not be computed at a time.",
     "dmb_analysis_speeds":
         "Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the largest amplitude of an output over its limit, by the linear response at order times speed in axes at rest, where the orders of what turns are counted, about the state as it turns; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first says; on return the number of bands, by rising speed, NOTE_FULL where more were found than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed. NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, a band is truncated at an end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of order_count responses.",
     "dmb_analysis_state_space":
-        "About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for STATE_MATRICES). inputs, outputs: as of dmb_analysis_response, 0 .. 1024 each, those of control.h by INPUT_SETTING; inputs that go with the square of the frequency (unbalance, eccentricity) are refused. Channels are outputs of kind OUTPUT_CHANNEL. options may be NULL. The state is not changed; sim takes the message and need not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of dmb_analysis_response, and so is NOTE_INCOMPLETE; ERR_TOO_LARGE above 4096 states (reduce), ERR_SINGULAR for a mass or a stiffness that is singular (shift). O(coordinates^2) of STATE_FULL, O(shapes x elements) of STATE_REDUCED, O(elements) of STATE_MATRICES.",
+        "About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for STATE_MATRICES). excitations, outputs: as of dmb_analysis_response, 0 .. 1024 each, those of control.h by EXCITATION_SETTING; excitations that go with the square of the frequency (unbalance, eccentricity) are refused. options may be NULL. The state is not changed; sim takes the message and need not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of dmb_analysis_response, and so is NOTE_INCOMPLETE; ERR_TOO_LARGE above 4096 states (reduce), ERR_SINGULAR for a mass or a stiffness that is singular (shift). O(coordinates^2) of STATE_FULL, O(shapes x elements) of STATE_REDUCED, O(elements) of STATE_MATRICES.",
     "dmb_analysis_static":
-        "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails and pipes slip on the wall, from the equilibrium without friction in steps of the friction; where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy ledger starts anew. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis sum to 0; else ERR_SINGULAR. Unstable equilibria that the search turned far to, or relaxed to, are left where a stable one is found beside. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0); NOTE_INCOMPLETE where the stability of an equilibrium at rest is not resolved (report->negative < 0; message states the bound). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
+        "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails and pipes slip on the wall, from the equilibrium without friction in steps of the friction; where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, supports, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy ledger starts anew. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it (report->free_spins) where the torques about the axis sum to 0; else ERR_SINGULAR. Unstable equilibria that the search turned far to, or relaxed to, are left where a stable one is found beside. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0); NOTE_INCOMPLETE where the stability of an equilibrium at rest is not resolved (report->negative < 0; message states the bound). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
     "dmb_analysis_stepped_sine":
         "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
     "dmb_analysis_torque_drag":
-        "One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures are left out of yield_share. The sim is asked for its model only and does not change. Errors: ERR_UNSUPPORTED without a hole, for a string that does not follow it, has rings, or below its rig end a joint that holds something (not JOINT_FREE), a load, spring or force, or a place described stuck; ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)).",
+        "One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures are left out of yield_share. The sim is asked for its model only and does not change. Errors: ERR_UNSUPPORTED without a hole, for a string that does not follow it, has stabilisers, or below its rig end a joint that holds something (not JOINT_FREE), a load, spring or force, or a place described stuck; ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)).",
     "dmb_analysis_torque_drag_profile":
         "Along the string in one operation at the first of the depths: at station_count (2 .. 2^20) places spread evenly from the rig end to the far end. Arrays of shape (station_count), each may be NULL: measured depth [m], effective axial force [N], torque [N m], wall force per metre [N/m]. Errors as above; ERR_NO_CONVERGENCE where the string locks up.",
     "dmb_buckling_count":
@@ -303,14 +303,6 @@ FUNCTION_DOCS = {
         "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
     "dmb_build_info":
         "One line: version, and where eigenproblems, order of elimination, files and memory come from. Never NULL.",
-    "dmb_channel_check":
-        "Whether each channel can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should be. Errors: as dmb_query_channel.",
-    "dmb_channel_name":
-        "\"bit_speed\", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change.",
-    "dmb_channel_next":
-        "All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last.",
-    "dmb_channel_quantity":
-        "The number of a name; ERR_VALUE where it is none.",
     "dmb_fatigue_create":
         "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then.",
     "dmb_fatigue_destroy":
@@ -333,24 +325,24 @@ FUNCTION_DOCS = {
         "Adds a joint. Errors: ERR_ID; ERR_VALUE for a part joined to itself, an axis of zero length, two grounds.",
     "dmb_model_add_pipes":
         "Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string. Pipes are numbered along the whole string, 0 at the rig end.",
-    "dmb_model_add_programme":
-        "Adds a programme of term_count terms (1 .. 64), each with the same struct_size.",
-    "dmb_model_add_ring":
-        "Adds a ring; pipes may be added before or after. ring may be NULL. Errors: ERR_VALUE, _NOT_FINITE, _ID, _STRUCT_SIZE, _NO_MEMORY. dmb_model_compile refuses pipes that are not there (ERR_VALUE), rings that overlap, are thinner than what they sit on or too wide for the hole (ERR_GEOMETRY).",
     "dmb_model_add_spring":
         "Errors: ERR_ID, _VALUE; dmb_model_compile: ERR_VALUE (no such pipe, points that move as one), _GEOMETRY (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole). Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does.",
+    "dmb_model_add_stabiliser":
+        "Adds a stabiliser; pipes may be added before or after. stabiliser may be NULL. Errors: ERR_VALUE, _NOT_FINITE, _ID, _STRUCT_SIZE, _NO_MEMORY. dmb_model_compile refuses pipes that are not there (ERR_VALUE), stabilisers that overlap, are thinner than what they sit on or too wide for the hole (ERR_GEOMETRY).",
     "dmb_model_add_string":
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_stuck":
         "Errors: ERR_ID, _VALUE, _NOT_FINITE; of compile: _VALUE (no such pipe), _UNSUPPORTED (axial-torsional).",
     "dmb_model_add_sub":
         "All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are ERR_ORDER, and so is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: ERR_NULL, _STRUCT_SIZE, _ID, _VALUE, _ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey), those of dmb_model_add_body, _string and _joint.",
+    "dmb_model_add_time_function":
+        "Adds a time function of segment_count segments (1 .. 64), each with the same struct_size.",
     "dmb_model_add_wall":
         "Adds the hole. One hole a model; wall may be NULL.",
     "dmb_model_clear_refused":
         "Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was added after all: a later one of its kind with the same name, or with at most one other field where one of them has none (environment, wall: any). This forgets them all.",
     "dmb_model_compile":
-        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements).",
+        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a support keeps off the wall. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements).",
     "dmb_model_create":
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
@@ -382,11 +374,19 @@ FUNCTION_DOCS = {
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
     "dmb_motor_drive":
-        "Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part, programme and name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
+        "Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part, time function and name stay) and tells w0 [rad/s], the constant value of its time function. Another flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
     "dmb_operation_name":
         "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
     "dmb_operation_usual":
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads on the bit 0, to be filled in. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE.",
+    "dmb_output_check":
+        "Whether each output can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should be. Errors: as dmb_query_output.",
+    "dmb_output_name":
+        "\"bit_speed\", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change.",
+    "dmb_output_next":
+        "All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last.",
+    "dmb_output_quantity":
+        "The number of a name; ERR_VALUE where it is none.",
     "dmb_pool_allocator":
         "An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release, whatever *allocator was. Calling it again on the same memory forgets all that was given out. Errors: ERR_NULL, ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool has no room left, calls that need memory fail with ERR_NO_MEMORY and change nothing.",
     "dmb_pool_peak":
@@ -397,14 +397,12 @@ FUNCTION_DOCS = {
         "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile.",
     "dmb_profile_recorder_write_csv":
         "CSV, a line for each row and station: time [s], station, then the quantities with their units. ERR_IO.",
-    "dmb_query_channel":
-        "[unit of the channel] The present value. Errors: those of the query behind it, ERR_VALUE for an unknown quantity or a multiplier that is not there, ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a flexible first pipe) and for channels of a window.",
     "dmb_query_constraint_rows":
         "The first row of the Jacobian that is an equation of a joint, coupling, constraint or joint drive, and their count.",
     "dmb_query_contact":
-        "Contact of one site, counted along the strings (rings before the pipe at their nodes), then the bodies, then points along elements (contact_points), then axial-torsional pipes.",
+        "Contact of contact point `number`, counted along the strings (rings before the pipe at their nodes), then the bodies, then points along elements (contact_points), then axial-torsional pipes.",
     "dmb_query_contact_total":
-        "O(number of sites).",
+        "O(number of contact points).",
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
     "dmb_query_flow":
@@ -419,12 +417,14 @@ FUNCTION_DOCS = {
         "O(number of nodes).",
     "dmb_query_multipliers":
         "Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force per unit of its value. *count on return is the number of rows.",
+    "dmb_query_output":
+        "[unit of the output] The present value. Errors: those of the query behind it, ERR_VALUE for an unknown quantity or a multiplier that is not there, ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a flexible first pipe) and for outputs of a window.",
     "dmb_query_pose_at":
         "Pose and motion of a point off a place: offset [m] in the axes of the place, shape (3). Errors as dmb_query_pose, ERR_NULL.",
     "dmb_query_profile":
-        "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2) times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu, Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints. Errors: ERR_VALUE (quantity, station off the string, strides that overlap), ERR_NOT_FINITE, ERR_ID; nothing is written then. O(station_count).",
+        "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2) times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu, Juvkam-Wold 1995); r the clearance of the nearest contact point, w the weight per metre with buoyancy and tool joints. Errors: ERR_VALUE (quantity, station off the string, strides that overlap), ERR_NOT_FINITE, ERR_ID; nothing is written then. O(station_count).",
     "dmb_query_reaction":
-        "[N, N m] force and moment of the guide and the motion drives on the rig end of a string or on a guided body, body frame, shape (6); 0 in components that are free.",
+        "[N, N m] force and moment of the support and the motion drives on the rig end of a string or on a guided body, body frame, shape (6); 0 in components that are free.",
     "dmb_query_rotation":
         "[rad] rotation about the pipe's own axis since time 0, revolutions counted.",
     "dmb_query_row":
@@ -434,35 +434,35 @@ FUNCTION_DOCS = {
     "dmb_query_statistics":
         "O(number of joints, couplings and constraints).",
     "dmb_recorder_take":
-        "Writes a row if its time has come. NOTE_FULL when the table has no room. O(channels).",
+        "Writes a row if its time has come. NOTE_FULL when the table has no room. O(outputs).",
     "dmb_recorder_write_csv":
         "Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). ERR_IO on failure: this and all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device.",
     "dmb_response_destroy":
         "Gives the memory back and sets *response to NULL. NULL-safe.",
     "dmb_response_dimensions":
-        "Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). ERR_NULL, _HANDLE.",
+        "Numbers of frequencies (those of refinement included), excitations and outputs, shape (3). ERR_NULL, _HANDLE.",
     "dmb_response_frequencies":
         "[Hz] ascending, shape (points). ERR_NULL, _HANDLE.",
     "dmb_response_write_csv":
         "CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.' as decimal mark. ERR_IO on failure.",
-    "dmb_sensitivity_channels":
-        "Channels and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the channel over that of the parameter], shape (count, parameters). Errors: those of the channels' queries, with a message of the sim; ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was moved by other calls; nothing is written then.",
     "dmb_sensitivity_create":
-        "Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state. parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): ERR_NULL, _HANDLE, _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs that are not numbers, or an input (control.h) is on its way to what is set; _UNSUPPORTED: joints with METHOD_MULTIPLIERS, actuators with a delay, programmes whose times differ; _TOO_LARGE: clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the state).",
+        "Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state. parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): ERR_NULL, _HANDLE, _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs that are not numbers, or an input (control.h) is on its way to what is set; _UNSUPPORTED: joints with METHOD_MULTIPLIERS, actuators with a delay, time functions whose times differ; _TOO_LARGE: clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the state).",
     "dmb_sensitivity_destroy":
         "Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe.",
     "dmb_sensitivity_kinks":
         "*kinks [-]: accepted steps so far in which the parameter was not smooth. Errors: ERR_VALUE for a number that is none.",
+    "dmb_sensitivity_outputs":
+        "Outputs and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the output over that of the parameter], shape (count, parameters). Errors: those of the outputs' queries, with a message of the sim; ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; _ORDER: the sim was moved by other calls; nothing is written then.",
     "dmb_sensitivity_rows":
         "Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many there are; with both arrays NULL that is all. Errors: _ORDER as above.",
     "dmb_sensitivity_step":
-        "dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it: of each accepted step as it was done, its length, its corners and its kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs of control.h stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: the sim was moved by other calls; ERR_SINGULAR: the iteration matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side of a parameter; more where contacts change, with joints, bits, actuators, stuck places and callers' forces: in a string in contact some 0.8 steps for each of four parameters, one-sided 0.55.",
+        "dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it: of each accepted step as it was done, its length, its breakpoints and its kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only; inputs of control.h stay as they were set when this was made (ERR_ORDER). NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: the sim was moved by other calls; ERR_SINGULAR: the iteration matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side of a parameter; more where contacts change, with joints, bits, actuators, stuck places and callers' forces: in a string in contact some 0.8 steps for each of four parameters, one-sided 0.55.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not. The errors of the steps add up over a run, to some thousand times the tolerance in 10 s; repeat the run with a tenth of the tolerances to estimate the error at its end. NOTE_TOLERANCE where a step of step_min was too long for them; before that NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
     "dmb_sim_advance_to_event":
         "As dmb_sim_advance, but ends at the first event on the way: NOTE_EVENT, dmb_sim_message names those told. One that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to call. Costs a copy of the state a step, some six steps a crossing. Reports may be NULL. ERR_VALUE: no events.",
     "dmb_sim_create":
-        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their guides leave free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
+        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their supports leave free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed, or only by more than assembly_energy); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
     "dmb_sim_destroy":
@@ -478,7 +478,7 @@ FUNCTION_DOCS = {
     "dmb_sim_replay_inputs":
         "Sets what the log has from record *next on up to the present time, call by call, and moves *next beyond what is set. Called before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Errors: as dmb_sim_set_inputs, with *next at the call that was refused; ERR_VALUE too for times that decrease.",
     "dmb_sim_set_drive":
-        "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h).",
+        "From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h).",
     "dmb_sim_set_input":
         "From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are made to fit what jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where a bound was taken instead. Setting what is set already does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR. O(elements).",
     "dmb_sim_set_joint":
@@ -488,11 +488,11 @@ FUNCTION_DOCS = {
     "dmb_sim_snapshot_size":
         "Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints).",
     "dmb_sim_step":
-        "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
+        "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at time function breakpoints, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
     "dmb_sim_time":
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":
-        "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. Random numbers of pipes go by their place in the string counted from the rig, so they are drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
+        "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its time functions say from now on, may differ. The head lets go, draws back and grips the new rig end: support, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Supports hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. Random numbers of pipes go by their place in the string counted from the rig, so they are drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
     "dmb_state_space_dense":
         "One of A, B, C, D, row by row.",
     "dmb_state_space_destroy":
@@ -508,15 +508,15 @@ FUNCTION_DOCS = {
     "dmb_version":
         "Version of the linked library, 10000 major + 100 minor + patch. Cannot fail.",
     "dmb_window_create":
-        "channels, shape (channel_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a channel and slot. options may be NULL. Errors: those of dmb_channel_check, ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then.",
+        "outputs, shape (output_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a output and slot. options may be NULL. Errors: those of dmb_output_check, ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then.",
     "dmb_window_destroy":
         "Sets *window to NULL. NULL-safe.",
     "dmb_window_get":
-        "O(slots). ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such channel).",
+        "O(slots). ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such output).",
     "dmb_window_reset":
         "Forgets all samples.",
     "dmb_window_take":
-        "Takes a sample; call it after each step. A second one at the same time counts for nothing; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(channels).",
+        "Takes a sample; call it after each step. A second one at the same time counts for nothing; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs).",
     "dmb_write_vtk_hole":
         "The hole as a tube of `around` facets (3 .. 360) with a ring each `spacing` [m] from depth0 to depth1 [m].",
     "dmb_write_vtk_mode":

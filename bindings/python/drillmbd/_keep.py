@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from ._functions import FUNCTION_DOCS
 from ._parts import closed, is_closed
 from ._record import Record
-from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, PROGRAMME_FN, Id, Place
+from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
 from ._values import flat, real, reals, refuse_type, shown
 from .enums import ERR_IO, PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
 from .errors import Error, check
@@ -82,7 +82,7 @@ class Keep:
         self.references: list[Any] = []
         self.raised = threading.local()
 
-    def programme(self, function: Callable[[float], Any], provides: int) -> Any:
+    def time_function(self, function: Callable[[float], Any], provides: int) -> Any:
         """The C function around a Python function of time. An exception stops the step and comes out of the call."""
         wanted = 3 if provides & PROVIDES_INTEGRAL else 2 if provides & PROVIDES_RATE else 1
 
@@ -90,16 +90,16 @@ class Keep:
             try:
                 answer = function(time)
                 if wanted == 1:
-                    out[0] = real(answer, "programme", "answer of the function")
+                    out[0] = real(answer, "time_function", "answer of the function")
                     return 0
-                for i, value in enumerate(reals(answer, "programme", "answer of the function", wanted)):
+                for i, value in enumerate(reals(answer, "time_function", "answer of the function", wanted)):
                     out[i] = value
                 return 0
             except BaseException as error:  # must not unwind through C
                 self.raised.error = error
                 return 1
 
-        wrapped = PROGRAMME_FN(call)
+        wrapped = TIME_FN(call)
         self.references.append(wrapped)
         return wrapped
 

@@ -13,7 +13,7 @@ WHOLE_STRING = 0xFFFFFFFF
 
 
 class Parts:
-    """Stamp of the model, pipes of its strings by their id's index, contact sites."""
+    """Stamp of the model, pipes of its strings by their id's index, contact points."""
 
     def __init__(self) -> None:
         self.stamp = 0

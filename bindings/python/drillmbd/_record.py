@@ -49,7 +49,7 @@ class Record(ctypes.Structure):
             mixed = cls.__mro__[1].__doc__ if cls.__mro__[1].__name__.endswith("Part") else None
             parts = [f"{cls.c_name} of the headers.", mixed or own or "", cls.about]
             named = {name: f" ({cls._kinds[name].__name__})" for name in cls._kinds
-                     if getattr(cls._kinds[name], "__name__", "") in ("Place", "Id", "Channel")}
+                     if getattr(cls._kinds[name], "__name__", "") in ("Place", "Id", "Output")}
             fields = "\n".join(f"{name}{named.get(name, '')}: " + (f"[{unit}] " if unit else "") + text
                                for name, (unit, text) in cls.field_docs.items())
             cls.__doc__ = "\n\n".join(part for part in [*parts, fields] if part)
@@ -138,7 +138,7 @@ def _make(cls: type[Record], fields: dict[str, Any]) -> Record:
 
 
 def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
-    """A struct of the kind: a part or None for a place, None for no part, a pair (place, quantity) for a channel."""
+    """A struct of the kind: a part or None for a place, None for no part, a pair (place, quantity) for a output."""
     if isinstance(value, kind):
         return value
     word = kind.__name__
@@ -146,11 +146,11 @@ def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
         return kind()
     if word == "Place" and type(value).__name__ == "Id":
         return kind(value)
-    if word == "Channel" and isinstance(value, tuple) and len(value) == 2:
-        from .channels import channel_quantity
-        return kind(place=value[0], quantity=channel_quantity(value[1]))
+    if word == "Output" and isinstance(value, tuple) and len(value) == 2:
+        from .outputs import output_quantity
+        return kind(place=value[0], quantity=output_quantity(value[1]))
     bound = {"Place": "be a place, station(string, pipe, fraction), or a part", "Id": "be the id of a part",
-             "Channel": 'be a Channel or a pair (place, "bit_speed")'}
+             "Output": 'be a Output or a pair (place, "bit_speed")'}
     refuse_type(part, name, value, bound.get(word, f"be a {word}"))
 
 
@@ -198,8 +198,8 @@ class IdPart:
         return self.generation != 0
 
 
-class TermPart:
-    """One term of a programme. `table` takes pairs (time, value) or two sequences, (times, values); `function` takes a
+class SegmentPart:
+    """One segment of a time function. `table` takes pairs (time, value) or two sequences, (times, values); `function` takes a
     function of time that returns a value, or (value, rate), or (value, rate, integral)."""
 
     def __init__(self, table: Any = None, function: Callable[[float], Any] | None = None, **fields: Any) -> None:
@@ -207,10 +207,10 @@ class TermPart:
         self._function = function
         self._table: list[tuple[float, float]] = []
         if table is not None:
-            self._set_table(*points(table, "Term"))
+            self._set_table(*points(table, "Segment"))
         if function is not None:
             if not callable(function):
-                refuse_type("Term", "function", function, "be a function of time")
+                refuse_type("Segment", "function", function, "be a function of time")
             self.kind = 5
 
     def _set_table(self, times: Sequence[float], values: Sequence[float]) -> None:

@@ -7,7 +7,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart
 
 
 class Id(IdPart, Record):
@@ -90,7 +90,7 @@ class EnvironmentDef(Sized):
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, rings have that of what they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
+        "added_mass": ("-", "of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, stabilisers have that of what they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
         "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
@@ -262,7 +262,7 @@ class ModelInfo(Sized):
     rigid_bodies: int
     nodes: int
     elements: int
-    contact_sites: int
+    contact_points: int
     degrees_of_freedom: int
     prescribed: int
     structural_joints: int
@@ -275,7 +275,7 @@ class ModelInfo(Sized):
     clusters: int
     reduced_nodes: int
     if TYPE_CHECKING:
-        def __init__(self, *, strings: int = ..., pipes: int = ..., rigid_bodies: int = ..., nodes: int = ..., elements: int = ..., contact_sites: int = ..., degrees_of_freedom: int = ..., prescribed: int = ..., structural_joints: int = ..., model_bytes: int = ..., sim_bytes: int = ..., mass: SupportsFloat = ..., length: SupportsFloat = ..., joints: int = ..., constraint_rows: int = ..., clusters: int = ..., reduced_nodes: int = ...) -> None: ...
+        def __init__(self, *, strings: int = ..., pipes: int = ..., rigid_bodies: int = ..., nodes: int = ..., elements: int = ..., contact_points: int = ..., degrees_of_freedom: int = ..., prescribed: int = ..., structural_joints: int = ..., model_bytes: int = ..., sim_bytes: int = ..., mass: SupportsFloat = ..., length: SupportsFloat = ..., joints: int = ..., constraint_rows: int = ..., clusters: int = ..., reduced_nodes: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("strings", c_uint32),
@@ -283,7 +283,7 @@ class ModelInfo(Sized):
         ("rigid_bodies", c_uint32),
         ("nodes", c_uint32),
         ("elements", c_uint32),
-        ("contact_sites", c_uint32),
+        ("contact_points", c_uint32),
         ("degrees_of_freedom", c_uint32),
         ("prescribed", c_uint32),
         ("structural_joints", c_uint32),
@@ -302,7 +302,7 @@ class ModelInfo(Sized):
         "rigid_bodies": ("-", "merged ones count once"),
         "nodes": ("-", ""),
         "elements": ("-", "flexible and axial-torsional"),
-        "contact_sites": ("-", ""),
+        "contact_points": ("-", ""),
         "degrees_of_freedom": ("-", "free velocity components, prescribed ones not counted"),
         "prescribed": ("-", "components moved by drives"),
         "structural_joints": ("-", "fixed joints that cost no unknowns"),
@@ -436,9 +436,9 @@ class ContactTotal(Sized):
         ("deepest", c_double),
     ]
     field_docs = {
-        "closed": ("-", "sites that touch"),
-        "normal_force": ("N", "sum over the sites"),
-        "friction": ("N", "sum of the friction components over the sites, shape (2)"),
+        "closed": ("-", "contact points that touch"),
+        "normal_force": ("N", "sum over the contact points"),
+        "friction": ("N", "sum of the friction components, shape (2)"),
         "deepest": ("m", "largest penetration, >= 0"),
     }
 
@@ -561,7 +561,7 @@ class DriveState(Sized):
         ("made", c_double),
     ]
     field_docs = {
-        "target": ("unit of the programme", "now, excitation included"),
+        "target": ("unit of the time function", "now, excitation included"),
         "position": ("m, rad", "of the component since time 0, unwrapped"),
         "speed": ("m/s, rad/s", ""),
         "force": ("N, N m", "that the drive exerts on the part, along the component"),
@@ -649,7 +649,7 @@ class BitState(Sized):
         "depth_of_cut": ("m", "per revolution, all blades"),
         "weight": ("N", "weight on bit from the rock law, >= 0"),
         "torque": ("N m", "torque on bit from the rock law, against the rotation"),
-        "load": ("N", "bottom-hole load of the programme"),
+        "load": ("N", "bottom-hole load of the time function"),
         "side_force": ("N", "of the rock on the bit across its axis (side_cutting), world frame, shape (3)"),
         "side_speed": ("m/s", "it is cut sideways at, across its axis"),
     }
@@ -1127,7 +1127,7 @@ class CheckReport(Sized):
         "other_drives": ("-", "DRIVE_LOAD and _CONTROL"),
         "loads": ("-", ""),
         "coordinates": ("-", "velocity components of all nodes: 6 or (axial-torsional) 2 each"),
-        "held": ("-", "of them held by guides: start_free, end_free, free_mask"),
+        "held": ("-", "of them held by supports: start_free, end_free, free_mask"),
         "prescribed": ("-", "of them moved by motion drives of strings and bodies"),
         "constraint_rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
         "rank": ("-", "of their matrix in the coordinates that are neither held nor prescribed"),
@@ -1147,7 +1147,7 @@ class CheckReport(Sized):
 
 
 class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over channels -------------------------------------------------------------------------------------- Least, greatest and mean of channels over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
     struct_size: int
     slots: int
     length: float
@@ -1163,7 +1163,7 @@ class WindowOptions(Sized):
     field_docs = {
         "slots": ("-", "2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default 100"),
         "length": ("s", ">= 0; 0 (default): all since the first sample"),
-        "levels": ("unit of the channel", "of low_share, shape (channel_count), >= 0; NULL (default): 0"),
+        "levels": ("unit of the output", "of low_share, shape (output_count), >= 0; NULL (default): 0"),
     }
 
 
@@ -1196,10 +1196,10 @@ class WindowResult(Sized):
     field_docs = {
         "samples": ("-", "in the window"),
         "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
-        "minimum": ("unit of the channel", "of the samples; NaN, as all that follow, without one"),
-        "maximum": ("unit of the channel", ""),
-        "mean": ("unit of the channel", "over time"),
-        "rms": ("unit of the channel", "root of the mean of the squares over time"),
+        "minimum": ("unit of the output", "of the samples; NaN, as all that follow, without one"),
+        "maximum": ("unit of the output", ""),
+        "mean": ("unit of the output", "over time"),
+        "rms": ("unit of the output", "root of the mean of the squares over time"),
         "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
         "low_share": ("-", "of the time, |value| <= its level, by the sample at the end of each interval"),
     }
@@ -1224,11 +1224,11 @@ class InputState(Sized):
         ("arrives", c_double),
     ]
     field_docs = {
-        "is_set": ("", "0: its programme is in force, since it was not set yet"),
-        "value": ("unit", "what is set; of a programme its value now"),
+        "is_set": ("", "0: its time function is in force, since it was not set yet"),
+        "value": ("unit", "what is set; of a time function its value now"),
         "present": ("unit, unit/s", "in force now, on the way to `value`"),
         "rate": ("unit, unit/s", "in force now, on the way to `value`"),
-        "arrives": ("s", "time at which it is or was there; 0 of a programme"),
+        "arrives": ("s", "time at which it is or was there; 0 of a time function"),
     }
 
 
@@ -1611,7 +1611,7 @@ class SpringState(Sized):
 
 
 class HoleSection(Sized):
-    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the corner between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
     struct_size: int
     shape: int
     depth: float
@@ -1729,7 +1729,7 @@ class ModesInfo(Sized):
     ]
     field_docs = {
         "count": ("-", "modes found, by rising frequency"),
-        "rigid": ("-", "of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor guides nor any force hold, K d = 0. They are found as such, not as small eigenvalues; each is told once, with s = 0"),
+        "rigid": ("-", "of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues; each is told once, with s = 0"),
         "coordinates": ("-", "independent coordinates of the linear system"),
         "dense": ("", "1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors"),
         "solves": ("-", "with those factors"),
@@ -1860,7 +1860,7 @@ class ResponseOptions(Sized):
 
 
 class SteppedSineOptions(Sized):
-    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), transfer the state (dmb_sim_transfer_state) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
+    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own time functions do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
     struct_size: int
     steps_per_period: int
     periods: int
@@ -1944,7 +1944,7 @@ class SpeedsReport(Sized):
     ]
     field_docs = {
         "bands": ("-", "that were found, those without room included"),
-        "silent_orders": ("-", "orders whose input moves no output at any speed"),
+        "silent_orders": ("-", "orders whose excitation moves no output at any speed"),
         "undamped": ("", "1: nothing damps, so that heights at resonances mean nothing"),
         "truncated": ("", "1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none"),
     }
@@ -2113,8 +2113,8 @@ LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 LOG_FN.__doc__ = "Called with a line of text, never during a step. The text lives only for the call."
 
 
-PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
-PROGRAMME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; what `provides` does not announce is built by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
+TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
+TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; what `provides` does not announce is built by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
@@ -2175,8 +2175,8 @@ class ModelOptions(Sized):
     }
 
 
-class Term(TermPart, Sized):
-    c_name, about = "dmb_term", "For dmb_model_add_programme."
+class Segment(SegmentPart, Sized):
+    c_name, about = "dmb_segment", "For dmb_model_add_time_function."
     struct_size: int
     kind: int
     x0: float
@@ -2206,19 +2206,19 @@ class Term(TermPart, Sized):
         ("table_value", POINTER(c_double)),
         ("table_count", c_uint32),
         ("provides", c_int32),
-        ("callback", PROGRAMME_FN),
+        ("callback", TIME_FN),
         ("callback_context", c_void_p),
     ]
     field_docs = {
-        "kind": ("", "TERM_..., default TERM_CONSTANT"),
+        "kind": ("", "SEGMENT_..., default SEGMENT_CONSTANT"),
         "x0": ("s", "start and end of STEP and STEP5, x1 > x0; default 0 and 1"),
         "x1": ("s", "start and end of STEP and STEP5, x1 > x0; default 0 and 1"),
-        "h0": ("unit of the programme", "default 0 and 0"),
-        "h1": ("unit of the programme", "default 0 and 0"),
+        "h0": ("unit of the time function", "default 0 and 0"),
+        "h1": ("unit of the time function", "default 0 and 0"),
         "omega": ("rad/s", "of HARMONIC; default 0"),
         "phase": ("rad", "of HARMONIC; default 0"),
         "table_time": ("s", "strictly increasing, shape (table_count); copied"),
-        "table_value": ("unit of the programme", "shape (table_count); copied"),
+        "table_value": ("unit of the time function", "shape (table_count); copied"),
         "table_count": ("-", "1 .. 2^20"),
         "provides": ("", "PROVIDES_..., of CALLBACK"),
         "callback": ("", "of CALLBACK; pure: same answer for the same time, callable from any thread"),
@@ -2404,11 +2404,11 @@ class BitDef(Sized):
     side_cutting: float
     walk_angle: float
     displaced_volume: float
-    ring: Id
+    stabiliser: Id
     inner_radius: float
     added_mass: 'Array[c_double]'
     if TYPE_CHECKING:
-        def __init__(self, *, rock_law: int = ..., string: Id | None = ..., load: Id | None = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., diameter: SupportsFloat = ..., length: SupportsFloat = ..., radius: SupportsFloat = ..., intrinsic_energy: SupportsFloat = ..., cutting_ratio: SupportsFloat = ..., contact_strength: SupportsFloat = ..., wear_length: SupportsFloat = ..., contact_friction: SupportsFloat = ..., intrusion_depth: SupportsFloat = ..., bottom: SupportsFloat = ..., blades: int = ..., history: int = ..., name: str | bytes = ..., side_cutting: SupportsFloat = ..., walk_angle: SupportsFloat = ..., displaced_volume: SupportsFloat = ..., ring: Id | None = ..., inner_radius: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
+        def __init__(self, *, rock_law: int = ..., string: Id | None = ..., load: Id | None = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., diameter: SupportsFloat = ..., length: SupportsFloat = ..., radius: SupportsFloat = ..., intrinsic_energy: SupportsFloat = ..., cutting_ratio: SupportsFloat = ..., contact_strength: SupportsFloat = ..., wear_length: SupportsFloat = ..., contact_friction: SupportsFloat = ..., intrusion_depth: SupportsFloat = ..., bottom: SupportsFloat = ..., blades: int = ..., history: int = ..., name: str | bytes = ..., side_cutting: SupportsFloat = ..., walk_angle: SupportsFloat = ..., displaced_volume: SupportsFloat = ..., stabiliser: Id | None = ..., inner_radius: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2432,14 +2432,14 @@ class BitDef(Sized):
         ("side_cutting", c_double),
         ("walk_angle", c_double),
         ("displaced_volume", c_double),
-        ("ring", Id),
+        ("stabiliser", Id),
         ("inner_radius", c_double),
         ("added_mass", c_double * 2),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
         "string": ("", "the bit is fixed to the far end of it; {0, 0}: the model's first string"),
-        "load": ("N", "programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none"),
+        "load": ("N", "time function of the bottom-hole load along the axis, > 0 against the feed; {0, 0}: none"),
         "mass": ("kg", "> 0; default 5"),
         "inertia": ("kg m2", "about the axis and across, at the centre, the first <= twice the second; 0 (default): of a solid cylinder"),
         "diameter": ("m", "gauge that meets the wall, <= hole; 0: no contact; default 0.092"),
@@ -2458,9 +2458,9 @@ class BitDef(Sized):
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "likewise of a body"),
-        "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
+        "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
         "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
-        "added_mass": ("kg", "likewise of a body, at the bit's centre; not of a reamer, whose ring has it; default 0, shape (2)"),
+        "added_mass": ("kg", "likewise of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
     }
 
 
@@ -2471,7 +2471,7 @@ class DriveDef(DrivePart, Sized):
     part: Id
     component: int
     reserved: int
-    programme: Id
+    time_function: Id
     excitation: Id
     gain: float
     integral_gain: float
@@ -2494,14 +2494,14 @@ class DriveDef(DrivePart, Sized):
     gain_force: 'Array[c_double]'
     mud_pressure: float
     if TYPE_CHECKING:
-        def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., programme: Id | None = ..., excitation: Id | None = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
+        def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., time_function: Id | None = ..., excitation: Id | None = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
         ("part", Id),
         ("component", c_int32),
         ("reserved", c_int32),
-        ("programme", Id),
+        ("time_function", Id),
         ("excitation", Id),
         ("gain", c_double),
         ("integral_gain", c_double),
@@ -2528,8 +2528,8 @@ class DriveDef(DrivePart, Sized):
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
         "part": ("", "a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string"),
         "component": ("", "X (feed, default) .. RZ; must be free there; of a joint: its coordinate"),
-        "programme": ("", "required"),
-        "excitation": ("", "programme added to the first (vibration); {0, 0}: none"),
+        "time_function": ("", "required"),
+        "excitation": ("", "time function added to the first (vibration); {0, 0}: none"),
         "gain": ("N s/m, N m s", "kp of CONTROL, >= 0; default 0"),
         "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
         "limit_low": ("N, N m", "default -1e30"),
@@ -2556,7 +2556,7 @@ class Contact(Sized):
     struct_size: int
     closed: int
     sticks: int
-    site: int
+    number: int
     part: Id
     pipe: int
     reserved: int
@@ -2569,12 +2569,12 @@ class Contact(Sized):
     slip: 'Array[c_double]'
     along: float
     if TYPE_CHECKING:
-        def __init__(self, *, closed: int = ..., sticks: int = ..., site: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, closed: int = ..., sticks: int = ..., number: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("closed", c_int32),
         ("sticks", c_int32),
-        ("site", c_uint32),
+        ("number", c_uint32),
         ("part", Id),
         ("pipe", c_uint32),
         ("reserved", c_uint32),
@@ -2590,8 +2590,8 @@ class Contact(Sized):
     field_docs = {
         "closed": ("", "1 when touching"),
         "sticks": ("", "1 when the bristle law holds it"),
-        "site": ("-", "number of the site, 0 .. info.contact_sites - 1"),
-        "part": ("", "string or body the site belongs to"),
+        "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
+        "part": ("", "string or body the contact point belongs to"),
         "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
         "length": ("m", "of pipe it stands for"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
@@ -2713,7 +2713,7 @@ class InputDef(Sized):
         "target": ("", "TARGET_..., default TARGET_SET_POINT"),
         "name": ("", "required, of its own among the inputs, ends with 0"),
         "part": ("", "drive, load, bit or stuck place; {0, 0} of wall and environment"),
-        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the programme, until the input is set"),
+        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the time function, until the input is set"),
         "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "rate_limit": ("unit/s", "of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
@@ -2891,8 +2891,8 @@ class SpeedsOptions(Sized):
     }
 
 
-class RingDef(Sized):
-    c_name, about = "dmb_ring_def", "A ring at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the ring's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the ring. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with rings."
+class StabiliserDef(Sized):
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other ring at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
     struct_size: int
     pipe: int
     string: Id
@@ -2958,12 +2958,12 @@ class Row(Sized):
         "part": ("", "string or body that the node belongs to"),
         "pipe": ("-", "of the string; the one before the node"),
         "node": ("-", ""),
-        "state": ("", "ROW_FREE, held by a guide, or driven by a motion drive"),
+        "state": ("", "ROW_FREE, held by a support, or driven by a motion drive"),
     }
 
 
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
-PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, programmes, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
+PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
@@ -2977,18 +2977,18 @@ class LoadDef(Sized):
     place: Place
     force: 'Array[c_double]'
     moment: 'Array[c_double]'
-    programme: Id
+    time_function: Id
     name: bytes
     offset: 'Array[c_double]'
     if TYPE_CHECKING:
-        def __init__(self, *, frame: int = ..., place: Place | Id | None = ..., force: Iterable[float] = ..., moment: Iterable[float] = ..., programme: Id | None = ..., name: str | bytes = ..., offset: Iterable[float] = ...) -> None: ...
+        def __init__(self, *, frame: int = ..., place: Place | Id | None = ..., force: Iterable[float] = ..., moment: Iterable[float] = ..., time_function: Id | None = ..., name: str | bytes = ..., offset: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
         ("place", Place),
         ("force", c_double * 3),
         ("moment", c_double * 3),
-        ("programme", Id),
+        ("time_function", Id),
         ("name", c_char * 24),
         ("offset", c_double * 3),
     ]
@@ -2997,7 +2997,7 @@ class LoadDef(Sized):
         "place": ("", "any place of a pipe, or a body; inside an element it gets a node, which divides the element. Within a quarter of the pipe's diameter of a node it acts by the element's interpolation"),
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
-        "programme": ("-", "factor over time; {0, 0}: 1"),
+        "time_function": ("-", "factor over time; {0, 0}: 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
     }
@@ -3065,7 +3065,7 @@ class SimOptions(Sized):
         "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
         "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
         "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
-        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at corners; for control loops; default 0"),
+        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints; for control loops; default 0"),
         "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),
         "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
         "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),
@@ -3077,8 +3077,8 @@ class SimOptions(Sized):
     }
 
 
-class Channel(Record):
-    c_name, about = "dmb_channel", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells its length and speed (forces.h, as channels); so do dmb_query_motion with the arm, and a body that is fixed there."
+class Output(Record):
+    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
     place: Place
     quantity: int
     reserved: int
@@ -3089,7 +3089,7 @@ class Channel(Record):
     ]
     field_docs = {
         "place": ("", "where the quantity is one of a place"),
-        "quantity": ("", "CHANNEL_..."),
+        "quantity": ("", "OUTPUT_..."),
     }
 
 
@@ -3478,8 +3478,8 @@ class ForceDef(ForcePart, Sized):
     }
 
 
-class Input(Sized):
-    c_name, about = "dmb_input", "For dmb_analysis_response, dmb_analysis_state_space."
+class Excitation(Sized):
+    c_name, about = "dmb_excitation", "For dmb_analysis_response, dmb_analysis_state_space."
     struct_size: int
     kind: int
     place: Place
@@ -3499,7 +3499,7 @@ class Input(Sized):
         ("phase", c_double),
     ]
     field_docs = {
-        "kind": ("", "INPUT_..., default INPUT_FORCE"),
+        "kind": ("", "EXCITATION_..., default EXCITATION_FORCE"),
         "place": ("", "as the kind says"),
         "component": ("", "X .. RZ, default X"),
         "frame": ("", "FRAME_WORLD (default) or FRAME_BODY: axes of the place in the state"),
@@ -3508,8 +3508,8 @@ class Input(Sized):
     }
 
 
-class Output(Sized):
-    c_name, about = "dmb_output", "For dmb_analysis_response, dmb_analysis_stepped_sine, dmb_analysis_speeds, dmb_analysis_state_space."
+class ResponseOutput(Sized):
+    c_name, about = "dmb_response_output", "For dmb_analysis_response, dmb_analysis_stepped_sine, dmb_analysis_speeds, dmb_analysis_state_space."
     struct_size: int
     kind: int
     place: Place
@@ -3525,7 +3525,7 @@ class Output(Sized):
         ("frame", c_int32),
     ]
     field_docs = {
-        "kind": ("", "OUTPUT_..., default OUTPUT_DISPLACEMENT"),
+        "kind": ("", "RESPONSE_..., default RESPONSE_DISPLACEMENT"),
         "place": ("", "required where the kind asks for one"),
         "component": ("", "X .. RZ, default X"),
         "frame": ("", "FRAME_WORLD (default) or FRAME_BODY"),
@@ -3535,19 +3535,19 @@ class Output(Sized):
 class RecorderStruct(Sized):
     c_name, about = "dmb_recorder", "For dmb_recorder_take, dmb_recorder_write_csv."
     struct_size: int
-    channel_count: int
-    channels: Any
+    output_count: int
+    outputs: Any
     table: Any
     capacity: int
     row_count: int
     interval: float
     window: Any
     if TYPE_CHECKING:
-        def __init__(self, *, channel_count: int = ..., channels: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ..., window: Any = ...) -> None: ...
+        def __init__(self, *, output_count: int = ..., outputs: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ..., window: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("channel_count", c_uint32),
-        ("channels", POINTER(Channel)),
+        ("output_count", c_uint32),
+        ("outputs", POINTER(Output)),
         ("table", POINTER(c_double)),
         ("capacity", c_uint64),
         ("row_count", c_uint64),
@@ -3555,13 +3555,13 @@ class RecorderStruct(Sized):
         ("window", c_void_p),
     ]
     field_docs = {
-        "channel_count": ("-", "1 .. 4096"),
-        "channels": ("", "shape (channel_count); the caller's, kept alive by it"),
-        "table": ("", "shape (capacity, 1 + channel_count); the caller's"),
+        "output_count": ("-", "1 .. 4096"),
+        "outputs": ("", "shape (output_count); the caller's, kept alive by it"),
+        "table": ("", "shape (capacity, 1 + output_count); the caller's"),
         "capacity": ("-", "rows of table"),
         "row_count": ("-", "rows written; start with 0"),
         "interval": ("s", "between samples, 0: every call"),
-        "window": ("", "of the channels of a window (output.h), fed by the caller before; default NULL"),
+        "window": ("", "of the outputs of a window (output.h), fed by the caller before; default NULL"),
     }
 
 
@@ -3570,17 +3570,17 @@ class EventDef(Sized):
     struct_size: int
     direction: int
     name: bytes
-    output: Channel
+    output: Output
     level: float
     hold: float
     tolerance: float
     if TYPE_CHECKING:
-        def __init__(self, *, direction: int = ..., name: str | bytes = ..., output: Channel | tuple[Any, Any] = ..., level: SupportsFloat = ..., hold: SupportsFloat = ..., tolerance: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, direction: int = ..., name: str | bytes = ..., output: Output | tuple[Any, Any] = ..., level: SupportsFloat = ..., hold: SupportsFloat = ..., tolerance: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("direction", c_int32),
         ("name", c_char * 24),
-        ("output", Channel),
+        ("output", Output),
         ("level", c_double),
         ("hold", c_double),
         ("tolerance", c_double),
@@ -3632,18 +3632,18 @@ class Order(Sized):
     struct_size: int
     reserved: int
     order: float
-    input: Input
+    excitation: Excitation
     if TYPE_CHECKING:
-        def __init__(self, *, order: SupportsFloat = ..., input: Input = ...) -> None: ...
+        def __init__(self, *, order: SupportsFloat = ..., excitation: Excitation = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
         ("order", c_double),
-        ("input", Input),
+        ("excitation", Excitation),
     ]
     field_docs = {
         "order": ("-", "frequency over rotary speed, > 0; default 1"),
-        "input": ("", "what acts, with its amplitude; default: the scene's eccentric masses, as they are"),
+        "excitation": ("", "what acts, with its amplitude; default: the scene's eccentric masses, as they are"),
     }
 
 
@@ -3653,7 +3653,7 @@ STRUCTS["dmb_place"] = Place
 STRUCTS["dmb_allocator"] = Allocator
 STRUCTS["dmb_model_options"] = ModelOptions
 STRUCTS["dmb_environment_def"] = EnvironmentDef
-STRUCTS["dmb_term"] = Term
+STRUCTS["dmb_segment"] = Segment
 STRUCTS["dmb_wall_def"] = WallDef
 STRUCTS["dmb_string_def"] = StringDef
 STRUCTS["dmb_pipe_def"] = PipeDef
@@ -3679,7 +3679,7 @@ STRUCTS["dmb_statistics"] = Statistics
 STRUCTS["dmb_hole_point"] = HolePoint
 STRUCTS["dmb_flow_state"] = FlowState
 STRUCTS["dmb_profile"] = ProfileStruct
-STRUCTS["dmb_channel"] = Channel
+STRUCTS["dmb_output"] = Output
 STRUCTS["dmb_recorder"] = RecorderStruct
 STRUCTS["dmb_static_options"] = StaticOptions
 STRUCTS["dmb_static_report"] = StaticReport
@@ -3720,8 +3720,8 @@ STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode
 STRUCTS["dmb_mode_shape"] = ModeShape
-STRUCTS["dmb_input"] = Input
-STRUCTS["dmb_output"] = Output
+STRUCTS["dmb_excitation"] = Excitation
+STRUCTS["dmb_response_output"] = ResponseOutput
 STRUCTS["dmb_response_options"] = ResponseOptions
 STRUCTS["dmb_stepped_sine_options"] = SteppedSineOptions
 STRUCTS["dmb_stepped_sine_report"] = SteppedSineReport
@@ -3729,7 +3729,7 @@ STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand
-STRUCTS["dmb_ring_def"] = RingDef
+STRUCTS["dmb_stabiliser_def"] = StabiliserDef
 STRUCTS["dmb_parameter"] = Parameter
 STRUCTS["dmb_state_space_options"] = StateSpaceOptions
 STRUCTS["dmb_state_space_info"] = StateSpaceInfo

@@ -13,11 +13,11 @@ from ._library import lib as _lib
 from ._parts import Parts, index_of, is_closed
 from ._optional import need, numpy
 from ._progress import Teller
-from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Input, Mode, ModeShape, ModesInfo,
-                       ModesOptions, Operation, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
+from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Hydraulics, Id, Excitation, Mode, ModeShape, ModesInfo,
+                       ModesOptions, Operation, Order, ResponseOutput, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
                        SpeedsOptions, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, OUTPUT_DISPLACEMENT,
+from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, RESPONSE_DISPLACEMENT,
                     Component, OperationKind)
 from .errors import Error, check
 from .frames import Columns, SpeedBands
@@ -96,7 +96,7 @@ class Analyses:
         return text.value.decode()
 
     @mirrors("dmb_analysis_response")
-    def response(self, inputs: Sequence[Input], outputs: Sequence[Output], options: ResponseOptions | None = None,
+    def response(self, excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput], options: ResponseOptions | None = None,
                  frequencies: Any = None, **fields: Any) -> Response:
         """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
         grid that the ResponseOptions describe."""
@@ -104,19 +104,19 @@ class Analyses:
         if frequencies is not None:
             frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
             options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-        given, asked, handle = row_of(Input, inputs, "inputs"), row_of(Output, outputs, "outputs"), c_void_p()
-        self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(inputs), asked, len(outputs),
+        given, asked, handle = row_of(Excitation, excitations, "excitations"), row_of(ResponseOutput, outputs, "outputs"), c_void_p()
+        self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked, len(outputs),
                                                byref(handle)))
         return Response(handle, [one.amplitude for one in given])
 
     @mirrors("dmb_analysis_stepped_sine")
-    def stepped_sine(self, frequency: float, outputs: Sequence[Output], options: Any = None,
+    def stepped_sine(self, frequency: float, outputs: Sequence[ResponseOutput], options: Any = None,
                      **fields: Any) -> tuple[Any, Any]:
         """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
         then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
         options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
         report: Any = STRUCTS["dmb_stepped_sine_report"]()
-        asked, width = row_of(Output, outputs, "outputs"), 1 + options.harmonics
+        asked, width = row_of(ResponseOutput, outputs, "outputs"), 1 + options.harmonics
         frequency = real(frequency, "stepped sine", "frequency", "Hz")
         values = (c_double * (2 * width * len(outputs)))()
         report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
@@ -134,7 +134,7 @@ class Analyses:
         return Modes(handle, self)
 
     @mirrors("dmb_analysis_speeds")
-    def speeds(self, orders: Sequence[Order], outputs: Sequence[Output], limits: Sequence[float], room: int = 64,
+    def speeds(self, orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64,
                options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
         """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
         Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
@@ -142,7 +142,7 @@ class Analyses:
         options = struct(SpeedsOptions, options, fields)
         room = whole(room, "speeds", "room", 1, 2 ** 20)
         allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
-        shakes, asked = row_of(Order, orders, "orders"), row_of(Output, outputs, "outputs")
+        shakes, asked = row_of(Order, orders, "orders"), row_of(ResponseOutput, outputs, "outputs")
         bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
         severity = (c_double * options.points)()
         found = SpeedBands()
@@ -273,15 +273,15 @@ class TorqueDrag:
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------
 class Response(Handle):
-    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, inputs and outputs; `amplitudes`:
-    of the inputs, as they were given."""
+    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, excitations and outputs; `amplitudes`:
+    of the excitations, as they were given."""
     _kind = "response"
 
     def __init__(self, handle: c_void_p, amplitudes: list[float]) -> None:
         self._handle, self.amplitudes = handle, amplitudes
         shape = (c_uint32 * 3)()
         check(_lib.dmb_response_dimensions(handle, shape))
-        self.shape = tuple(shape)  # points, inputs, outputs
+        self.shape = tuple(shape)  # points, excitations, outputs
 
     @property
     def frequencies(self) -> Any:
@@ -290,14 +290,14 @@ class Response(Handle):
         self._sure(_lib.dmb_response_frequencies(self._handle, values))
         return numpy.array(values) if numpy is not None else list(values)
 
-    def transfer(self, input: int = COMBINED, output: int = 0) -> Any:
-        """The output per unit of the input, or for all inputs with their amplitudes and phases (COMBINED): complex
+    def transfer(self, excitation: int = COMBINED, output: int = 0) -> Any:
+        """The output per unit of the excitation, or for all excitations with their amplitudes and phases (COMBINED): complex
         numbers, one for each frequency; shape (points)."""
         values = (c_double * (2 * self.shape[0]))()
-        if input != COMBINED:
-            input = index_of("response", "input", input, self.shape[1])
+        if excitation != COMBINED:
+            excitation = index_of("response", "excitation", excitation, self.shape[1])
         output = index_of("response", "output", output, self.shape[2])
-        self._sure(_lib.dmb_response_transfer(self._handle, input, output, values))
+        self._sure(_lib.dmb_response_transfer(self._handle, excitation, output, values))
         if numpy is not None:
             return numpy.array(values).view(complex)
         return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
@@ -424,9 +424,9 @@ class Modes(Shaped):
             whole(per_element, "mode", "per_element", 1), path_of(path)))
 
 
-def output(place: Any, component: int = 0, kind: int = OUTPUT_DISPLACEMENT, frame: int = FRAME_WORLD) -> Output:
-    """An Output of a response: `component` (X .. RZ) of a quantity (OUTPUT_...) at a place."""
-    return Output(kind=kind, place=as_place(place), component=Component(component), frame=frame)
+def response_output(place: Any, component: int = 0, kind: int = RESPONSE_DISPLACEMENT, frame: int = FRAME_WORLD) -> ResponseOutput:
+    """An Output of a response: `component` (X .. RZ) of a quantity (RESPONSE_...) at a place."""
+    return ResponseOutput(kind=kind, place=as_place(place), component=Component(component), frame=frame)
 
 
 def _array(values: Any) -> Any:

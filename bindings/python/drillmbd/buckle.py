@@ -9,9 +9,9 @@ from typing import Any
 from . import enums
 from ._structs import TorqueDragRow
 from .analysis import Buckling, usual_operation
-from .answers import Output, file_name
+from .results import CommandOutput, file_name
 from .errors import Error, Unanswered, Usage, status_text
-from .questions import along_pipes, stations_of, to_rest
+from .commands import along_pipes, stations_of, to_rest
 from .scene import Scene
 from .sim import Sim
 from .torque_drag import depths_of
@@ -23,54 +23,54 @@ SLIPS = ("slip_axial", "slip_rotation")
 ENDS = {int(value): value.name.lower() for value in enums.BucklingEnd}
 
 
-def buckle(scene: Scene, output: Output, options: Any) -> int:
+def buckle(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Both; status 1 if neither is found."""
     if not scene.pipes:
         raise Usage("buckle is about a string, the scene has none")
     reasons: list[str] = []
     with scene.new_sim() as sim:
-        soft = [_thrusts(scene, sim, output, name) for name in scene.pipes]
+        soft = [_thrusts(scene, sim, out, name) for name in scene.pipes]
         try:
-            _factors(scene, sim, output)
+            _factors(scene, sim, out)
         except KeyboardInterrupt:
-            output.stopped("stopped by Ctrl-C before the critical factors were found")
-            return output.finish()
+            out.stopped("stopped by Ctrl-C before the critical factors were found")
+            return out.finish()
         except Error as error:
-            reasons.append(output.units.sentence(reason_of(scene, sim, error)))
-            output.note_text(f"critical factors: not assessed, because {reasons[-1]}")
-            output.summary["buckling"] = {"factors": [], "not_assessed": reasons[-1]}
+            reasons.append(out.units.sentence(reason_of(scene, sim, error)))
+            out.note_text(f"critical factors: not assessed, because {reasons[-1]}")
+            out.summary["buckling"] = {"factors": [], "not_assessed": reasons[-1]}
     if reasons and not any(soft):
         raise Unanswered(f"buckling: not assessed, because {reasons[-1]}")
-    return output.finish()
+    return out.finish()
 
 
 # ---- Critical factors ------------------------------------------------------------------------------------------------
-def _factors(scene: Scene, sim: Sim, output: Output) -> None:
+def _factors(scene: Scene, sim: Sim, out: CommandOutput) -> None:
     values = scene.fields_of("buckling")
     static = scene.fields_of("static")
     for key in SLIPS:  # the equilibrium of [static] is one with this friction only
         if key in static:
             values.setdefault(key, static[key])
-    to_rest(scene, sim, output)
-    with _found(sim, values, output) as found:
+    to_rest(scene, sim, out)
+    with _found(sim, values, out) as found:
         confirmed = found.info.confirmed
         for index, factor in enumerate(found.factors):
-            output.say(f"critical factor {factor:.6g}: {_loads(values, factor)}; " + ("confirmed" if index < confirmed else "extrapolated, not confirmed"))
+            out.say(f"critical factor {factor:.6g}: {_loads(values, factor)}; " + ("confirmed" if index < confirmed else "extrapolated, not confirmed"))
         if not found.factors:
-            output.say("no critical factor was found in the range of [buckling] factor_max")
+            out.say("no critical factor was found in the range of [buckling] factor_max")
         if math.isfinite(found.info.sinusoidal_share):
-            output.say(f"for comparison: at the last state that was followed, {100.0 * found.info.sinusoidal_share:.3g} % of the sinusoidal buckling load of a "
+            out.say(f"for comparison: at the last state that was followed, {100.0 * found.info.sinusoidal_share:.3g} % of the sinusoidal buckling load of a "
                        "pipe on the wall")
-        output.summary["buckling"] = {"factors": found.factors, "confirmed": confirmed, "end": ENDS[found.info.end]}
-        output.table("buckling.csv", ["factor", "confirmed"],
+        out.summary["buckling"] = {"factors": found.factors, "confirmed": confirmed, "end": ENDS[found.info.end]}
+        out.table("buckling.csv", ["factor", "confirmed"],
                      [(factor, int(index < confirmed)) for index, factor in enumerate(found.factors)])
         for name, places, along in stations_of(scene) if found.factors else []:
             shape = found.shapes(0, places)
-            output.picture(f"buckling_{file_name(name)}.png", lambda plots: along_pipes(
-                plots.buckling(shape, along, found.factors[0], scene.title, output.units)))
+            out.picture(f"buckling_{file_name(name)}.png", lambda plots: along_pipes(
+                plots.buckling(shape, along, found.factors[0], scene.title, out.units)))
 
 
-def _found(sim: Sim, values: dict[str, Any], output: Output) -> Buckling:
+def _found(sim: Sim, values: dict[str, Any], out: CommandOutput) -> Buckling:
     """Followed along the equilibria; if that fails, extrapolated from the present state, with a note."""
     try:
         found = sim.buckling(**values)
@@ -80,11 +80,11 @@ def _found(sim: Sim, values: dict[str, Any], output: Output) -> Buckling:
         present: dict[str, Any] = {**values, "follow": 0}
         found = sim.buckling(**present)
         reached = re.search(r"stable up to factor = [-+.\de]+", error.message)
-        output.note_text("buckling: the equilibria " + (f"are {reached[0]} and " if reached else "") + "could not be followed to the critical factor; "
+        out.note_text("buckling: the equilibria " + (f"are {reached[0]} and " if reached else "") + "could not be followed to the critical factor; "
                          "factors are extrapolated from the static state. Use more elements or a softer wall to confirm them")
         return found
     if found.status > 0:
-        output.note_text("buckling: " + output.units.sentence(sim.message or status_text(found.status)).removeprefix("buckling: "))
+        out.note_text("buckling: " + out.units.sentence(sim.message or status_text(found.status)).removeprefix("buckling: "))
     return found
 
 
@@ -138,30 +138,30 @@ def first_weight(of: Callable[[float], bool]) -> float:
     return low
 
 
-def _thrusts(scene: Scene, sim: Sim, output: Output, name: str) -> bool:
+def _thrusts(scene: Scene, sim: Sim, out: CommandOutput, name: str) -> bool:
     """A table of the loads at the rig and at the bit by depth; whether there is one."""
     string = scene.names[name]
     try:
         depths = depths_of(sim, string, str(DEPTHS))
     except Error as error:
-        output.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: {output.units.sentence(error.message)}")
+        out.say(f"{name}, thrust of buckling: not assessed, because the soft string needs a hole: {out.units.sentence(error.message)}")
         return False
     rows = []
     for depth in depths:
         if math.isnan(_row(sim, string, depth, 1e3).helical_share):
-            output.say(f"{name}, thrust of buckling: not assessed, because at {output.units.text(depth, 'm')} a compressed part is not pressed to the wall")
+            out.say(f"{name}, thrust of buckling: not assessed, because at {out.units.text(depth, 'm')} a compressed part is not pressed to the wall")
             return False
         weights = [first_weight(lambda weight: _beyond(_row(sim, string, depth, weight), field)) for field in ("sinusoidal_share", "helical_share", "")]
         rows.append([depth, *(value for weight in weights[:2] for value in (-_row(sim, string, depth, weight).hook_load, weight)), weights[2]])
     heads = ["depth [m]", "sinusoidal buckling: thrust at the rig [N]", "sinusoidal buckling: weight on bit [N]",
              "helical buckling: thrust at the rig [N]", "helical buckling: weight on bit [N]", "lock-up: weight on bit [N]"]
-    output.table(f"buckling_thrust_{file_name(name)}.csv", heads, rows)
-    output.summary.setdefault("buckling_thrust", {})[name] = {
+    out.table(f"buckling_thrust_{file_name(name)}.csv", heads, rows)
+    out.summary.setdefault("buckling_thrust", {})[name] = {
         "depth_m": depths, "sinusoidal_thrust_N": [row[1] for row in rows], "helical_thrust_N": [row[3] for row in rows],
         "lock_up_weight_on_bit_N": [row[5] for row in rows]}
-    units = output.units
+    units = out.units
     for row in rows:
-        output.say(f"{name} at {units.text(row[0], 'm')}, pushed without rotation: sinusoidal buckling {_thrust(row[1], units)}, "
+        out.say(f"{name} at {units.text(row[0], 'm')}, pushed without rotation: sinusoidal buckling {_thrust(row[1], units)}, "
                    f"helical {_thrust(row[3], units)}, locks up at {units.text(row[5] / 1e3, 'kN')} on the bit")
     return True
 

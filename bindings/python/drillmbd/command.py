@@ -25,7 +25,7 @@ EXAMPLES = """examples:
   drillmbd modes rig.toml                     natural frequencies
   drillmbd response rig.toml --output out     what shakes how much, by [response]
   drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
-  drillmbd torque-drag rig.toml --units field -o out   in ft, lbf, ft-lbf, psi; or --units mine; or [output] units
+  drillmbd torque-drag rig.toml --units field -o out   in ft, lbf, ft-lbf, psi; or --units mine; or [results] units
   drillmbd torque-drag rig.toml --measured log.csv -o out   the friction that explains measured hook loads
   drillmbd rod-by-rod rig.toml --make-up "2 kN m" -o out   thrust, torque and make-up torque for each number of rods
   drillmbd speeds rig.toml                    rotary speeds to avoid, by [speeds]
@@ -55,7 +55,7 @@ FMU = """examples:
   drillmbd fmu rig.toml -o rig.fmu --version 2    for those of FMI 2.0
   drillmbd fmu rig.toml -o rig.fmu --sources      with its source code, for other machines
 
-[[input]] of the scene become inputs and tunable parameters of the unit, [[channel]] its outputs, [[event]] counts and, where the importer
+[[input]] of the scene become inputs and tunable parameters of the unit, [[output]] its outputs, [[event]] counts and, where the importer
 allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke and
 libcholmod must be installed where it runs."""
 
@@ -64,7 +64,7 @@ PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     again: goes on where it was stopped, or adds samples
   drillmbd probability rig.toml -o out --question torque-drag --samples 100000   as a soft string: thousands of samples a second
   drillmbd probability rig.toml -o out --question auto --samples 10000    runs in time only where torque and drag do not decide
-  drillmbd probability rig.toml -o out --vary "programme[1].term.h1=60 rpm,100 rpm,130 rpm" --vary "programme[0].term.h1=8 mm/s,12 mm/s"   a map
+  drillmbd probability rig.toml -o out --vary "time_function[1].segment.h1=60 rpm,100 rpm,130 rpm" --vary "time_function[0].segment.h1=8 mm/s,12 mm/s"   a map
   drillmbd probability rig.toml -o out --until 30%                         as many samples as that needs
   drillmbd probability rig.toml -o out --method subset --failure stress   a rare failure
   drillmbd probability rig.toml -o out --indices 64                       what matters most: Sobol' indices
@@ -102,12 +102,12 @@ def parser() -> argparse.ArgumentParser:
         command.add_argument("scene", help="a scene file (TOML)")
         command.add_argument("--output", "-o", metavar="FOLDER", help="where tables, pictures and summary.json are written")
         command.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
-        command.add_argument("--units", choices=NAMES, help="of texts, tables and pictures, instead of [output] units: SI (default), field units "
+        command.add_argument("--units", choices=NAMES, help="of texts, tables and pictures, instead of [results] units: SI (default), field units "
                              "(ft, lbf, psi) or mine units (m, kN, MPa); summary.json and files for ParaView stay in SI")
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
-            command.add_argument("--verify", action="store_true", help="runs the last tenth again with half the step and compares all channels")
+            command.add_argument("--verify", action="store_true", help="runs the last tenth again with half the step and compares all outputs")
         if name == "stuck":
             for word, unit in (("pull", "kN"), ("push", "kN"), ("torque", "N m"), ("overpull", "kN"), ("stretch", "mm")):
                 command.add_argument(f"--{word}", metavar=word.upper(), help=STUCK[word] + f', as "20 {unit}"')
@@ -210,7 +210,7 @@ def _catalogue(options: Any) -> int:
 def _add_fmu(commands: Any) -> None:
     text = "writes the scene as a unit for co-simulation by the standard FMI"
     asked = commands.add_parser("fmu", help=text, description=text, epilog=FMU, formatter_class=argparse.RawDescriptionHelpFormatter)
-    asked.add_argument("scene", help="a scene file (TOML) with [[channel]], and [[input]] to be steered by")
+    asked.add_argument("scene", help="a scene file (TOML) with [[output]], and [[input]] to be steered by")
     asked.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
     asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi", help="of FMI (default %(default)s)")
     asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER", help="the source code too; FOLDER: that of "
@@ -344,12 +344,12 @@ def _fmu(options: Any) -> int:
     if not options.quiet:
         for note in [*warnings_of(loaded), *notes]:
             print(f"note: {note}")
-        print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, {len(loaded.channels)} outputs, "
+        print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, {len(loaded.outputs)} outputs, "
               f"{len(loaded.model.events())} events, {os.path.getsize(target) / 1e6:.1f} MB")
     return 0
 
 
-LEAST = {"response": """[[response.input]]
+LEAST = {"response": """[[response.excitation]]
 kind = "eccentricity"          # what shakes: eccentric pipes; or "drive", "load", "force" with a place
 [[response.output]]
 component = "z"
@@ -373,9 +373,9 @@ def least(name: str, scene: Any) -> str:
 
 def _ask(options: Any) -> int:
     from . import scene
-    from .answers import Output, units_of
+    from .results import CommandOutput, units_of
     from .language import Language
-    from .questions import QUESTIONS
+    from .commands import QUESTIONS
     from .runner import carry_out
     from .scene.warned import warnings_of
     started = time.perf_counter()
@@ -415,10 +415,10 @@ def _ask(options: Any) -> int:
                     + least(needed, loaded))
     if getattr(options, "probability", None) and options.output and os.path.realpath(options.probability) == os.path.realpath(options.output):
         raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; give another --output")
-    output = Output(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded),
+    out = CommandOutput(options.output, options.scene, loaded, options.command, options.quiet, units_of(options, loaded),
                     Language(getattr(options, "language", "en")))
-    output.started = started
-    return carry_out(loaded, output, options, QUESTIONS[options.command])
+    out.started = started
+    return carry_out(loaded, out, options, QUESTIONS[options.command])
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _structs, enums, no_response, rotating, speed_check, speed_range
-from .answers import RPM, Output
+from .results import RPM, CommandOutput
 from .errors import Usage
 from .language import Phrase, phrase
 from .rotating import Linear
@@ -34,7 +34,7 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
     limits = [one["limit"] for one in settings["output"]]
 
     def ask(sim: Sim, state: Linear) -> Any:
-        bands, severity = sim.speeds(state.scene.orders(), state.scene.outputs("speeds"), limits, **state.options)
+        bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits, **state.options)
         return bands, severity, no_response.of_speeds(sim, state.scene, max(severity), state.options)
 
     state, (bands, severity, silent) = rotating.linear(scene, "speeds", settle, ask, note)
@@ -42,44 +42,44 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
     return Found(bands, severity, grid, used.threshold, state, silent)
 
 
-def speeds(scene: Scene, output: Output, options: Any) -> int:
+def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Critical rotary speeds."""
-    from .questions import settled
+    from .commands import settled
     if options.check and not 2 <= options.check <= speed_check.MOST_SPEEDS:
         raise Usage(f"--check {options.check} is outside 2 .. {speed_check.MOST_SPEEDS}")
-    found = analyse(scene, lambda sim, state: settled(state.scene, sim, output, state.static), output.note_text)
+    found = analyse(scene, lambda sim, state: settled(state.scene, sim, out, state.static), out.note_text)
     settings = scene.analyses["speeds"]
-    names, limits, places = scene.output_names("speeds"), [one["limit"] for one in settings["output"]], scene.outputs("speeds")
-    output.say(found.state.words(output.units))
+    names, limits, places = scene.output_names("speeds"), [one["limit"] for one in settings["output"]], scene.response_outputs("speeds")
+    out.say(found.state.words(out.units))
     for band in found.bands:
-        output.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {output.units.head(names[band.output])}, severity "
+        out.say(f"avoid {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {out.units.head(names[band.output])}, severity "
                    f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}"
-                   + touches(scene, places[band.output], band.severity * limits[band.output], output.units))
+                   + touches(scene, places[band.output], band.severity * limits[band.output], out.units))
     low, high = found.grid[0] / RPM, found.grid[-1] / RPM
     excited = found.silent is None
     if not excited:
-        output.say(f"speeds: not assessed, because {found.silent}")
+        out.say(f"speeds: not assessed, because {found.silent}")
     elif found.state.refused:
-        output.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
+        out.say("speeds of the string that turns: not assessed, because its sliding state is refused; run speeds --check. "
                    f"Of the string at rest the severity is at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
     elif not found.bands and found.bands.report.silent_orders:
-        output.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
+        out.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
                    f"others have a severity of at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
     elif not found.bands:
-        output.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
-    output.say(LINEAR)
+        out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
+    out.say(LINEAR)
     for note in left_out(found.bands.report) if excited else []:
-        output.note_text(note)
-    output.summary["speeds_assessed"] = excited and not found.state.refused and not found.bands.report.silent_orders
-    output.summary["linear_state"] = found.state.numbers()
-    output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
+        out.note_text(note)
+    out.summary["speeds_assessed"] = excited and not found.state.refused and not found.bands.report.silent_orders
+    out.summary["linear_state"] = found.state.numbers()
+    out.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]
-    ranges = speed_range.bands_over_range(scene, output, found) if excited else []
-    output.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(found.grid, found.severity)])
-    output.picture("speeds.png", lambda plots: plots.severity(found.grid, found.severity, found.bands, found.threshold, scene.title, ranges))
+    ranges = speed_range.bands_over_range(scene, out, found) if excited else []
+    out.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(found.grid, found.severity)])
+    out.picture("speeds.png", lambda plots: plots.severity(found.grid, found.severity, found.bands, found.threshold, scene.title, ranges))
     if options.check:
-        speed_check.check(scene, output, found, options.check)
-    return output.finish()
+        speed_check.check(scene, out, found, options.check)
+    return out.finish()
 
 
 def left_out(report: Any) -> list[str]:
@@ -97,7 +97,7 @@ def left_out(report: Any) -> list[str]:
 # ---- Beyond the linear range -----------------------------------------------------------------------------------------
 def touches(scene: Scene, place: Any, amplitude: float, units: Units = SI) -> str:
     """A warning if a lateral amplitude [m] at the place of an output exceeds the radial clearance there."""
-    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.OUTPUT_DISPLACEMENT else None
+    clearance = clearance_at(scene, place) if place.component in (enums.Y, enums.Z) and place.kind == enums.RESPONSE_DISPLACEMENT else None
     if clearance is None or amplitude <= clearance:
         return ""
     return (f"; the amplitude of {units.text(1e3 * amplitude, 'mm', '.3g')} exceeds the radial clearance of "

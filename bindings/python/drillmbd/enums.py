@@ -20,10 +20,10 @@ class Status(IntEnum):
     NOTE_NOT_STEADY: done; drives move but no steady state was found: only what they move has a speed
     NOTE_EXTRAPOLATED: done; some of the answers are extrapolations that were not confirmed
     NOTE_CANCELLED: done up to where the caller's progress function ended it
-    NOTE_INCOMPLETE: done; the scene or the range leaves something out, the message tells what
+    NOTE_INCOMPLETE: done; the scene or the range leaves something out: see the message
     NOTE_FLUTTER: done; a mode grows before the stiffness is singular, the message tells from where on
     NOTE_CLAMPED: done; a value beyond its bounds was taken for the bound
-    NOTE_NOT_SMOOTH: done; a derivative is the mean of both sides of a corner, the message tells where
+    NOTE_NOT_SMOOTH: done; a derivative is the mean of both sides of a breakpoint
     NOTE_EVENT: done up to an event, the message names it
     ERR_NULL: a required pointer is NULL
     ERR_HANDLE: not a live object of this kind
@@ -213,8 +213,8 @@ FREE_SCHOENFLIES_Y = Free.SCHOENFLIES_Y
 FREE_SCHOENFLIES_Z = Free.SCHOENFLIES_Z
 
 
-class TermKind(IntEnum):
-    """Values DMB_TERM_... of the headers.
+class SegmentKind(IntEnum):
+    """Values DMB_SEGMENT_... of the headers.
 
     CONSTANT: h0
     STEP: h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0)
@@ -231,22 +231,22 @@ class TermKind(IntEnum):
     CALLBACK = 5
 
 
-TERM_CONSTANT = TermKind.CONSTANT
-TERM_STEP = TermKind.STEP
-TERM_STEP5 = TermKind.STEP5
-TERM_HARMONIC = TermKind.HARMONIC
-TERM_TABLE = TermKind.TABLE
-TERM_CALLBACK = TermKind.CALLBACK
+SEGMENT_CONSTANT = SegmentKind.CONSTANT
+SEGMENT_STEP = SegmentKind.STEP
+SEGMENT_STEP5 = SegmentKind.STEP5
+SEGMENT_HARMONIC = SegmentKind.HARMONIC
+SEGMENT_TABLE = SegmentKind.TABLE
+SEGMENT_CALLBACK = SegmentKind.CALLBACK
 
 
-class ProgrammeProvides(IntFlag):
+class TimeFunctionProvides(IntFlag):
     """Bits DMB_PROVIDES_... of the headers."""
     RATE = 1
     INTEGRAL = 2
 
 
-PROVIDES_RATE = ProgrammeProvides.RATE
-PROVIDES_INTEGRAL = ProgrammeProvides.INTEGRAL
+PROVIDES_RATE = TimeFunctionProvides.RATE
+PROVIDES_INTEGRAL = TimeFunctionProvides.INTEGRAL
 
 
 class NormalLaw(IntEnum):
@@ -348,9 +348,9 @@ ROCK_REGENERATIVE = RockLaw.REGENERATIVE
 class DriveKind(IntEnum):
     """Values DMB_DRIVE_... of the headers.
 
-    MOTION: the speed of the component follows the programme exactly [m/s, rad/s]
-    LOAD: the programme is a force or torque on the component [N, N m]
-    CONTROL: force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the programme
+    MOTION: the speed of the component follows the time function exactly [m/s, rad/s]
+    LOAD: the time function is a force or torque on the component [N, N m]
+    CONTROL: force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the time function
     """
     MOTION = 0
     LOAD = 1
@@ -444,7 +444,7 @@ class ProfileQuantity(IntEnum):
     BENDING_MOMENT: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature
     SHEAR_FORCE: [N] magnitude
     CURVATURE: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
-    NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact site
+    NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact point
     FRICTION_AXIAL: [N/m] of the wall on the string along its axis, likewise
     FRICTION_AROUND: [N/m] likewise along axis x outward normal
     VON_MISES: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
@@ -464,7 +464,7 @@ class ProfileQuantity(IntEnum):
     SHEAR_Z: [N] likewise
     MOMENT_Y: [N m] bending about y, likewise
     MOMENT_Z: [N m] likewise
-    GAP: [m] of the nearest contact site to the wall, < 0 when penetrating; NaN without one
+    GAP: [m] of the nearest contact point to the wall, < 0 when penetrating; NaN without one
     """
     DISTANCE = 0
     DEPTH = 1
@@ -543,7 +543,7 @@ PROFILE_COUNT = ProfileQuantity.COUNT
 
 
 class Quantity(IntEnum):
-    """Values DMB_CHANNEL_... of the headers.
+    """Values DMB_OUTPUT_... of the headers.
 
     DISPLACEMENT_Z: [m] world
     VELOCITY_Z: [m/s] world
@@ -584,27 +584,27 @@ class Quantity(IntEnum):
     COUNT = 20
 
 
-CHANNEL_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
-CHANNEL_DISPLACEMENT_Y = Quantity.DISPLACEMENT_Y
-CHANNEL_DISPLACEMENT_Z = Quantity.DISPLACEMENT_Z
-CHANNEL_VELOCITY_X = Quantity.VELOCITY_X
-CHANNEL_VELOCITY_Y = Quantity.VELOCITY_Y
-CHANNEL_VELOCITY_Z = Quantity.VELOCITY_Z
-CHANNEL_POSITION_X = Quantity.POSITION_X
-CHANNEL_POSITION_Y = Quantity.POSITION_Y
-CHANNEL_POSITION_Z = Quantity.POSITION_Z
-CHANNEL_ROTATION = Quantity.ROTATION
-CHANNEL_SPIN = Quantity.SPIN
-CHANNEL_AXIAL_FORCE = Quantity.AXIAL_FORCE
-CHANNEL_TORQUE = Quantity.TORQUE
-CHANNEL_BENDING_MOMENT = Quantity.BENDING_MOMENT
-CHANNEL_KINETIC_ENERGY = Quantity.KINETIC_ENERGY
-CHANNEL_NORMAL_FORCE = Quantity.NORMAL_FORCE
-CHANNEL_DRIVE_FORCE = Quantity.DRIVE_FORCE
-CHANNEL_DRIVE_SPEED = Quantity.DRIVE_SPEED
-CHANNEL_BIT_WEIGHT = Quantity.BIT_WEIGHT
-CHANNEL_ENERGY_ERROR = Quantity.ENERGY_ERROR
-CHANNEL_COUNT = Quantity.COUNT
+OUTPUT_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
+OUTPUT_DISPLACEMENT_Y = Quantity.DISPLACEMENT_Y
+OUTPUT_DISPLACEMENT_Z = Quantity.DISPLACEMENT_Z
+OUTPUT_VELOCITY_X = Quantity.VELOCITY_X
+OUTPUT_VELOCITY_Y = Quantity.VELOCITY_Y
+OUTPUT_VELOCITY_Z = Quantity.VELOCITY_Z
+OUTPUT_POSITION_X = Quantity.POSITION_X
+OUTPUT_POSITION_Y = Quantity.POSITION_Y
+OUTPUT_POSITION_Z = Quantity.POSITION_Z
+OUTPUT_ROTATION = Quantity.ROTATION
+OUTPUT_SPIN = Quantity.SPIN
+OUTPUT_AXIAL_FORCE = Quantity.AXIAL_FORCE
+OUTPUT_TORQUE = Quantity.TORQUE
+OUTPUT_BENDING_MOMENT = Quantity.BENDING_MOMENT
+OUTPUT_KINETIC_ENERGY = Quantity.KINETIC_ENERGY
+OUTPUT_NORMAL_FORCE = Quantity.NORMAL_FORCE
+OUTPUT_DRIVE_FORCE = Quantity.DRIVE_FORCE
+OUTPUT_DRIVE_SPEED = Quantity.DRIVE_SPEED
+OUTPUT_BIT_WEIGHT = Quantity.BIT_WEIGHT
+OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
+OUTPUT_COUNT = Quantity.COUNT
 
 
 class Steady(IntEnum):
@@ -745,7 +745,7 @@ CONTACT_CLOSED = ContactState.CLOSED
 
 
 class Reading(IntEnum):
-    """Values DMB_CHANNEL_... of the headers.
+    """Values DMB_OUTPUT_... of the headers.
 
     HOOK_LOAD: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
     ROTATION_TORQUE: [N m] that the rig puts into that section, > 0 along the string's x axis
@@ -759,7 +759,7 @@ class Reading(IntEnum):
     STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
     WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
     OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
-    RIG_FORCE: [N] that guide and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
+    RIG_FORCE: [N] that support and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
     RIG_TORQUE: [N m] likewise, > 0 along the string's x axis
     BIT_ADVANCE: [m]
     BIT_BOTTOM: [m]
@@ -771,21 +771,21 @@ class Reading(IntEnum):
     STUCK: [-] 1 or 0
     STUCK_FORCE: [N] axial
     STUCK_TORQUE: [N m]
-    DRIVE_TARGET: [unit of the programme]
+    DRIVE_TARGET: [unit of the time function]
     DRIVE_POSITION: [m, rad]
     DRIVE_POWER: [W]
     DRIVE_WORK: [J]
     DRIVE_COMMAND: [N, N m]
     DRIVE_MADE: [N, N m]
-    SITE_GAP: [m]
-    SITE_NORMAL_FORCE: [N]
-    SITE_APPROACH: [m/s]
-    SITE_FRICTION_AXIAL: [N]
-    SITE_FRICTION_AROUND: [N]
-    SITE_SLIP_AXIAL: [m/s]
-    SITE_SLIP_AROUND: [m/s]
-    SITE_CLOSED: [-] 1 or 0
-    SITE_STICKS: [-] 1 or 0
+    CONTACT_GAP: [m]
+    CONTACT_NORMAL_FORCE: [N]
+    CONTACT_APPROACH: [m/s]
+    CONTACT_FRICTION_AXIAL: [N]
+    CONTACT_FRICTION_AROUND: [N]
+    CONTACT_SLIP_AXIAL: [m/s]
+    CONTACT_SLIP_AROUND: [m/s]
+    CONTACT_CLOSED: [-] 1 or 0
+    CONTACT_STICKS: [-] 1 or 0
     CONTACTS_CLOSED: [-]
     CONTACTS_NORMAL_FORCE: [N]
     CONTACTS_FRICTION_AXIAL: [N]
@@ -857,15 +857,15 @@ class Reading(IntEnum):
     DRIVE_WORK = 133
     DRIVE_COMMAND = 134
     DRIVE_MADE = 135
-    SITE_GAP = 140
-    SITE_NORMAL_FORCE = 141
-    SITE_APPROACH = 142
-    SITE_FRICTION_AXIAL = 143
-    SITE_FRICTION_AROUND = 144
-    SITE_SLIP_AXIAL = 145
-    SITE_SLIP_AROUND = 146
-    SITE_CLOSED = 147
-    SITE_STICKS = 148
+    CONTACT_GAP = 140
+    CONTACT_NORMAL_FORCE = 141
+    CONTACT_APPROACH = 142
+    CONTACT_FRICTION_AXIAL = 143
+    CONTACT_FRICTION_AROUND = 144
+    CONTACT_SLIP_AXIAL = 145
+    CONTACT_SLIP_AROUND = 146
+    CONTACT_CLOSED = 147
+    CONTACT_STICKS = 148
     CONTACTS_CLOSED = 150
     CONTACTS_NORMAL_FORCE = 151
     CONTACTS_FRICTION_AXIAL = 152
@@ -941,127 +941,127 @@ class Reading(IntEnum):
     WINDOW_LOW_SHARE = 2005
 
 
-CHANNEL_HOOK_LOAD = Reading.HOOK_LOAD
-CHANNEL_ROTATION_TORQUE = Reading.ROTATION_TORQUE
-CHANNEL_WEIGHT_ON_BIT = Reading.WEIGHT_ON_BIT
-CHANNEL_TORQUE_ON_BIT = Reading.TORQUE_ON_BIT
-CHANNEL_RATE_OF_PENETRATION = Reading.RATE_OF_PENETRATION
-CHANNEL_BIT_SPEED = Reading.BIT_SPEED
-CHANNEL_BIT_DEPTH = Reading.BIT_DEPTH
-CHANNEL_ROTARY_SPEED = Reading.ROTARY_SPEED
-CHANNEL_FEED_SPEED = Reading.FEED_SPEED
-CHANNEL_STRETCH = Reading.STRETCH
-CHANNEL_WIND_UP = Reading.WIND_UP
-CHANNEL_OFF_BOTTOM = Reading.OFF_BOTTOM
-CHANNEL_RIG_FORCE = Reading.RIG_FORCE
-CHANNEL_RIG_TORQUE = Reading.RIG_TORQUE
-CHANNEL_BIT_ADVANCE = Reading.BIT_ADVANCE
-CHANNEL_BIT_BOTTOM = Reading.BIT_BOTTOM
-CHANNEL_BIT_DEPTH_OF_CUT = Reading.BIT_DEPTH_OF_CUT
-CHANNEL_BIT_ROCK_WEIGHT = Reading.BIT_ROCK_WEIGHT
-CHANNEL_BIT_TORQUE = Reading.BIT_TORQUE
-CHANNEL_BIT_LOAD = Reading.BIT_LOAD
-CHANNEL_BIT_ON_BOTTOM = Reading.BIT_ON_BOTTOM
-CHANNEL_STUCK = Reading.STUCK
-CHANNEL_STUCK_FORCE = Reading.STUCK_FORCE
-CHANNEL_STUCK_TORQUE = Reading.STUCK_TORQUE
-CHANNEL_DRIVE_TARGET = Reading.DRIVE_TARGET
-CHANNEL_DRIVE_POSITION = Reading.DRIVE_POSITION
-CHANNEL_DRIVE_POWER = Reading.DRIVE_POWER
-CHANNEL_DRIVE_WORK = Reading.DRIVE_WORK
-CHANNEL_DRIVE_COMMAND = Reading.DRIVE_COMMAND
-CHANNEL_DRIVE_MADE = Reading.DRIVE_MADE
-CHANNEL_SITE_GAP = Reading.SITE_GAP
-CHANNEL_SITE_NORMAL_FORCE = Reading.SITE_NORMAL_FORCE
-CHANNEL_SITE_APPROACH = Reading.SITE_APPROACH
-CHANNEL_SITE_FRICTION_AXIAL = Reading.SITE_FRICTION_AXIAL
-CHANNEL_SITE_FRICTION_AROUND = Reading.SITE_FRICTION_AROUND
-CHANNEL_SITE_SLIP_AXIAL = Reading.SITE_SLIP_AXIAL
-CHANNEL_SITE_SLIP_AROUND = Reading.SITE_SLIP_AROUND
-CHANNEL_SITE_CLOSED = Reading.SITE_CLOSED
-CHANNEL_SITE_STICKS = Reading.SITE_STICKS
-CHANNEL_CONTACTS_CLOSED = Reading.CONTACTS_CLOSED
-CHANNEL_CONTACTS_NORMAL_FORCE = Reading.CONTACTS_NORMAL_FORCE
-CHANNEL_CONTACTS_FRICTION_AXIAL = Reading.CONTACTS_FRICTION_AXIAL
-CHANNEL_CONTACTS_FRICTION_AROUND = Reading.CONTACTS_FRICTION_AROUND
-CHANNEL_CONTACTS_DEEPEST = Reading.CONTACTS_DEEPEST
-CHANNEL_ENERGY_KINETIC = Reading.ENERGY_KINETIC
-CHANNEL_ENERGY_STRAIN = Reading.ENERGY_STRAIN
-CHANNEL_ENERGY_GRAVITY = Reading.ENERGY_GRAVITY
-CHANNEL_ENERGY_CONTACT = Reading.ENERGY_CONTACT
-CHANNEL_ENERGY_DRIVES = Reading.ENERGY_DRIVES
-CHANNEL_ENERGY_LOADS = Reading.ENERGY_LOADS
-CHANNEL_ENERGY_FRICTION = Reading.ENERGY_FRICTION
-CHANNEL_ENERGY_IMPACT = Reading.ENERGY_IMPACT
-CHANNEL_ENERGY_DAMPING = Reading.ENERGY_DAMPING
-CHANNEL_ENERGY_ROCK = Reading.ENERGY_ROCK
-CHANNEL_ENERGY_SCHEME = Reading.ENERGY_SCHEME
-CHANNEL_ENERGY_INPUT = Reading.ENERGY_INPUT
-CHANNEL_ENERGY_BALANCE = Reading.ENERGY_BALANCE
-CHANNEL_ENERGY_UNEXPLAINED = Reading.ENERGY_UNEXPLAINED
-CHANNEL_MOMENTUM_X = Reading.MOMENTUM_X
-CHANNEL_MOMENTUM_Y = Reading.MOMENTUM_Y
-CHANNEL_MOMENTUM_Z = Reading.MOMENTUM_Z
-CHANNEL_ANGULAR_MOMENTUM_X = Reading.ANGULAR_MOMENTUM_X
-CHANNEL_ANGULAR_MOMENTUM_Y = Reading.ANGULAR_MOMENTUM_Y
-CHANNEL_ANGULAR_MOMENTUM_Z = Reading.ANGULAR_MOMENTUM_Z
-CHANNEL_MASS = Reading.MASS
-CHANNEL_CENTRE_X = Reading.CENTRE_X
-CHANNEL_CENTRE_Y = Reading.CENTRE_Y
-CHANNEL_CENTRE_Z = Reading.CENTRE_Z
-CHANNEL_STEPS = Reading.STEPS
-CHANNEL_REJECTED = Reading.REJECTED
-CHANNEL_ITERATIONS = Reading.ITERATIONS
-CHANNEL_LIMITED_STEPS = Reading.LIMITED_STEPS
-CHANNEL_MOST_ITERATIONS = Reading.MOST_ITERATIONS
-CHANNEL_LARGEST_RESIDUAL = Reading.LARGEST_RESIDUAL
-CHANNEL_SWITCHES = Reading.SWITCHES
-CHANNEL_DEPENDENT = Reading.DEPENDENT
-CHANNEL_REDUNDANT = Reading.REDUNDANT
-CHANNEL_VIOLATION = Reading.VIOLATION
-CHANNEL_SPRING_LENGTH = Reading.SPRING_LENGTH
-CHANNEL_SPRING_ELONGATION = Reading.SPRING_ELONGATION
-CHANNEL_SPRING_SPEED = Reading.SPRING_SPEED
-CHANNEL_SPRING_FORCE = Reading.SPRING_FORCE
-CHANNEL_SPRING_ELASTIC = Reading.SPRING_ELASTIC
-CHANNEL_SPRING_DAMPER = Reading.SPRING_DAMPER
-CHANNEL_SPRING_ENERGY = Reading.SPRING_ENERGY
-CHANNEL_INPUT_PRESENT = Reading.INPUT_PRESENT
-CHANNEL_INPUT_RATE = Reading.INPUT_RATE
-CHANNEL_INPUT_VALUE = Reading.INPUT_VALUE
-CHANNEL_JOINT_POSITION = Reading.JOINT_POSITION
-CHANNEL_JOINT_SPEED = Reading.JOINT_SPEED
-CHANNEL_JOINT_ACCELERATION = Reading.JOINT_ACCELERATION
-CHANNEL_JOINT_REACTION = Reading.JOINT_REACTION
-CHANNEL_JOINT_REACTION_BODY = Reading.JOINT_REACTION_BODY
-CHANNEL_JOINT_ACTION = Reading.JOINT_ACTION
-CHANNEL_JOINT_VIOLATION = Reading.JOINT_VIOLATION
-CHANNEL_JOINT_STATE = Reading.JOINT_STATE
-CHANNEL_JOINT_ROWS = Reading.JOINT_ROWS
-CHANNEL_MULTIPLIER = Reading.MULTIPLIER
-CHANNEL_REACTION = Reading.REACTION
-CHANNEL_SECTION_FORCE = Reading.SECTION_FORCE
-CHANNEL_SECTION_STRAIN = Reading.SECTION_STRAIN
-CHANNEL_WORLD_VELOCITY = Reading.WORLD_VELOCITY
-CHANNEL_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
-CHANNEL_BODY_VELOCITY = Reading.BODY_VELOCITY
-CHANNEL_BODY_ACCELERATION = Reading.BODY_ACCELERATION
-CHANNEL_PROFILE = Reading.PROFILE
-CHANNEL_WINDOW_MINIMUM = Reading.WINDOW_MINIMUM
-CHANNEL_WINDOW_MAXIMUM = Reading.WINDOW_MAXIMUM
-CHANNEL_WINDOW_MEAN = Reading.WINDOW_MEAN
-CHANNEL_WINDOW_RMS = Reading.WINDOW_RMS
-CHANNEL_STICK_SLIP_INDEX = Reading.STICK_SLIP_INDEX
-CHANNEL_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
+OUTPUT_HOOK_LOAD = Reading.HOOK_LOAD
+OUTPUT_ROTATION_TORQUE = Reading.ROTATION_TORQUE
+OUTPUT_WEIGHT_ON_BIT = Reading.WEIGHT_ON_BIT
+OUTPUT_TORQUE_ON_BIT = Reading.TORQUE_ON_BIT
+OUTPUT_RATE_OF_PENETRATION = Reading.RATE_OF_PENETRATION
+OUTPUT_BIT_SPEED = Reading.BIT_SPEED
+OUTPUT_BIT_DEPTH = Reading.BIT_DEPTH
+OUTPUT_ROTARY_SPEED = Reading.ROTARY_SPEED
+OUTPUT_FEED_SPEED = Reading.FEED_SPEED
+OUTPUT_STRETCH = Reading.STRETCH
+OUTPUT_WIND_UP = Reading.WIND_UP
+OUTPUT_OFF_BOTTOM = Reading.OFF_BOTTOM
+OUTPUT_RIG_FORCE = Reading.RIG_FORCE
+OUTPUT_RIG_TORQUE = Reading.RIG_TORQUE
+OUTPUT_BIT_ADVANCE = Reading.BIT_ADVANCE
+OUTPUT_BIT_BOTTOM = Reading.BIT_BOTTOM
+OUTPUT_BIT_DEPTH_OF_CUT = Reading.BIT_DEPTH_OF_CUT
+OUTPUT_BIT_ROCK_WEIGHT = Reading.BIT_ROCK_WEIGHT
+OUTPUT_BIT_TORQUE = Reading.BIT_TORQUE
+OUTPUT_BIT_LOAD = Reading.BIT_LOAD
+OUTPUT_BIT_ON_BOTTOM = Reading.BIT_ON_BOTTOM
+OUTPUT_STUCK = Reading.STUCK
+OUTPUT_STUCK_FORCE = Reading.STUCK_FORCE
+OUTPUT_STUCK_TORQUE = Reading.STUCK_TORQUE
+OUTPUT_DRIVE_TARGET = Reading.DRIVE_TARGET
+OUTPUT_DRIVE_POSITION = Reading.DRIVE_POSITION
+OUTPUT_DRIVE_POWER = Reading.DRIVE_POWER
+OUTPUT_DRIVE_WORK = Reading.DRIVE_WORK
+OUTPUT_DRIVE_COMMAND = Reading.DRIVE_COMMAND
+OUTPUT_DRIVE_MADE = Reading.DRIVE_MADE
+OUTPUT_CONTACT_GAP = Reading.CONTACT_GAP
+OUTPUT_CONTACT_NORMAL_FORCE = Reading.CONTACT_NORMAL_FORCE
+OUTPUT_CONTACT_APPROACH = Reading.CONTACT_APPROACH
+OUTPUT_CONTACT_FRICTION_AXIAL = Reading.CONTACT_FRICTION_AXIAL
+OUTPUT_CONTACT_FRICTION_AROUND = Reading.CONTACT_FRICTION_AROUND
+OUTPUT_CONTACT_SLIP_AXIAL = Reading.CONTACT_SLIP_AXIAL
+OUTPUT_CONTACT_SLIP_AROUND = Reading.CONTACT_SLIP_AROUND
+OUTPUT_CONTACT_CLOSED = Reading.CONTACT_CLOSED
+OUTPUT_CONTACT_STICKS = Reading.CONTACT_STICKS
+OUTPUT_CONTACTS_CLOSED = Reading.CONTACTS_CLOSED
+OUTPUT_CONTACTS_NORMAL_FORCE = Reading.CONTACTS_NORMAL_FORCE
+OUTPUT_CONTACTS_FRICTION_AXIAL = Reading.CONTACTS_FRICTION_AXIAL
+OUTPUT_CONTACTS_FRICTION_AROUND = Reading.CONTACTS_FRICTION_AROUND
+OUTPUT_CONTACTS_DEEPEST = Reading.CONTACTS_DEEPEST
+OUTPUT_ENERGY_KINETIC = Reading.ENERGY_KINETIC
+OUTPUT_ENERGY_STRAIN = Reading.ENERGY_STRAIN
+OUTPUT_ENERGY_GRAVITY = Reading.ENERGY_GRAVITY
+OUTPUT_ENERGY_CONTACT = Reading.ENERGY_CONTACT
+OUTPUT_ENERGY_DRIVES = Reading.ENERGY_DRIVES
+OUTPUT_ENERGY_LOADS = Reading.ENERGY_LOADS
+OUTPUT_ENERGY_FRICTION = Reading.ENERGY_FRICTION
+OUTPUT_ENERGY_IMPACT = Reading.ENERGY_IMPACT
+OUTPUT_ENERGY_DAMPING = Reading.ENERGY_DAMPING
+OUTPUT_ENERGY_ROCK = Reading.ENERGY_ROCK
+OUTPUT_ENERGY_SCHEME = Reading.ENERGY_SCHEME
+OUTPUT_ENERGY_INPUT = Reading.ENERGY_INPUT
+OUTPUT_ENERGY_BALANCE = Reading.ENERGY_BALANCE
+OUTPUT_ENERGY_UNEXPLAINED = Reading.ENERGY_UNEXPLAINED
+OUTPUT_MOMENTUM_X = Reading.MOMENTUM_X
+OUTPUT_MOMENTUM_Y = Reading.MOMENTUM_Y
+OUTPUT_MOMENTUM_Z = Reading.MOMENTUM_Z
+OUTPUT_ANGULAR_MOMENTUM_X = Reading.ANGULAR_MOMENTUM_X
+OUTPUT_ANGULAR_MOMENTUM_Y = Reading.ANGULAR_MOMENTUM_Y
+OUTPUT_ANGULAR_MOMENTUM_Z = Reading.ANGULAR_MOMENTUM_Z
+OUTPUT_MASS = Reading.MASS
+OUTPUT_CENTRE_X = Reading.CENTRE_X
+OUTPUT_CENTRE_Y = Reading.CENTRE_Y
+OUTPUT_CENTRE_Z = Reading.CENTRE_Z
+OUTPUT_STEPS = Reading.STEPS
+OUTPUT_REJECTED = Reading.REJECTED
+OUTPUT_ITERATIONS = Reading.ITERATIONS
+OUTPUT_LIMITED_STEPS = Reading.LIMITED_STEPS
+OUTPUT_MOST_ITERATIONS = Reading.MOST_ITERATIONS
+OUTPUT_LARGEST_RESIDUAL = Reading.LARGEST_RESIDUAL
+OUTPUT_SWITCHES = Reading.SWITCHES
+OUTPUT_DEPENDENT = Reading.DEPENDENT
+OUTPUT_REDUNDANT = Reading.REDUNDANT
+OUTPUT_VIOLATION = Reading.VIOLATION
+OUTPUT_SPRING_LENGTH = Reading.SPRING_LENGTH
+OUTPUT_SPRING_ELONGATION = Reading.SPRING_ELONGATION
+OUTPUT_SPRING_SPEED = Reading.SPRING_SPEED
+OUTPUT_SPRING_FORCE = Reading.SPRING_FORCE
+OUTPUT_SPRING_ELASTIC = Reading.SPRING_ELASTIC
+OUTPUT_SPRING_DAMPER = Reading.SPRING_DAMPER
+OUTPUT_SPRING_ENERGY = Reading.SPRING_ENERGY
+OUTPUT_INPUT_PRESENT = Reading.INPUT_PRESENT
+OUTPUT_INPUT_RATE = Reading.INPUT_RATE
+OUTPUT_INPUT_VALUE = Reading.INPUT_VALUE
+OUTPUT_JOINT_POSITION = Reading.JOINT_POSITION
+OUTPUT_JOINT_SPEED = Reading.JOINT_SPEED
+OUTPUT_JOINT_ACCELERATION = Reading.JOINT_ACCELERATION
+OUTPUT_JOINT_REACTION = Reading.JOINT_REACTION
+OUTPUT_JOINT_REACTION_BODY = Reading.JOINT_REACTION_BODY
+OUTPUT_JOINT_ACTION = Reading.JOINT_ACTION
+OUTPUT_JOINT_VIOLATION = Reading.JOINT_VIOLATION
+OUTPUT_JOINT_STATE = Reading.JOINT_STATE
+OUTPUT_JOINT_ROWS = Reading.JOINT_ROWS
+OUTPUT_MULTIPLIER = Reading.MULTIPLIER
+OUTPUT_REACTION = Reading.REACTION
+OUTPUT_SECTION_FORCE = Reading.SECTION_FORCE
+OUTPUT_SECTION_STRAIN = Reading.SECTION_STRAIN
+OUTPUT_WORLD_VELOCITY = Reading.WORLD_VELOCITY
+OUTPUT_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
+OUTPUT_BODY_VELOCITY = Reading.BODY_VELOCITY
+OUTPUT_BODY_ACCELERATION = Reading.BODY_ACCELERATION
+OUTPUT_PROFILE = Reading.PROFILE
+OUTPUT_WINDOW_MINIMUM = Reading.WINDOW_MINIMUM
+OUTPUT_WINDOW_MAXIMUM = Reading.WINDOW_MAXIMUM
+OUTPUT_WINDOW_MEAN = Reading.WINDOW_MEAN
+OUTPUT_WINDOW_RMS = Reading.WINDOW_RMS
+OUTPUT_STICK_SLIP_INDEX = Reading.STICK_SLIP_INDEX
+OUTPUT_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 
 
 class InputTarget(IntEnum):
     """Values DMB_TARGET_... of the headers.
 
-    SET_POINT: of a drive, in the place of its programme; its excitation goes on
+    SET_POINT: of a drive, in the place of its time function; its excitation goes on
     INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
     LIMIT_HIGH: [N, N m] the first below the second
-    BIT_LOAD: [-] of a load, [N] of a bit, in the place of its programme
+    BIT_LOAD: [-] of a load, [N] of a bit, replaces its time function
     FLUID_DENSITY: [-] factor of both coefficients of the wall, [kg/m3]
     AXIAL_DAMPING: [N s/m2]
     TORSIONAL_DAMPING: [N s]
@@ -1143,7 +1143,7 @@ class JointKind(IntEnum):
     SPHERICAL: RX, RY, RZ free
     PLANAR: Y, Z, RX free: x is the normal of the plane
     POINT_ON_LINE: X, RX, RY, RZ free: origin of b on the x axis of a
-    POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
+    POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (support, centraliser)
     DISTANCE: origins `length` apart
     FREE: holds nothing: carries springs, dampers, stops, friction
     KNIFE_EDGE: nonholonomic: the origin of b does not move along y of b (no lateral slip)
@@ -1366,7 +1366,7 @@ NAME_SIZE = Name.SIZE
 class PartKind(IntEnum):
     """Values DMB_PART_... of the headers."""
     ANY = 0
-    PROGRAMME = 1
+    TIME_FUNCTION = 1
     WALL = 2
     STRING = 3
     BODY = 4
@@ -1378,14 +1378,14 @@ class PartKind(IntEnum):
     CONSTRAINT = 10
     SPRING = 11
     FORCE = 12
-    RING = 13
+    STABILISER = 13
     STUCK = 14
     INPUT = 20
     EVENT = 21
 
 
 PART_ANY = PartKind.ANY
-PART_PROGRAMME = PartKind.PROGRAMME
+PART_TIME_FUNCTION = PartKind.TIME_FUNCTION
 PART_WALL = PartKind.WALL
 PART_STRING = PartKind.STRING
 PART_BODY = PartKind.BODY
@@ -1397,23 +1397,23 @@ PART_COUPLING = PartKind.COUPLING
 PART_CONSTRAINT = PartKind.CONSTRAINT
 PART_SPRING = PartKind.SPRING
 PART_FORCE = PartKind.FORCE
-PART_RING = PartKind.RING
+PART_STABILISER = PartKind.STABILISER
 PART_STUCK = PartKind.STUCK
 PART_INPUT = PartKind.INPUT
 PART_EVENT = PartKind.EVENT
 
 
-class InputKind(IntEnum):
-    """Values DMB_INPUT_... of the headers.
+class ExcitationKind(IntEnum):
+    """Values DMB_EXCITATION_... of the headers.
 
-    DRIVE: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
+    DRIVE: time function of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
     LOAD: [-] factor of the load place.part
     BIT_LOAD: [N] bottom-hole load of the bit place.part
     FORCE: [N, N m] `component` of a force or moment at `place`, in `frame`
     UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
     FRICTION: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
-    SETTING: the input place.part of control.h [its unit]: a set point, load factor or bit load, as the drive, load or bit that it moves; limits on its rate do not bind small changes. Others (gains, limits, friction, mud, stuck) change the scene itself: ERR_UNSUPPORTED; one that is still on its way is ERR_VALUE
+    SETTING: the input place.part of control.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
     """
     DRIVE = 0
     LOAD = 1
@@ -1425,32 +1425,32 @@ class InputKind(IntEnum):
     SETTING = 7
 
 
-INPUT_DRIVE = InputKind.DRIVE
-INPUT_LOAD = InputKind.LOAD
-INPUT_BIT_LOAD = InputKind.BIT_LOAD
-INPUT_FORCE = InputKind.FORCE
-INPUT_UNBALANCE = InputKind.UNBALANCE
-INPUT_ECCENTRICITY = InputKind.ECCENTRICITY
-INPUT_FRICTION = InputKind.FRICTION
-INPUT_SETTING = InputKind.SETTING
+EXCITATION_DRIVE = ExcitationKind.DRIVE
+EXCITATION_LOAD = ExcitationKind.LOAD
+EXCITATION_BIT_LOAD = ExcitationKind.BIT_LOAD
+EXCITATION_FORCE = ExcitationKind.FORCE
+EXCITATION_UNBALANCE = ExcitationKind.UNBALANCE
+EXCITATION_ECCENTRICITY = ExcitationKind.ECCENTRICITY
+EXCITATION_FRICTION = ExcitationKind.FRICTION
+EXCITATION_SETTING = ExcitationKind.SETTING
 
 
-class OutputKind(IntEnum):
-    """Values DMB_OUTPUT_... of the headers.
+class ResponseKind(IntEnum):
+    """Values DMB_RESPONSE_... of the headers.
 
     DISPLACEMENT: [m, rad] of `place`, components along the axes of `frame`
     VELOCITY: [m/s, rad/s] its rate
     ACCELERATION: [m/s2, rad/s2] the rate of that
     SECTION_FORCE: [N, N m] as dmb_query_section, section frame
     SECTION_STRAIN: [-, rad/m] likewise
-    CONTACT: [N] at contact site number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
+    CONTACT: [N] at contact point number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
     DRIVE: [N, N m] force of the drive place.part, as dmb_query_drive; no component
     REACTION: [N, N m] on the part place.part, as dmb_query_reaction
-    JOINT_ACCELERATION: coordinates of the
-    JOINT_ACTION: joint place.part, its forces: as dmb_query_joint
+    JOINT_SPEED: coordinates of the joint place.part and
+    JOINT_ACCELERATION: its forces: as dmb_query_joint
     MULTIPLIER: number `component` of place.part, as dmb_query_multipliers
     BIT: [N, N m] X weight, RX torque on the bit place.part by the rock law
-    CHANNEL: the channel CHANNEL_... that `component` says, at `place`. In a stepped sine each but those of a window; in a linear analysis those that change in proportion to a small motion: not magnitudes, sums over the string, energies (ERR_UNSUPPORTED)
+    OUTPUT: the output OUTPUT_... that `component` says, at `place`. In a stepped sine all but those of a window; in a linear analysis those that are linear in the motion: no magnitudes, sums over the string, energies, works (ERR_UNSUPPORTED)
     """
     DISPLACEMENT = 0
     VELOCITY = 1
@@ -1467,25 +1467,25 @@ class OutputKind(IntEnum):
     JOINT_ACTION = 12
     MULTIPLIER = 13
     BIT = 14
-    CHANNEL = 15
+    OUTPUT = 15
 
 
-OUTPUT_DISPLACEMENT = OutputKind.DISPLACEMENT
-OUTPUT_VELOCITY = OutputKind.VELOCITY
-OUTPUT_ACCELERATION = OutputKind.ACCELERATION
-OUTPUT_SECTION_FORCE = OutputKind.SECTION_FORCE
-OUTPUT_SECTION_STRAIN = OutputKind.SECTION_STRAIN
-OUTPUT_CONTACT = OutputKind.CONTACT
-OUTPUT_DRIVE = OutputKind.DRIVE
-OUTPUT_REACTION = OutputKind.REACTION
-OUTPUT_JOINT_POSITION = OutputKind.JOINT_POSITION
-OUTPUT_JOINT_SPEED = OutputKind.JOINT_SPEED
-OUTPUT_JOINT_ACCELERATION = OutputKind.JOINT_ACCELERATION
-OUTPUT_JOINT_REACTION = OutputKind.JOINT_REACTION
-OUTPUT_JOINT_ACTION = OutputKind.JOINT_ACTION
-OUTPUT_MULTIPLIER = OutputKind.MULTIPLIER
-OUTPUT_BIT = OutputKind.BIT
-OUTPUT_CHANNEL = OutputKind.CHANNEL
+RESPONSE_DISPLACEMENT = ResponseKind.DISPLACEMENT
+RESPONSE_VELOCITY = ResponseKind.VELOCITY
+RESPONSE_ACCELERATION = ResponseKind.ACCELERATION
+RESPONSE_SECTION_FORCE = ResponseKind.SECTION_FORCE
+RESPONSE_SECTION_STRAIN = ResponseKind.SECTION_STRAIN
+RESPONSE_CONTACT = ResponseKind.CONTACT
+RESPONSE_DRIVE = ResponseKind.DRIVE
+RESPONSE_REACTION = ResponseKind.REACTION
+RESPONSE_JOINT_POSITION = ResponseKind.JOINT_POSITION
+RESPONSE_JOINT_SPEED = ResponseKind.JOINT_SPEED
+RESPONSE_JOINT_ACCELERATION = ResponseKind.JOINT_ACCELERATION
+RESPONSE_JOINT_REACTION = ResponseKind.JOINT_REACTION
+RESPONSE_JOINT_ACTION = ResponseKind.JOINT_ACTION
+RESPONSE_MULTIPLIER = ResponseKind.MULTIPLIER
+RESPONSE_BIT = ResponseKind.BIT
+RESPONSE_OUTPUT = ResponseKind.OUTPUT
 
 
 class ResponseAxes(IntEnum):
@@ -1571,7 +1571,7 @@ class Array(IntEnum):
     POSITION: [m] of the nodes, world, shape (nodes, 3)
     QUATERNION: [-] body to world, scalar first, shape (nodes, 4)
     MULTIPLIER: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
-    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what guides hold is left in their rows
+    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what supports hold is left in their rows
     """
     VELOCITY = 0
     ACCELERATION = 1
@@ -1610,8 +1610,8 @@ ENUMS = (
     LogLevel,
     Component,
     Free,
-    TermKind,
-    ProgrammeProvides,
+    SegmentKind,
+    TimeFunctionProvides,
     NormalLaw,
     FrictionLaw,
     PipeKind,
@@ -1653,8 +1653,8 @@ ENUMS = (
     ModesAxes,
     Name,
     PartKind,
-    InputKind,
-    OutputKind,
+    ExcitationKind,
+    ResponseKind,
     ResponseAxes,
     StateForm,
     MotionInput,

@@ -4,7 +4,7 @@
     fmu.export(scene.load("rig.toml"), "rig.fmu")
 
 [[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits,
-friction, mud, damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of
+friction, mud, damping), [[output]] outputs, [[event]] counts of how often each was told. The run begins as that of
 the command: at rest in the static state by the parameters where [run] static says so; inputs act from then on. [run]
 step is the length of steps within a communication step; without it, and in scenes with events, the library chooses
 them. The unit holds the library itself and runs without Python."""
@@ -29,30 +29,30 @@ from xml.etree import ElementTree
 
 from . import _library, enums
 from ._record import Record
-from ._structs import Channel, Id, Place, SimOptions, StaticOptions, Term
-from .channels import channel_unit
+from ._structs import Output, Id, Place, SimOptions, StaticOptions, Segment
+from .outputs import output_unit
 from .model import _DEFINITIONS
 from .scene import Scene
 from .scene.fields import drive_unit
-from .scene.terms import PerRevolution
+from .scene.segments import PerRevolution
 
 BINARY = "drillmbd_fmu"
 INPUTS, OUTPUTS, EVENTS = 100000, 200000, 300000  # value references, as bindings/fmi/unit.h says
 CONTROLLED = (enums.TARGET_SET_POINT, enums.TARGET_LOAD_FACTOR, enums.TARGET_BIT_LOAD)  # the others are parameters
 
-# Channels of poses and speeds: an input changes forces and accelerations at once, but these by the coming step only.
+# Outputs of poses and speeds: an input changes forces and accelerations at once, but these by the coming step only.
 OF_THE_STATE = frozenset((
-    enums.CHANNEL_POSITION_X, enums.CHANNEL_POSITION_Y, enums.CHANNEL_POSITION_Z, enums.CHANNEL_VELOCITY_X,
-    enums.CHANNEL_VELOCITY_Y, enums.CHANNEL_VELOCITY_Z, enums.CHANNEL_SPIN, enums.CHANNEL_ROTATION,
-    enums.CHANNEL_KINETIC_ENERGY, enums.CHANNEL_BIT_SPEED, enums.CHANNEL_BIT_DEPTH, enums.CHANNEL_ROTARY_SPEED,
-    enums.CHANNEL_FEED_SPEED, enums.CHANNEL_STRETCH, enums.CHANNEL_WIND_UP, enums.CHANNEL_BIT_ADVANCE,
-    enums.CHANNEL_SITE_GAP, enums.CHANNEL_CONTACTS_DEEPEST, enums.CHANNEL_ENERGY_KINETIC,
-    enums.CHANNEL_SPRING_LENGTH, enums.CHANNEL_SPRING_ELONGATION, enums.CHANNEL_SPRING_SPEED,
-    *range(enums.CHANNEL_MOMENTUM_X, enums.CHANNEL_CENTRE_Z + 1),
-    *range(enums.CHANNEL_JOINT_POSITION, enums.CHANNEL_JOINT_POSITION + 6),
-    *range(enums.CHANNEL_JOINT_SPEED, enums.CHANNEL_JOINT_SPEED + 6),
-    *range(enums.CHANNEL_WORLD_VELOCITY, enums.CHANNEL_WORLD_VELOCITY + 6),
-    *range(enums.CHANNEL_BODY_VELOCITY, enums.CHANNEL_BODY_VELOCITY + 6)))
+    enums.OUTPUT_POSITION_X, enums.OUTPUT_POSITION_Y, enums.OUTPUT_POSITION_Z, enums.OUTPUT_VELOCITY_X,
+    enums.OUTPUT_VELOCITY_Y, enums.OUTPUT_VELOCITY_Z, enums.OUTPUT_SPIN, enums.OUTPUT_ROTATION,
+    enums.OUTPUT_KINETIC_ENERGY, enums.OUTPUT_BIT_SPEED, enums.OUTPUT_BIT_DEPTH, enums.OUTPUT_ROTARY_SPEED,
+    enums.OUTPUT_FEED_SPEED, enums.OUTPUT_STRETCH, enums.OUTPUT_WIND_UP, enums.OUTPUT_BIT_ADVANCE,
+    enums.OUTPUT_CONTACT_GAP, enums.OUTPUT_CONTACTS_DEEPEST, enums.OUTPUT_ENERGY_KINETIC,
+    enums.OUTPUT_SPRING_LENGTH, enums.OUTPUT_SPRING_ELONGATION, enums.OUTPUT_SPRING_SPEED,
+    *range(enums.OUTPUT_MOMENTUM_X, enums.OUTPUT_CENTRE_Z + 1),
+    *range(enums.OUTPUT_JOINT_POSITION, enums.OUTPUT_JOINT_POSITION + 6),
+    *range(enums.OUTPUT_JOINT_SPEED, enums.OUTPUT_JOINT_SPEED + 6),
+    *range(enums.OUTPUT_WORLD_VELOCITY, enums.OUTPUT_WORLD_VELOCITY + 6),
+    *range(enums.OUTPUT_BODY_VELOCITY, enums.OUTPUT_BODY_VELOCITY + 6)))
 
 
 class CannotExport(ValueError):
@@ -61,16 +61,16 @@ class CannotExport(ValueError):
 
 # ---- The scene as bytes: bindings/fmi/scene_format.h -----------------------------------------------------------------
 MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 1, 8, 48
-ARRAYS = {"add_programme": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
+ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
           "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
-CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_ring", "add_joint", "add_coupling", "add_drive",
-         "add_load", "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_programme",
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_stabiliser", "add_joint", "add_coupling", "add_drive",
+         "add_load", "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_time_function",
          "add_hole_sections", "set_environment", "set_name", "compile"}
 
 
 class _Output(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("channel", Channel)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("output", Output)]
 
 
 class _Name(ctypes.Structure):
@@ -79,7 +79,7 @@ class _Name(ctypes.Structure):
 
 
 class _Swing(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("term", ctypes.c_uint32),
+    _fields_ = [("struct_size", ctypes.c_uint32), ("segment", ctypes.c_uint32),
                 ("share", ctypes.c_double), ("order", ctypes.c_double)]
 
 
@@ -134,15 +134,15 @@ def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
     return b"".join([head, *bare, places, numbers])
 
 
-def _swings(terms: tuple[Any, ...]) -> Iterator[bytes]:
-    """The terms of a programme that swing with the revolutions of another. Other functions are refused."""
-    for number, one in enumerate(terms):
+def _swings(segments: tuple[Any, ...]) -> Iterator[bytes]:
+    """The segments of a time function that swing with the revolutions of another. Other functions are refused."""
+    for number, one in enumerate(segments):
         function = one.get("function")
         if isinstance(function, PerRevolution):
             yield _record("turning", [_Swing(sizeof(_Swing), number, function.share, function.order)])
-            yield _record("turning_of", [Term(**term) for term in function.terms])
+            yield _record("turning_of", [Segment(**segment) for segment in function.segments])
         elif function is not None:
-            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; "
+            raise CannotExport("unit refused: a time function is a function of Python, which stays in Python; "
                                "give it as a table")
 
 
@@ -155,7 +155,7 @@ def _calls(scene: Scene) -> Iterator[bytes]:
         count = 1
         if name == "add_pipes":
             count, *arguments = arguments  # type: ignore[assignment]
-        if name == "add_programme":
+        if name == "add_time_function":
             yield from _swings(arguments)
         if name == "set_name":
             yield _record(name, [_Name(sizeof(_Name), 0, arguments[0], arguments[1].encode())])
@@ -170,8 +170,8 @@ def _asked(scene: Scene) -> Iterator[bytes]:
     if scene.run.get("static", 0):
         yield _record("static", [StaticOptions(**scene.fields_of("static"))])
     yield _record("run", [_Run(sizeof(_Run), 0, _step(scene))])
-    for _, place, quantity in scene.channels:
-        yield _record("output", [_Output(sizeof(_Output), 0, Channel(place=Place() if place is None else place,
+    for _, place, quantity in scene.outputs:
+        yield _record("output", [_Output(sizeof(_Output), 0, Output(place=Place() if place is None else place,
                                                                      quantity=quantity))])
 
 
@@ -218,8 +218,8 @@ def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
 
 
 def _output_unit(quantity: int, place: Place | None, drives: dict[int, dict[str, Any]]) -> str:
-    """The unit of a channel; that of a drive goes by its component. Empty where it is not one unit."""
-    unit = channel_unit(quantity)
+    """The unit of a output; that of a drive goes by its component. Empty where it is not one unit."""
+    unit = output_unit(quantity)
     drive = drives.get(place.part.index) if place is not None else None
     if " or " in unit and drive is not None:
         return unit.split(" or ")[1 if drive.get("component", 0) >= enums.RX else 0]
@@ -257,10 +257,10 @@ def variables(scene: Scene) -> list[Variable]:
                       "length of steps within a communication step; 0: chosen by the library to its tolerances")]
     with scene.new_sim() as sim:
         found += _inputs(scene, sim)
-        for number, (name, place, quantity) in enumerate(scene.channels):
-            sim.channel(quantity, place)  # raises where it cannot be asked
+        for number, (name, place, quantity) in enumerate(scene.outputs):
+            sim.output(quantity, place)  # raises where it cannot be asked
             found.append(Variable(re.sub(r"\s*\[[^\]]*\]\s*$", "", name), OUTPUTS + number, "output", "continuous",
-                                  _output_unit(quantity, place, drives), about=_channel_about(quantity),
+                                  _output_unit(quantity, place, drives), about=_output_about(quantity),
                                   of_state=quantity in OF_THE_STATE))
     for number, name in enumerate(scene.model.events()):
         found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete",
@@ -269,9 +269,9 @@ def variables(scene: Scene) -> list[Variable]:
     return found
 
 
-def _channel_about(quantity: int) -> str:
-    from .channels import channel_name
-    return f"channel {channel_name(quantity)}"
+def _output_about(quantity: int) -> str:
+    from .outputs import output_name
+    return f"output {output_name(quantity)}"
 
 
 def _check_names(found: list[Variable]) -> None:
@@ -279,7 +279,7 @@ def _check_names(found: list[Variable]) -> None:
     for one in found:
         if not one.name or one.name in seen or re.search(r"[\x00-\x1f]", one.name):
             raise CannotExport(f"unit refused: the name {one.name!r} of a variable, must be of its own, not empty, "
-                               "without control characters; rename the [[channel]], [[input]] or [[event]]")
+                               "without control characters; rename the [[output]], [[input]] or [[event]]")
         seen.add(one.name)
 
 
@@ -485,9 +485,9 @@ def export(scene: Scene, path: Any, version: int = 3, sources: Any = False) -> l
     or this installation cannot give a unit, OSError where the file cannot be written."""
     if version not in (2, 3):
         raise CannotExport(f"unit refused: version {version} of FMI, must be 2 or 3")
-    if not scene.channels:
+    if not scene.outputs:
         raise CannotExport("unit refused: the scene has no outputs; "
-                           "add a [[channel]] for each number that is to be read")
+                           "add a [[output]] for each number that is to be read")
     path = pathlib.Path(path)
     identifier = _identifier(scene, path)
     content, token = scene_bytes(scene)

@@ -11,7 +11,7 @@ from typing import Any
 from . import enums
 from ._optional import need
 from ._structs import Operation, TorqueDragOptions
-from .answers import Output, file_name
+from .results import CommandOutput, file_name
 from .errors import Error, Usage
 from .scene import columns, table_file
 from .scene.columns import Column
@@ -174,22 +174,22 @@ def _scatter(computed: list[float], values: list[float]) -> float:
 
 
 # ---- Results ---------------------------------------------------------------------------------------------------------
-def compare(sim: Sim, string: Any, name: str, output: Output, series: dict[str, Series], operations: list[Operation],
+def compare(sim: Sim, string: Any, name: str, out: CommandOutput, series: dict[str, Series], operations: list[Operation],
             block_weight: float, friction: float) -> None:
     """A line for each series, a table of all measurements, and the summary."""
     rows: list[list[Any]] = []
     told: dict[str, Any] = {}
     for word, one in series.items():
         found = fit(Model(sim, string, operations[KINDS[word]], block_weight, one), friction)
-        output.say(f"{name}, measured {label(word)}: {_text(one, found, friction, output.units)}")
+        out.say(f"{name}, measured {label(word)}: {_text(one, found, friction, out.units)}")
         told[word] = {"measurements": len(one.values), "friction": found.friction, "reason": found.reason or None,
                       "half_width_95": found.half_width, "scatter": found.scatter}
-        factor = output.units.factor("N m" if word == "torque" else "N")
+        factor = out.units.factor("N m" if word == "torque" else "N")
         points = found.by_point or [math.nan] * len(one.values)
         rows += [[depth, label(word), value * factor, computed * factor, point]
                  for depth, value, computed, point in zip(one.depths, one.values, found.computed, points)]
-    output.summary.setdefault("measured", {})[name] = told
-    output.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
+    out.summary.setdefault("measured", {})[name] = told
+    out.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
                                                     "friction of this measurement [-]"], rows)
 
 

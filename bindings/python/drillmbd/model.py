@@ -10,10 +10,10 @@ from ._keep import Keep, as_id, mirrors, path_of, struct, written
 from ._library import lib as _lib
 from ._parts import Parts, closed, is_closed
 from ._record import Record
-from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
+from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
-                       ModelOptions, Motor, PipeDef, Place, RingDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
-                       SubDef, Term, WallDef)
+                       ModelOptions, Motor, PipeDef, Place, StabiliserDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
+                       SubDef, Segment, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
 from .enums import ERR_ORDER, NAME_SIZE, PartKind, Status
 from .errors import Error, check, status_text
@@ -104,23 +104,23 @@ class Model(Handle):
         self._check(_lib.dmb_model_set_environment(self._handle, byref(definition)))
         self._note("set_environment", definition)
 
-    @mirrors("dmb_model_add_programme")
-    def add_programme(self, *terms: Any) -> Id:
-        """A programme of one or more terms. A number stands for a constant term, a function of time for a callback."""
-        made = [self._term(number, term) for number, term in enumerate(terms)]
-        array, part = (Term * len(terms))(*made), Id()
-        self._check(_lib.dmb_model_add_programme(self._handle, array, len(terms), byref(part)))
-        self._note("add_programme", *made)
+    @mirrors("dmb_model_add_time_function")
+    def add_time_function(self, *segments: Any) -> Id:
+        """A time function of one or more segments. A number stands for a constant segment, a function of time for a callback."""
+        made = [self._segment(number, segment) for number, segment in enumerate(segments)]
+        array, part = (Segment * len(segments))(*made), Id()
+        self._check(_lib.dmb_model_add_time_function(self._handle, array, len(segments), byref(part)))
+        self._note("add_time_function", *made)
         return self._given(part)
 
-    def _term(self, number: int, term: Any) -> Any:
-        if callable(term):
-            term = Term(function=term)
-        elif not isinstance(term, Term):
-            term = Term(h0=real(term, f"term {number} of a programme", "value"))
-        if term._function is not None:
-            term.callback = self._keep.programme(term._function, term.provides)
-        return term
+    def _segment(self, number: int, segment: Any) -> Any:
+        if callable(segment):
+            segment = Segment(function=segment)
+        elif not isinstance(segment, Segment):
+            segment = Segment(h0=real(segment, f"segment {number} of a time function", "value"))
+        if segment._function is not None:
+            segment.callback = self._keep.time_function(segment._function, segment.provides)
+        return segment
 
     def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
         """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
@@ -188,10 +188,10 @@ class Model(Handle):
         """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""
         return self._add("bit", BitDef, definition, fields)
 
-    @mirrors("dmb_model_add_ring")
-    def add_ring(self, definition: RingDef | None = None, **fields: Any) -> Id:
-        """Adds a ring at any place of a string, by a RingDef or its fields; returns its id."""
-        return self._add("ring", RingDef, definition, fields)
+    @mirrors("dmb_model_add_stabiliser")
+    def add_stabiliser(self, definition: StabiliserDef | None = None, **fields: Any) -> Id:
+        """Adds a ring at any place of a string, by a StabiliserDef or its fields; returns its id."""
+        return self._add("stabiliser", StabiliserDef, definition, fields)
 
     @mirrors("dmb_model_add_joint")
     def add_joint(self, definition: JointDef | None = None, **fields: Any) -> Id:
@@ -254,7 +254,7 @@ class Model(Handle):
         """Checks and freezes the scene; returns the status."""
         options = struct(CompileOptions, options, fields)
         status = self._check(_lib.dmb_model_compile(self._handle, byref(options)))
-        self._parts.sites, self._compiled = self.info().contact_sites, True
+        self._parts.sites, self._compiled = self.info().contact_points, True
         self._note("compile", options)
         return status
 
@@ -375,7 +375,7 @@ class Model(Handle):
 def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDef, float]:
     """A mud motor, by a Motor or its fields (stall_torque [N m] or pressure [Pa], displacement [m3], flow [m3/s]; or a table
     of pairs of speed [rad/s] and torque [N m]), as the drive of the joint that it stands in, and its no-load speed [rad/s],
-    the constant value of the drive's programme."""
+    the constant value of the drive's time function."""
     drive, speed = DriveDef(), c_double()
     check(_lib.dmb_motor_drive(byref(struct(Motor, definition, fields)), byref(drive), byref(speed)))
     return drive, speed.value
@@ -384,11 +384,11 @@ def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDe
 # ---- Making a model again --------------------------------------------------------------------------------------------
 _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_hole_sections": HoleSection, "add_string": StringDef, "add_pipes": PipeDef,
-    "add_body": BodyDef, "add_bit": BitDef, "add_ring": RingDef, "add_joint": JointDef, "add_coupling": CouplingDef,
+    "add_body": BodyDef, "add_bit": BitDef, "add_stabiliser": StabiliserDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
     "add_force": ForceDef, "add_stuck": StuckDef,
     "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,
-    "add_programme": Term}
+    "add_time_function": Segment}
 
 
 def map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
@@ -398,9 +398,9 @@ def map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
     if isinstance(value, Place):
         part = change(value.part)
         return Place(part, value.pipe, 0, value.fraction) if isinstance(part, Id) else (part, value.pipe, value.fraction)
-    if isinstance(value, Channel):
+    if isinstance(value, Output):
         place = map_ids(value.place, change)
-        return Channel(place=place, quantity=value.quantity) if isinstance(place, Place) else (place, value.quantity)
+        return Output(place=place, quantity=value.quantity) if isinstance(place, Place) else (place, value.quantity)
     if isinstance(value, dict):
         return {key: map_ids(one, change) for key, one in value.items()}
     if isinstance(value, (list, tuple)):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import enums, station
-from ._structs import Input, Output
+from ._structs import Excitation, ResponseOutput
 from .language import Phrase, phrase
 from .scene import Scene
 from .sim import Sim
@@ -14,7 +14,7 @@ from .sim import Sim
 ROUNDING = 1e-9   #: of the largest component, below which an amplitude is rounding: static states balance to 1e-10
 SURE = 1e-6       #: of its limit, above which a severity is not looked at again
 RADIUS = 0.05     #: [m] by which rotations count as displacements, and moments as forces: about that of a pipe
-MOTIONS = (enums.OUTPUT_DISPLACEMENT, enums.OUTPUT_VELOCITY, enums.OUTPUT_ACCELERATION)
+MOTIONS = (enums.RESPONSE_DISPLACEMENT, enums.RESPONSE_VELOCITY, enums.RESPONSE_ACCELERATION)
 
 NOTHING_EXCITES = phrase("all excitations are zero. Give the pipes an eccentricity (string.pipes.eccentricity, for example \"0.5 mm\"), or "
                          "excite the string by a drive, load or force")
@@ -24,15 +24,15 @@ UNREACHED = phrase("the orders of [speeds] excite none of its outputs; amplitude
                    "and up, those of the pipe with \"body\" as frame")
 
 
-def _probes(scene: Scene, output: Output) -> list[Output]:
+def _probes(scene: Scene, out: ResponseOutput) -> list[ResponseOutput]:
     """All components of both ends and the middle of each string, of motions of the same kind, else displacements; of section forces those of
     the same place too."""
-    kind = output.kind if output.kind in MOTIONS else enums.OUTPUT_DISPLACEMENT
+    kind = out.kind if out.kind in MOTIONS else enums.RESPONSE_DISPLACEMENT
     places = [station(scene.names[name], pipe, fraction) for name, pipes in scene.pipes.items()
               for pipe, fraction in ((0, 0.0), (pipes // 2, 0.5), (pipes - 1, 1.0))]
-    found = [Output(kind=kind, place=place, component=component) for place in places for component in range(6)]
-    if output.kind == enums.OUTPUT_SECTION_FORCE:
-        found += [Output(kind=output.kind, place=output.place, component=component, frame=output.frame) for component in range(6)]
+    found = [ResponseOutput(kind=kind, place=place, component=component) for place in places for component in range(6)]
+    if out.kind == enums.RESPONSE_SECTION_FORCE:
+        found += [ResponseOutput(kind=out.kind, place=out.place, component=component, frame=out.frame) for component in range(6)]
     return found
 
 
@@ -41,31 +41,31 @@ def with_grid(options: dict[str, Any]) -> dict[str, Any]:
     return {**options, "refinement": 0}
 
 
-def _weight(output: Output) -> float:
+def _weight(out: ResponseOutput) -> float:
     """Factor of an amplitude for comparison: rotations by RADIUS, moments by its inverse."""
-    turning = output.component >= enums.RX
-    return (1.0 / RADIUS if output.kind == enums.OUTPUT_SECTION_FORCE else RADIUS) if turning else 1.0
+    turning = out.component >= enums.RX
+    return (1.0 / RADIUS if out.kind == enums.RESPONSE_SECTION_FORCE else RADIUS) if turning else 1.0
 
 
-def _comparable(output: Output, other: Output) -> bool:
+def _comparable(out: ResponseOutput, other: ResponseOutput) -> bool:
     """Whether both have one unit, rotations counted as displacements."""
-    return bool(output.kind == other.kind and output.kind in (*MOTIONS, enums.OUTPUT_SECTION_FORCE))
+    return bool(out.kind == other.kind and out.kind in (*MOTIONS, enums.RESPONSE_SECTION_FORCE))
 
 
-def _judged(own: float, output: Output, around: list[tuple[Output, float]]) -> Phrase | None:
+def _judged(own: float, out: ResponseOutput, around: list[tuple[ResponseOutput, float]]) -> Phrase | None:
     """None where the output moves, else why it does not."""
-    alike = [size for one, size in around if _comparable(output, one)]
+    alike = [size for one, size in around if _comparable(out, one)]
     if own > ROUNDING * max(alike, default=0.0) and own > 0.0:
         return None
     return NO_RESPONSE if max([own, *(size for _, size in around)]) > 0.0 else NOTHING_EXCITES
 
 
-def of_response(sim: Sim, scene: Scene, inputs: Sequence[Input], output: Output, options: dict[str, Any], frequency: float) -> Phrase | None:
+def of_response(sim: Sim, scene: Scene, inputs: Sequence[Excitation], out: ResponseOutput, options: dict[str, Any], frequency: float) -> Phrase | None:
     """Why the response of an output at a frequency [Hz] is none; None where it is one."""
-    listed = [output, *_probes(scene, output)]
+    listed = [out, *_probes(scene, out)]
     with sim.response(inputs, listed, frequencies=[frequency], **with_grid(options)) as found:
         sizes = [_weight(one) * abs(complex(found.transfer(output=number)[0])) for number, one in enumerate(listed)]
-    return _judged(sizes[0], output, list(zip(listed[1:], sizes[1:])))
+    return _judged(sizes[0], out, list(zip(listed[1:], sizes[1:])))
 
 
 def of_speeds(sim: Sim, scene: Scene, severity: float, options: dict[str, Any]) -> Phrase | None:
@@ -73,13 +73,13 @@ def of_speeds(sim: Sim, scene: Scene, severity: float, options: dict[str, Any]) 
     if severity > SURE:
         return None
 
-    def largest(listed: list[Output]) -> float:
+    def largest(listed: list[ResponseOutput]) -> float:
         return max(sim.speeds(scene.orders(), listed, [1.0 / _weight(one) for one in listed], **with_grid(options))[1])
 
     reasons = []
-    for output in scene.outputs("speeds"):
-        around = _probes(scene, output)
-        reasons.append(_judged(largest([output]), output, [(around[-1], largest([one for one in around if one.kind == around[-1].kind]))]))
+    for out in scene.response_outputs("speeds"):
+        around = _probes(scene, out)
+        reasons.append(_judged(largest([out]), out, [(around[-1], largest([one for one in around if one.kind == around[-1].kind]))]))
     if None in reasons:
         return None
     return UNREACHED if NO_RESPONSE in reasons else NOTHING_EXCITES

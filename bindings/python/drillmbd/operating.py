@@ -1,4 +1,4 @@
-"""The operation that a scene describes: rotation, feed and load on the bit, as its programmes give them."""
+"""The operation that a scene describes: rotation, feed and load on the bit, as its time functions give them."""
 from __future__ import annotations
 
 import math
@@ -27,25 +27,25 @@ class Operating:
 
 def operating(scene: Scene) -> Operating:
     """Of the first drives along and about x, and the first bit."""
-    programmes: list[Any] = [terms for name, terms in scene.model.calls if name == "add_programme"]
+    time_functions: list[Any] = [segments for name, segments in scene.model.calls if name == "add_time_function"]
     found = Operating()
     for name, arguments in scene.model.calls:
         fields = arguments[0] if arguments and isinstance(arguments[0], dict) else {}
         if name == "add_drive" and fields.get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD:
-            value = _value(programmes, fields.get("programme"))
+            value = _value(time_functions, fields.get("time_function"))
             if fields.get("component", enums.X) == enums.RX and found.rotation is None:
                 found.rotation = value
             elif fields.get("component", enums.X) == enums.X and found.feed is None:
                 found.feed = value
         if name == "add_bit" and found.weight_on_bit is None:
-            found.weight_on_bit = _value(programmes, fields.get("load"))
+            found.weight_on_bit = _value(time_functions, fields.get("load"))
             _estimate(found, fields)
     return found
 
 
-def _value(programmes: list[Any], part: Any) -> float | None:
-    """Of a programme by its id, whose low 24 bits are its number."""
-    return largest_of(programmes[part.index & 0xFFFFFF]) if part else None
+def _value(time_functions: list[Any], part: Any) -> float | None:
+    """Of a time function by its id, whose low 24 bits are its number."""
+    return largest_of(time_functions[part.index & 0xFFFFFF]) if part else None
 
 
 def operations_of(plan: Operating) -> list[_structs.Operation]:

@@ -106,7 +106,7 @@ def profile(found: Profile, title: str = "", units: Units = SI) -> Any:
         wall.hlines(length * found.contact_depth, 0.0, factor * found.contact_force, color=COLOURS[2],
                     linewidth=max(0.7, min(4.0, 200.0 / len(found.contact_depth))))
         wall.set_xlim(left=0.0)
-    wall.set_xlabel(f"force on the wall [{unit}]\nper site")
+    wall.set_xlabel(f"force on the wall [{unit}]\nper contact point")
     axial.set_ylabel(units.head("measured depth [m]" if has_hole else "along the string [m]"))
     axial.invert_yaxis()
     figure.suptitle(title)

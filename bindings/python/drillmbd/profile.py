@@ -32,7 +32,7 @@ class Profile:
     """Values along a string, numpy arrays: n stations from the rig end on. profile["von_mises"] or
     profile[PROFILE_VON_MISES] is one quantity, shape (n); the names are those of PROFILE_... in small letters."""
     values: dict[str, Any]  #: every quantity by its name, each shape (n)
-    contact_depth: Any  #: [m] measured depth of the contact sites of this string, shape (m)
+    contact_depth: Any  #: [m] measured depth of the contact points of this string, shape (m)
     contact_force: Any  #: [N] normal force there on the wall, shape (m)
     contact_gap: Any   #: [m] there to the wall, < 0 when penetrating, shape (m)
 
@@ -92,7 +92,7 @@ class Profile:
         return self.values["bending_moment"]
 
     def frame(self) -> Any:
-        """The stations as a pandas frame with units in the names of its columns; contact sites are not in it."""
+        """The stations as a pandas frame with units in the names of its columns; contact points are not in it."""
         return need("pandas").DataFrame({f"{one.name.lower().replace('_', ' ')} [{unit_of(one)}]":
                                          self.values[one.name.lower()] for one in QUANTITIES})
 
@@ -124,15 +124,15 @@ def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
 
 
 def _contacts(sim: Sim, string: Id) -> list[tuple[float, float, float]]:
-    """(depth, normal force, gap) of the contact sites of a string."""
+    """(depth, normal force, gap) of the contact points of a string."""
     found: list[tuple[float, float, float]] = []
-    site = 0
+    number = 0
     while True:
         try:
-            contact = sim.contact(site)
+            contact = sim.contact(number)
         except Error:
             return found  # there are no more
-        site += 1
+        number += 1
         if contact.part == string:
             end = contact.pipe == 0xFFFFFFFF
             pose = sim.pose(station(string, 0 if end else contact.pipe, 0.0 if end else 1.0))

@@ -1,4 +1,4 @@
-"""Channels over time, into memory that Python shows without copying."""
+"""Outputs over time, into memory that Python shows without copying."""
 from __future__ import annotations
 
 import ctypes
@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from ._keep import as_id, as_place, mirrors, path_of, station, written
 from ._library import lib as _lib
 from ._optional import need, numpy
-from ._structs import Channel, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
+from ._structs import Output, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .channels import channel_name, channel_quantity, channel_unit
-from .enums import CHANNEL_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
+from .outputs import output_name, output_quantity, output_unit
+from .enums import OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
 
 from .profile import unit_of, values_of
 
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     from .sim import Sim
     from .window import Window
 
-def _channel(number: int, given: Any) -> tuple[Any, ...]:
+def _output(number: int, given: Any) -> tuple[Any, ...]:
     """(place, number of the quantity, perhaps a name) of a pair or triple."""
-    part = f"recorder channel {number}"
+    part = f"recorder output {number}"
     if not isinstance(given, (tuple, list)) or len(given) not in (2, 3):
-        refuse_type(part, "channel", given, 'be a pair (place, "bit_speed") or a triple with a name')
+        refuse_type(part, "output", given, 'be a pair (place, "bit_speed") or a triple with a name')
     place, quantity, *name = given
     if isinstance(place, str) or isinstance(quantity, (Place, Id)):
-        refuse_type(part, "channel", given, 'have the place first: (place, "bit_speed")')
+        refuse_type(part, "output", given, 'have the place first: (place, "bit_speed")')
     if name and not isinstance(name[0], str):
         refuse_type(part, "name", name[0], "be a text")
-    return (station(Id(), place) if isinstance(place, int) else place, channel_quantity(quantity), *name)
+    return (station(Id(), place) if isinstance(place, int) else place, output_quantity(quantity), *name)
 
 
 def _interval(value: Any) -> float:
@@ -41,29 +41,29 @@ def _interval(value: Any) -> float:
 
 
 class Recorder:
-    """A table of rows (time, channels...). channels are pairs (place, "bit_speed") or (place, CHANNEL_...), or triples
-    with a name for the column; a part stands for its reference point, None for a channel without a place. Of a window
-    place is the number of the watched channel. Call take() after every step."""
+    """A table of rows (time, outputs...). outputs are pairs (place, "bit_speed") or (place, OUTPUT_...), or triples
+    with a name for the column; a part stands for its reference point, None for a output without a place. Of a window
+    place is the number of the watched output. Call take() after every step."""
 
-    def __init__(self, sim: Sim, channels: Sequence[Any], capacity: int, interval: float = 0.0,
+    def __init__(self, sim: Sim, outputs: Sequence[Any], capacity: int, interval: float = 0.0,
                  window: Window | None = None) -> None:
         self.sim, self._window = sim, window
         capacity, interval = whole(capacity, "recorder", "capacity", 1, 2 ** 40), _interval(interval)
-        channels = [_channel(number, one) for number, one in enumerate(channels)]
-        self._names = [self._name(*channel) for channel in channels]
-        self._channels = (Channel * len(channels))(*[Channel(as_place(place), quantity, 0)
-                                                     for place, quantity, *_ in channels])
-        self._width = 1 + len(channels)
+        outputs = [_output(number, one) for number, one in enumerate(outputs)]
+        self._names = [self._name(*output) for output in outputs]
+        self._outputs = (Output * len(outputs))(*[Output(as_place(place), quantity, 0)
+                                                     for place, quantity, *_ in outputs])
+        self._width = 1 + len(outputs)
         if window is None:
-            sim._check(_lib.dmb_channel_check(sim._handle, self._channels, len(channels)))
+            sim._check(_lib.dmb_output_check(sim._handle, self._outputs, len(outputs)))
         if numpy is not None:
             self._memory: Any = numpy.zeros((capacity, self._width))
             table = self._memory.ctypes.data_as(POINTER(c_double))
         else:
             self._memory = (c_double * (capacity * self._width))()
             table = ctypes.cast(self._memory, POINTER(c_double))
-        self._struct = RecorderStruct(channel_count=len(channels), capacity=capacity, interval=interval)
-        self._struct.channels = ctypes.cast(self._channels, POINTER(Channel))
+        self._struct = RecorderStruct(output_count=len(outputs), capacity=capacity, interval=interval)
+        self._struct.outputs = ctypes.cast(self._outputs, POINTER(Output))
         self._struct.table = table
         self._struct.window = None if window is None else window._handle
 
@@ -75,7 +75,7 @@ class Recorder:
         where = f" part {at.part.index & 0xFFFFFF} pipe {at.pipe} at {at.fraction:g}" if at.part else ""
         if not at.part and at.pipe:
             where = f" {at.pipe}"
-        return f"{channel_name(quantity)}{where} [{channel_unit(quantity)}]"
+        return f"{output_name(quantity)}{where} [{output_unit(quantity)}]"
 
     @mirrors("dmb_recorder_take")
     def take(self) -> int:
@@ -83,7 +83,7 @@ class Recorder:
         return self.sim._told(_lib.dmb_recorder_take(byref(self._struct), self.sim._handle), _lib.dmb_recorder_take)
 
     def take_up(self, table: Any) -> None:
-        """Begins with the rows of another recorder of the same channels and interval."""
+        """Begins with the rows of another recorder of the same outputs and interval."""
         rows, width = (*table.shape, 0, 0)[:2]
         if width != self._width or rows > self._struct.capacity:
             refuse_value("recorder", "table", (rows, width), f"be of {self._width} columns and at most {self._struct.capacity} rows")
@@ -100,7 +100,7 @@ class Recorder:
 
     @property
     def table(self) -> Any:
-        """The rows so far: a numpy array of shape (rows, 1 + channels) that shares the recorder's memory, or a list of
+        """The rows so far: a numpy array of shape (rows, 1 + outputs) that shares the recorder's memory, or a list of
         tuples."""
         if numpy is not None and not isinstance(self._memory, ctypes.Array):
             return self._memory[:len(self)]
@@ -156,7 +156,7 @@ class ProfileRecorder:
     @property
     def columns(self) -> list[str]:
         """Names of the quantities with their units."""
-        return [f"{channel_name(CHANNEL_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]" for quantity in self._quantities]
+        return [f"{output_name(OUTPUT_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]" for quantity in self._quantities]
 
     @property
     def along(self) -> Any:

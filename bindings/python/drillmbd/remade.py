@@ -1,4 +1,4 @@
-"""Scenes whose model is described again with something changed: programmes, drives, inputs."""
+"""Scenes whose model is described again with something changed: time functions, drives, inputs."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -20,12 +20,12 @@ def with_calls(scene: Scene, calls: Calls) -> Scene:
     return _with_model(scene, remake(type(scene.model), calls))
 
 
-def with_programmes(scene: Scene, terms: dict[int, list[dict[str, Any]]]) -> Scene:
-    """The scene with other terms of the programmes of these numbers."""
+def with_time_functions(scene: Scene, segments: dict[int, list[dict[str, Any]]]) -> Scene:
+    """The scene with other segments of the time functions of these numbers."""
     calls, number = [], 0
     for name, arguments in scene.model.calls:
-        if name == "add_programme":
-            arguments = tuple(terms.get(number, arguments))
+        if name == "add_time_function":
+            arguments = tuple(segments.get(number, arguments))
             number += 1
         calls.append((name, arguments))
     return with_calls(scene, calls)
@@ -37,9 +37,9 @@ def rebound(scene: Scene) -> Scene:
 
 
 def _with_model(scene: Scene, model: Any) -> Scene:
-    return replace(scene, model=model, names=model.own(scene.names), channels=model.own(scene.channels), analyses=model.own(scene.analyses))
+    return replace(scene, model=model, names=model.own(scene.names), outputs=model.own(scene.outputs), analyses=model.own(scene.analyses))
 
 
-def programmes_of(scene: Scene) -> list[Any]:
-    """The terms of all programmes, by number."""
-    return [terms for name, terms in scene.model.calls if name == "add_programme"]
+def time_functions_of(scene: Scene) -> list[Any]:
+    """The segments of all time functions, by number."""
+    return [segments for name, segments in scene.model.calls if name == "add_time_function"]

@@ -7,18 +7,18 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from . import __version__, enums, questions
+from . import __version__, enums, commands
 from ._optional import need
 from ._progress import INTERRUPTS
 from .analysis import OPERATIONS
-from .answers import Output, count_fatigue, finite, note_bounces, tell_fatigue
+from .results import CommandOutput, count_fatigue, finite, note_bounces, tell_fatigue
 from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .language import Foreign, Phrase, joined, phrase
 from .operating import Operating, has_rock_law, operating, operations_of, polar_moduli
 from .plots import COLOURS
 from .profile import Profile, values_of
-from .questions import columns_of
+from .commands import columns_of
 from .report_basis import Row, assumptions, headline, limits_at_the_rig
 from .report_figures import Figure, InSpace, in_space, line, picture_in_space, rounded, value_axis
 from .report_hole import HoleView, hole_view
@@ -41,8 +41,8 @@ OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phr
 class Study:
     """Content of the page. An analysis that fails becomes a tile with its reason; the others go on."""
 
-    def __init__(self, scene: Scene, output: Output, probability: Probability | None = None) -> None:
-        self.scene, self.output, self.title, self.units = scene, output, scene.title, output.units
+    def __init__(self, scene: Scene, out: CommandOutput, probability: Probability | None = None) -> None:
+        self.scene, self.out, self.title, self.units = scene, out, scene.title, out.units
         self.string, self.pipes = next(iter(scene.pipes.items()))
         self.part, self.limits = scene.names[self.string], scene.limits
         self.plan: Operating = operating(scene)
@@ -63,7 +63,7 @@ class Study:
         self.headline: str = headline(self.string, self.plan, self.units)
         self.understood: list[str] = []
         self.made: str = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
-                           file=output.summary["scene"])
+                           file=out.summary["scene"])
 
     def ask(self) -> None:
         """All analyses in the order of the page."""
@@ -85,7 +85,7 @@ class Study:
         if self.probability is not None:
             self.tiles += self.probability.tiles(self.units)
             self.figures += self.probability.figures()
-        self.output.summary["verdicts"] = [vars(tile) for tile in self.tiles]
+        self.out.summary["verdicts"] = [vars(tile) for tile in self.tiles]
 
     def _bit_torque(self) -> None:
         """Stiff string and run lack a torque of the bit that is estimated. The von Mises stress is a norm of the stresses, so that theirs and
@@ -129,7 +129,7 @@ class Study:
             analysis()
         except (Error, ArithmeticError) as error:
             reason = self.units.sentence(_reason(error))
-            self.output.note_text(phrase("{analysis}: not computed. {reason}", analysis=what, reason=reason))
+            self.out.note_text(phrase("{analysis}: not computed. {reason}", analysis=what, reason=reason))
             for key in demands:
                 self.demands[key].failed.append(phrase("{analysis}: {reason}", analysis=what, reason=reason))
             if not demands:
@@ -146,8 +146,8 @@ class Study:
                 raise
             values["load_steps"] = 10  # friction around a string lets it climb
             status = sim.static(**values).status
-            self.output.note_text(phrase("static state: found in ten load steps"))
-        self.output.note(status, phrase("static state"))
+            self.out.note_text(phrase("static state: found in ten load steps"))
+        self.out.note(status, phrase("static state"))
 
     def _operations(self) -> None:
         speed = abs(self.scene.analyses.get("static", {}).get("slip_axial", 0.0)) or self.plan.feed or 0.01
@@ -156,7 +156,7 @@ class Study:
                                 (phrase("rotated"), "torque", {"slip_rotation": rotation})):
             self._attempt(phrase("stiff string, {operation}", operation=name), (key, "yield_stress"),
                           lambda name=name, key=key, slip=slip: self._operation(name, key, slip))  # type: ignore[misc]
-        self.output.summary["operations"] = {name: {"axial_force_at_rig_N": found.axial_force[0],
+        self.out.summary["operations"] = {name: {"axial_force_at_rig_N": found.axial_force[0],
                                                     "torque_at_rig_N_m": found.torque[0]}
                                              for name, found in self.operations.items()}
         if not self.operations:
@@ -202,7 +202,7 @@ class Study:
             self.figures.append((title, phrase("Soft string in steady motion, {load} while drilling and sliding; dashed: limits of the rig.", load=load), {
                 "data": data, "layout": {"xaxis": value_axis(label, *(one["x"] for one in data)), "shapes": shapes, "yaxis": {
                     "title": {"text": phrase("measured depth of the bit [{unit}]", unit=units.unit("m"))}, "autorange": "reversed"}}}))
-        self.output.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
+        self.out.summary["torque_drag"] = {name: {"hook_load_N": finite(row.hook_load), "torque_N_m": finite(row.torque)}
                                               for name, row in zip(OPERATION_NAMES, found.rows[-1])}
 
     def _soft_demands(self, rows: Any) -> None:
@@ -268,16 +268,16 @@ class Study:
         if "speeds" not in self.scene.analyses:
             self.tiles.append(Tile(phrase("Critical speeds"), phrase("not assessed"), phrase("the scene has no [speeds] table"), NOT_ASSESSED))
             return
-        self.speeds = found = speeds(self.scene, self.output.note_text)
+        self.speeds = found = speeds(self.scene, self.out.note_text)
         for note in found.notes():
-            self.output.note_text(note)
-        self.output.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi] for band in found.bands]
+            self.out.note_text(note)
+        self.out.summary["speeds_rpm"] = [[band.low * 30.0 / math.pi, band.high * 30.0 / math.pi] for band in found.bands]
         self.tiles.append(speeds_tile(found, self.plan))
         if found.assessed:
             self.figures.append(speeds_figure(found))
 
     def _buckling(self) -> None:
-        self.tiles.append(buckling_tile(self.scene, self._static, self.output))
+        self.tiles.append(buckling_tile(self.scene, self._static, self.out))
 
     # ---- In time ----------------------------------------------------------------------------------------------------
     def _run(self) -> None:
@@ -314,7 +314,7 @@ class Study:
                                                        for stress, time in sorted(course.stresses)[-1:]]
                 self.demands["torque"].add(max(abs(torque[0]), abs(torque[1])), source)
         if self.scene.sim.get("energy_ledger", 1):
-            self.output.summary["energy_error"] = sim.energy().error
+            self.out.summary["energy_error"] = sim.energy().error
         self._fatigue(counters)
 
     def _fatigue(self, counters: dict[str, StringFatigue]) -> None:
@@ -322,7 +322,7 @@ class Study:
         if not counters:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"), NOT_ASSESSED))
             return
-        found, counter = tell_fatigue(counters, self.output)[self.string], counters[self.string]
+        found, counter = tell_fatigue(counters, self.out)[self.string], counters[self.string]
         pipe = counter.pipes[counter.worst]
         if found.largest_range <= 0.0:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
@@ -347,10 +347,10 @@ class Study:
 
     def _frames(self, sim: Sim, course: Frames, counters: dict[str, StringFatigue]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")
-        interval = max(self.scene.output.get("interval", 0.0), end / 4000.0)
-        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.channels],
-                                int(end / interval) + 3, interval) if self.scene.channels else None
-        state = RunState(self.scene, sim, self.output, [end, step])
+        interval = max(self.scene.results.get("interval", 0.0), end / 4000.0)
+        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.outputs],
+                                int(end / interval) + 3, interval) if self.scene.outputs else None
+        state = RunState(self.scene, sim, self.out, [end, step])
         parts: dict[str, Kept] = {"frames": course, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
         state.take_up(parts if recorder is None else {**parts, "recorder": KeptRecorder(recorder)})
         every = max(1, round(end / FRAMES / step)) * step if step else end / FRAMES
@@ -363,7 +363,7 @@ class Study:
             with INTERRUPTS.held():
                 while not at_end() and not INTERRUPTS.pending:
                     done = len(course.times) - 1
-                    sim.run(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), questions.LOOK,
+                    sim.run(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), commands.LOOK,
                             [course, *counters.values()], begin + done * every)
                     if not INTERRUPTS.pending or at_end():
                         self._shape_of(sim, course)
@@ -377,8 +377,8 @@ class Study:
         else:
             state.keep({}, MOST_BYTES)  # until the page is made
             self.state = state
-        self.output.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
-        note_bounces(sim, self.output)
+        self.out.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
+        note_bounces(sim, self.out)
         if recorder is not None and len(recorder):
             table = recorder.table
             for number, head in enumerate(columns_of(self.scene, recorder, self.units)[1:]):
@@ -421,19 +421,19 @@ def _largest(values: Any) -> float | None:
     return max(known) if known else None
 
 
-def report(scene: Scene, output: Output, options: Any) -> int:
+def report(scene: Scene, out: CommandOutput, options: Any) -> int:
     """The page, in the folder of the answer."""
-    if output.folder is None:
+    if out.folder is None:
         raise Usage("report needs --output FOLDER")
     if not scene.pipes:
         raise Usage("report is about a string, the scene has none")
     need("plotly.offline")
-    study = Study(scene, output, read_probability(options.probability, scene) if options.probability else None)
+    study = Study(scene, out, read_probability(options.probability, scene) if options.probability else None)
     study.ask()
     for tile in study.tiles:
-        output.say(tile.line())
-    output.path("report.html").write_text(page(study), encoding="utf-8")
-    output.summary["hash"] = study.hash
-    if study.state is not None and not output.interrupted:
+        out.say(tile.line())
+    out.path("report.html").write_text(page(study), encoding="utf-8")
+    out.summary["hash"] = study.hash
+    if study.state is not None and not out.interrupted:
         study.state.done()
-    return output.finish()
+    return out.finish()

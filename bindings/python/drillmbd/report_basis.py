@@ -5,7 +5,7 @@ import platform
 from typing import Any
 
 from . import __version__, _structs, enums
-from .answers import RPM
+from .results import RPM
 from .language import Phrase, joined, phrase
 from .operating import BIT_FRICTION, Operating
 from .report_linear import Speeds

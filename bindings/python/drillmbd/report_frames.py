@@ -9,7 +9,7 @@ from .sim import Sim
 
 
 class Frames:
-    """Shapes by time, from which the picture in space is made, and extremes of channels."""
+    """Shapes by time, from which the picture in space is made, and extremes of outputs."""
 
     def __init__(self, shapes: list[tuple[Any, Any]], times: list[float]) -> None:
         self.shapes, self.times = shapes, times
@@ -18,17 +18,17 @@ class Frames:
         self.sim: Any = None
         self.window: Any = None
 
-    def watch(self, sim: Sim, channels: list[tuple[Any, str]]) -> None:
-        """Takes the extremes of these channels from now on."""
-        self.sim, self.window = sim, sim.window(channels)
-        self.before = [[math.inf, -math.inf] for _ in channels]
+    def watch(self, sim: Sim, outputs: list[tuple[Any, str]]) -> None:
+        """Takes the extremes of these outputs from now on."""
+        self.sim, self.window = sim, sim.window(outputs)
+        self.before = [[math.inf, -math.inf] for _ in outputs]
 
     def take(self) -> int:
         """A sample; returns the status."""
         return int(self.window.take())
 
     def extremes(self) -> list[list[float]]:
-        """Least and largest value of each channel; NaN where there was no sample."""
+        """Least and largest value of each output; NaN where there was no sample."""
         found = [self.window.result(number) for number in range(len(self.before))]
         return [[min(low, one.minimum), max(high, one.maximum)] for (low, high), one in zip(self.before, found)]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .answers import RPM, Output
+from .results import RPM, CommandOutput
 from .critical_speeds import LINEAR, analyse, left_out
 from .language import Phrase, joined, phrase
 from .no_response import NOTHING_EXCITES
@@ -109,15 +109,15 @@ def speeds_figure(found: Speeds) -> Figure:
             "yaxis": {"title": {"text": phrase("severity [-]")}, "type": "log"}}})
 
 
-def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], output: Output) -> Tile:
+def buckling_tile(scene: Scene, to_rest: Callable[[Sim], None], out: CommandOutput) -> Tile:
     """The lowest critical factor of [buckling]; never OK where none was found, or it was not confirmed."""
     with scene.new_sim() as sim:
         to_rest(sim)
         with sim.buckling(**scene.fields_of("buckling")) as found:
-            output.note(found.status, phrase("buckling"))
+            out.note(found.status, phrase("buckling"))
             factor = found.factors[0] if found.factors else None
             confirmed = found.info.confirmed > 0
-    output.summary["buckling_factor"] = factor
+    out.summary["buckling_factor"] = factor
     title = phrase("Buckling, nonlinear")
     if factor is None:
         return Tile(title, phrase("none found"), phrase("no critical factor within the searched range"), NOT_ASSESSED)

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import Protocol
 
 from ._optional import need
-from .answers import Output, finite
+from .results import CommandOutput, finite
 from .language import joined, phrase
 from .report_basis import Row
 from .report_figures import Figure, InSpace
@@ -25,7 +25,7 @@ class Content(Protocol):
     title: str
     headline: str
     made: str
-    output: Output
+    out: CommandOutput
     tiles: list[Tile]
     rows: list[Row]
     understood: list[str]
@@ -96,7 +96,7 @@ class Page:
     """Writes the parts of a page in one language."""
 
     def __init__(self, study: Content) -> None:
-        self.study, self.to = study, study.output.language
+        self.study, self.to = study, study.out.language
 
     def text(self, sentence: str) -> str:
         """In the language of the page, as HTML."""
@@ -177,10 +177,10 @@ def page(study: Content) -> str:
             f'<meta name="viewport" content="width=device-width,initial-scale=1"><style>{STYLE}</style></head><body><h1>{title}</h1>'
             f'<p class="made">{made.text(study.made)}</p><p>{made.text(study.headline)}</p>{made.verdicts()}{made.limits()}'
             f'{made.heading(phrase("Results against limits"))}<div class="cards">{"".join(made.tile(tile) for tile in study.tiles)}</div>'
-            f'{made.hole()}{made.heading(phrase("Notes"))}{made.items([*study.output.summary["warnings"], *study.output.summary["notes"]])}'
+            f'{made.hole()}{made.heading(phrase("Notes"))}{made.items([*study.out.summary["warnings"], *study.out.summary["notes"]])}'
             + "".join(made.figure(number, one) for number, one in enumerate(study.figures))
             + f'{made.heading(phrase("Assumptions"))}<div class="scroll"><table>{facts}</table></div>{made.heading(phrase("Model check"))}'
-            f'<pre>{html.escape(study.output.units.sentence(made.to.lines(study.check)))}</pre>'
+            f'<pre>{html.escape(study.out.units.sentence(made.to.lines(study.check)))}</pre>'
             f'<pre id="problems" data-count="0"></pre><script type="text/plain" id="plotly">{packed}</script>'
             + made.data("figures", made.to.all([figure for _, _, figure in study.figures])) + made.data("words", words)
             + f"<script>{SCRIPT}</script></body></html>")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .answers import Output, file_name
+from .results import CommandOutput, file_name
 from .operating import Operating
 from .unit_systems import Units
 from .verdict import shown
@@ -76,28 +76,28 @@ def unknown(plan: Operating, limits: Iterable[str]) -> str:
     return ""
 
 
-def write(output: Output, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float], plan: Operating) -> None:
+def write(out: CommandOutput, name: str, depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float], plan: Operating) -> None:
     """The table, its last row, and the depth that the rig reaches with this string."""
     given = {key: limits[key] for key, _, _ in QUANTITIES if key in limits}
     if not given:
-        output.say(f"{name}, limits of the rig: " + (NOT_ASSESSED if not limits else NOT_ASSESSED + " of thrust, pull or torque"))
-        output.summary.setdefault("rig_limits", {})[name] = None
+        out.say(f"{name}, limits of the rig: " + (NOT_ASSESSED if not limits else NOT_ASSESSED + " of thrust, pull or torque"))
+        out.summary.setdefault("rig_limits", {})[name] = None
         return
     first = reach(depths, table, given)
-    output.say(f"{name}, limits of the rig: {_text(depths, table, given, first, output.units)}")
+    out.say(f"{name}, limits of the rig: {_text(depths, table, given, first, out.units)}")
     missing = unknown(plan, given)
     if missing:
-        output.say(f"{name}, {missing}")
+        out.say(f"{name}, {missing}")
     for key, word, _ in QUANTITIES:
         if key not in given:
-            output.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
+            out.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
     heads = ["depth [m]"]
     for _, word, unit in QUANTITIES:
         heads += [f"{word} [{unit}]", f"{word}: operation", f"{word}: share of the limit [-]"]
-    output.table(f"rig_limits_{file_name(name)}.csv", heads, [
+    out.table(f"rig_limits_{file_name(name)}.csv", heads, [
         [depth, *(cell for key, _, _ in QUANTITIES for cell in (loads[key].value, loads[key].operation, loads[key].share(given.get(key))))]
         for depth, loads in zip(depths, table)])
-    output.summary.setdefault("rig_limits", {})[name] = {
+    out.summary.setdefault("rig_limits", {})[name] = {
         "reach_m": first.depth if first and first.depth > depths[0] else None, "first_limit": first.word if first else None,
         "assessed_to_m": depths[-1], "drilling_assessed": not missing, "share": {key: max(loads[key].share(limit) for loads in table) for key, limit in given.items()}}
 

@@ -1,25 +1,25 @@
 """The torque at the rig that keeps a string turning whose drive gives a torque, not a speed: a steady rotation needs as much as friction
-takes from it (eq:sliding.state), whatever the programme of the drive says."""
+takes from it (eq:sliding.state), whatever the time function of the drive says."""
 from __future__ import annotations
 
 from typing import Any
 
 from . import enums
 from .errors import Error
-from .remade import Calls, number_of, with_calls, with_programmes
+from .remade import Calls, number_of, with_calls, with_time_functions
 from .scene import Scene
 
 #: Fields of a drive that say which motion it holds; the others shape its torque.
-HOLDING = ("component", "part", "programme", "name")
+HOLDING = ("component", "part", "time_function", "name")
 
 
 def torque_drive(scene: Scene) -> int | None:
-    """The number of the only drive that turns the scene, if it gives a torque by a programme; else None."""
+    """The number of the only drive that turns the scene, if it gives a torque by a time function; else None."""
     drives = [arguments[0] for name, arguments in scene.model.calls if name == "add_drive"]
     turning = [number for number, one in enumerate(drives) if one.get("component", enums.X) == enums.RX]
     if len(turning) != 1 or drives[turning[0]].get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD:
         return None
-    return turning[0] if drives[turning[0]].get("programme") else None
+    return turning[0] if drives[turning[0]].get("time_function") else None
 
 
 def _is_part(value: Any, kind: int) -> bool:
@@ -42,8 +42,8 @@ def _changed(scene: Scene, drive: int, change: Any) -> Calls:
 
 def needed(scene: Scene, drive: int, static: dict[str, Any]) -> float:
     """[N m] The torque of the drive in the static state `static`, if it held the angle. Raises Error where there is no such state."""
-    holding = with_programmes(with_calls(scene, _changed(scene, drive, lambda fields: {key: fields[key] for key in HOLDING if key in fields})),
-                              {number_of(_fields(scene, drive)["programme"]): [{"h0": 0.0}]})
+    holding = with_time_functions(with_calls(scene, _changed(scene, drive, lambda fields: {key: fields[key] for key in HOLDING if key in fields})),
+                              {number_of(_fields(scene, drive)["time_function"]): [{"h0": 0.0}]})
     with holding.new_sim() as sim:
         sim.static(**static)
         return float(sim.drive(next(one for one in holding.model.ids if _is_part(one, enums.PART_DRIVE) and number_of(one) == drive)).force)
@@ -64,4 +64,4 @@ def balanced(scene: Scene, static: dict[str, Any]) -> tuple[Scene, float | None]
     except Error:
         return scene, None
     bare = with_calls(scene, _changed(scene, drive, dict))
-    return with_programmes(bare, {number_of(_fields(scene, drive)["programme"]): [{"h0": torque}]}), torque
+    return with_time_functions(bare, {number_of(_fields(scene, drive)["time_function"]): [{"h0": torque}]}), torque

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from .answers import Output, file_name, quantity
+from .results import CommandOutput, file_name, quantity
 from .errors import Usage
 from .remade import number_of
 from .rig_limits import QUANTITIES, Load, loads_at, unknown
@@ -53,18 +53,18 @@ class Row:
         return OVER if share > 1.0 else NEAR if share > NEAR_SHARE else NOT_ASSESSED if self.unknown else OK
 
 
-def rod_by_rod(scene: Scene, output: Output, options: Any) -> int:
+def rod_by_rod(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Loads for each number of rods of each string."""
-    settings = settings_of(scene, options, output.units)
+    settings = settings_of(scene, options, out.units)
     limits = {key: scene.limits[key] for key, _, _ in QUANTITIES if key in scene.limits}
     if options.make_up is not None:
         limits[MAKE_UP] = quantity(options.make_up, "N*m", "--make-up")
         if not limits[MAKE_UP] > 0.0:
             raise Usage(f"--make-up {options.make_up}: must be > 0")
     for text in settings.notes:
-        output.say(text)
-    output.say("engine: the soft string of torque-drag, without bending stiffness and vibration; the last rods of the scene go into the hole first")
-    output.summary["rod_by_rod"] = {}
+        out.say(text)
+    out.say("engine: the soft string of torque-drag, without bending stiffness and vibration; the last rods of the scene go into the hole first")
+    out.summary["rod_by_rod"] = {}
     with scene.new_sim() as sim:
         for name in scene.pipes:
             string = scene.names[name]
@@ -73,8 +73,8 @@ def rod_by_rod(scene: Scene, output: Output, options: Any) -> int:
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
             rows = [Row(number + 1, depth, loads_at(one, list(WORDS.values()), settings.block_weight), unknown(settings.plan, limits))
                     for number, (depth, one) in enumerate(zip(depths, found.rows))]
-            _write(output, name, rows, limits)
-    return output.finish()
+            _write(out, name, rows, limits)
+    return out.finish()
 
 
 def lengths_of(scene: Scene, string: Any) -> list[float]:
@@ -99,28 +99,28 @@ def depths_of_rods(lengths: list[float], last: float) -> list[float]:
 
 
 # ---- Results ---------------------------------------------------------------------------------------------------------
-def _write(output: Output, name: str, rows: list[Row], limits: dict[str, float]) -> None:
-    units = output.units
+def _write(out: CommandOutput, name: str, rows: list[Row], limits: dict[str, float]) -> None:
+    units = out.units
     listed = sorted({round(i * (len(rows) - 1) / (MOST_LINES - 1)) for i in range(MOST_LINES)})
     for row in (rows[i] for i in listed):
-        output.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: {_loads(row, units)}, {row.verdict(limits)}")
-    output.say(f"{name}: {_reach(rows, limits, units)}")
+        out.say(f"  {name}, {row.rods:4d} {'rod' if row.rods == 1 else 'rods'}, bit at {units.text(row.depth, 'm')}: {_loads(row, units)}, {row.verdict(limits)}")
+    out.say(f"{name}: {_reach(rows, limits, units)}")
     if rows[0].unknown:
-        output.say(f"{name}, {rows[0].unknown}")
+        out.say(f"{name}, {rows[0].unknown}")
     if MAKE_UP not in limits:
-        output.say(f"{name}, {NOT_GIVEN}")
+        out.say(f"{name}, {NOT_GIVEN}")
     for key, word, _ in QUANTITIES:
         if key not in limits:
-            output.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
-    output.table(f"rods_{file_name(name)}.csv", heads(limits), [
+            out.say(f"{name}, {word}: not assessed, because [limits] has no {key}")
+    out.table(f"rods_{file_name(name)}.csv", heads(limits), [
         [row.rods, row.depth, *(cell for key, _, _ in QUANTITIES for cell in (row.loads[key].value, row.loads[key].operation)), row.make_up,
          row.share(limits), row.verdict(limits)] for row in rows])
-    output.summary["rod_by_rod"][name] = {
+    out.summary["rod_by_rod"][name] = {
         "rods_within_limits": within(rows, limits), "limits": dict(limits), "rods": [
             {"rods": row.rods, "depth_m": row.depth, "push_N": row.loads["push"].value, "pull_N": row.loads["pull"].value,
              "torque_N_m": row.loads["torque"].value, "make_up_above_N_m": row.make_up, "share": row.share(limits), "verdict": row.verdict(limits)}
             for row in rows]}
-    output.picture(f"rods_{file_name(name)}.png", lambda plots: plots.rods(rows, limits, name, units))
+    out.picture(f"rods_{file_name(name)}.png", lambda plots: plots.rods(rows, limits, name, units))
 
 
 def heads(limits: dict[str, float]) -> list[str]:

@@ -1,4 +1,4 @@
-"""A scene at one rotation and load on the bit: its programmes replaced, and the state about which a rotating string is linearised."""
+"""A scene at one rotation and load on the bit: its time functions replaced, and the state about which a rotating string is linearised."""
 from __future__ import annotations
 
 import math
@@ -10,7 +10,7 @@ from . import _structs, enums
 from .errors import Error
 from .language import Foreign, phrase
 from .operating import operating
-from .remade import number_of, programmes_of, with_programmes
+from .remade import number_of, time_functions_of, with_time_functions
 from .rig_torque import balanced
 from .scene import Scene
 from .scene.largest import largest_of
@@ -25,29 +25,29 @@ RPM = 2.0 * math.pi / 60.0
 UNBALANCED = 1.0
 
 
-# ---- Programmes ------------------------------------------------------------------------------------------------------
+# ---- Time functions ------------------------------------------------------------------------------------------------------
 def drive_at_speed(scene: Scene, component: int) -> int | None:
-    """The number of the programme of the first drive that moves a component at a speed."""
+    """The number of the time function of the first drive that moves a component at a speed."""
     for name, arguments in scene.model.calls:
         if name == "add_drive":
             given = arguments[0]
             if (given.get("component", enums.X) == component and given.get("kind", enums.DRIVE_MOTION) != enums.DRIVE_LOAD
-                    and given.get("programme")):
-                return number_of(given["programme"])
+                    and given.get("time_function")):
+                return number_of(given["time_function"])
     return None
 
 
 def loads_of_bits(scene: Scene) -> list[int]:
-    """The numbers of the programmes of loads on bits."""
+    """The numbers of the time functions of loads on bits."""
     return [number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")]
 
 
-def extreme(terms: Any) -> float:
-    """The value of largest magnitude of a programme, with its sign; 0 where a function of the caller gives it."""
-    size = largest_of(terms)
+def extreme(segments: Any) -> float:
+    """The value of largest magnitude of a time function, with its sign; 0 where a function of the caller gives it."""
+    size = largest_of(segments)
     if not size:
         return 0.0
-    values = [float(value) for term in terms for value in (*(one for _, one in term.get("table", ())), term.get("h0", 0.0), term.get("h1", 0.0))]
+    values = [float(value) for segment in segments for value in (*(one for _, one in segment.get("table", ())), segment.get("h0", 0.0), segment.get("h1", 0.0))]
     return math.copysign(size, max(values, key=abs))
 
 
@@ -81,7 +81,7 @@ def options_of(scene: Scene, analysis: str) -> dict[str, Any]:
     or of the slip in [static]; speeds of a scene without any take the middle of their range."""
     given = scene.fields_of(analysis)
     number = drive_at_speed(scene, enums.RX)
-    described = extreme(programmes_of(scene)[number]) if number is not None else 0.0
+    described = extreme(time_functions_of(scene)[number]) if number is not None else 0.0
     usual: Any = _structs.SpeedsOptions(**{key: given[key] for key in ("speed_low", "speed_high") if key in given})
     middle = 0.5 * (usual.speed_low + usual.speed_high) if analysis == "speeds" else 0.0
     rotation = float(given.get("spin", described or scene.fields_of("static").get("slip_rotation", 0.0) or middle))
@@ -98,10 +98,10 @@ def sliding(scene: Scene, analysis: str) -> Linear | None:
     rotation = float(options.get("spin", 0.0))
     if not rotation:
         return None
-    programmes = programmes_of(scene)
-    loads = {one: [{"h0": extreme(programmes[one])}] for one in loads_of_bits(scene) if extreme(programmes[one])}
+    time_functions = time_functions_of(scene)
+    loads = {one: [{"h0": extreme(time_functions[one])}] for one in loads_of_bits(scene) if extreme(time_functions[one])}
     static = {**scene.fields_of("static"), "slip_rotation": rotation}
-    turned, torque = balanced(with_programmes(scene, loads) if loads else scene, static)
+    turned, torque = balanced(with_time_functions(scene, loads) if loads else scene, static)
     return Linear(turned, static, options, rotation, operating(scene).weight_on_bit or 0.0 if loads else 0.0, torque)
 
 

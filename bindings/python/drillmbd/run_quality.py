@@ -5,7 +5,7 @@ from typing import Any
 
 from . import station
 from ._optional import need
-from .answers import Output
+from .results import CommandOutput
 from .enums import Status
 from .errors import Usage
 from .language import Foreign
@@ -78,37 +78,37 @@ class TurnAStep:
         """Of a run that goes on."""
         self.interval, self.most, self.time, self.turns = kept["interval"], kept["most"], kept["time"], kept["turns"]
 
-    def report(self, output: Output) -> None:
+    def report(self, out: CommandOutput) -> None:
         """A note for each string that turns by more than the bound."""
         for name, speed in self.most.items():
             turn = speed * self.step
             if turn > TURN_NOTABLE:
-                output.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off by up to "
+                out.note_text(f"{name} turns by {turn:.2g} rad a step: rates of its slow whirl and precession are off by up to "
                                  f"{min(100.0, 100.0 * SLOW_WHIRL * turn * turn):.2g} %; a step of {1e3 * TURN_NOTABLE / speed:.2g} ms gives 1 %. "
                                  "Rotation about a fixed axis is not affected")
 
 
 class LastPart:
-    """Takes the state at the beginning of the last part of a run, and all channels after each step from there on."""
+    """Takes the state at the beginning of the last part of a run, and all outputs after each step from there on."""
 
     def __init__(self, scene: Scene, sim: Sim, end: float, step: float | None) -> None:
         if not step:
             raise Usage("--verify needs a given step: give [run] step or --step")
-        if not scene.channels:
-            raise Usage("--verify compares the channels of the scene, which has none; add a [[channel]]")
+        if not scene.outputs:
+            raise Usage("--verify compares the outputs of the scene, which has none; add a [[output]]")
         self.scene, self.sim, self.end, self.step = scene, sim, end, step
         self.length = min(end - sim.time, max(PART * (end - sim.time), LEAST_STEPS * step))
         self.begin = end - self.length
         self.rows = int(self.length / step + 3)
-        if 2 * self.rows * (1 + len(scene.channels)) > MOST_NUMBERS:
-            raise Usage(f"--verify: {2 * self.rows} rows of {1 + len(scene.channels)} numbers are more than {MOST_NUMBERS}; give a longer step")
+        if 2 * self.rows * (1 + len(scene.outputs)) > MOST_NUMBERS:
+            raise Usage(f"--verify: {2 * self.rows} rows of {1 + len(scene.outputs)} numbers are more than {MOST_NUMBERS}; give a longer step")
         self.state: bytes | None = None
         self.recorder = self._recorder(self.rows)
         if self.length == end - sim.time:
             self.take()
 
     def _recorder(self, rows: int) -> Any:
-        return self.sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.channels], rows, 0.0)
+        return self.sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.outputs], rows, 0.0)
 
     def take(self) -> int:
         """A row, and the state with the first one."""
@@ -127,53 +127,53 @@ class LastPart:
         self.begin, self.state = kept["begin"], kept["state"] or None
         self.recorder.take_up(kept["rows"])
 
-    def verify(self, output: Output) -> None:
-        """Runs the part again with half the step, and compares the largest magnitude of each channel. The sim is at the end of the run
+    def verify(self, out: CommandOutput) -> None:
+        """Runs the part again with half the step, and compares the largest magnitude of each output. The sim is at the end of the run
         before and after."""
         assert self.state is not None
         self.sim.restore(self.state)
         again = self._recorder(2 * self.rows + 3)
         self.sim.run(self.end, 0.5 * self.step, again)
-        output.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
+        out.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
         told: dict[str, Any] = {}
         changed: list[str] = []
-        units = output.units
-        heads = self.recorder.columns if units.name == "si" else ["", *self.scene.channel_heads()]
+        units = out.units
+        heads = self.recorder.columns if units.name == "si" else ["", *self.scene.output_heads()]
         for column, name in enumerate(self.recorder.columns[1:], 1):
             first, second = (float(abs(one.table[:, column]).max()) for one in (self.recorder, again))
             larger = max(first, second)
             change = (second - first) / larger if larger > 0.0 else 0.0
             told[name] = {"step": first, "half_step": second, "change": change}
             head, factor = heads[column], units.factor_of(heads[column])
-            output.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} ({100.0 * change:+.2g} %)")
+            out.say(f"  {units.head(head)}: {first * factor:.5g}, with half the step {second * factor:.5g} ({100.0 * change:+.2g} %)")
             if abs(change) > NOTABLE:
                 changed.append(name)
-        output.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step, "channels": told}
+        out.summary["verification"] = {"begin_s": self.begin, "end_s": self.end, "half_step_s": 0.5 * self.step, "outputs": told}
         if changed:
-            output.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more than {100.0 * NOTABLE:g} %; run "
+            out.note_text(f"verification: half the step changes the largest values of {', '.join(changed)} by more than {100.0 * NOTABLE:g} %; run "
                              "with a shorter step and compare again")
 
 
-def bent_elements(sim: Sim, output: Output, state: str) -> None:
+def bent_elements(sim: Sim, out: CommandOutput, state: str) -> None:
     """A note if elements that were described straight are bent by more than 0.01 rad in this state, which the mass of a straight element
     does not follow: the warning of the model check, for the state that was reached instead of the first one."""
     for text in of_model(sim):
         if "with the mass of a straight one" in text:
-            output.note_text(Foreign(f"{state}: {text}"))
+            out.note_text(Foreign(f"{state}: {text}"))
 
 
-def energy_error(sim: Sim, output: Output, first: FirstTenth, complete: bool) -> None:
+def energy_error(sim: Sim, out: CommandOutput, first: FirstTenth, complete: bool) -> None:
     """The error at the end, and its parts in the first and the last tenth of a run that is complete."""
     energy = sim.energy()
-    output.summary.update(energy_error=energy.error, energy_error_growth=energy.growth)
+    out.summary.update(energy_error=energy.error, energy_error_growth=energy.growth)
     text = f"energy error {energy.error:.1e} of the largest energy supplied, dissipated, exchanged or present"
     if complete and first.balance is not None and energy.scale > 0.0:
         begin = abs(first.balance) / energy.scale
-        output.summary["energy_error_first_tenth"] = begin
+        out.summary["energy_error_first_tenth"] = begin
         text += f"; its change in the first tenth of the run {begin:.1e}, in the last tenth {abs(energy.growth):.1e}"
         if abs(energy.growth) > max(SMALL, GROWS * begin):
-            output.note_text("the energy error grows faster at the end of the run than at its beginning: the steps do not resolve the motion there; "
+            out.note_text("the energy error grows faster at the end of the run than at its beginning: the steps do not resolve the motion there; "
                              "run with half the step and compare")
     else:
         text += f", of which {energy.growth:.1e} in the last tenth of the run"
-    output.say(text)
+    out.say(text)

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from ._optional import need
 from ._progress import INTERRUPTS
-from .answers import Output
+from .results import CommandOutput
 from .errors import Error, Usage
 from .language import Phrase, phrase
 from .probability.study import code
@@ -68,11 +68,11 @@ class KeptFatigue:
 class RunState:
     """Keeps and finds the state of one run. Without a folder it does neither."""
 
-    def __init__(self, scene: Scene, sim: Sim, output: Output, settings: list[Any]) -> None:
-        self.sim, self.output = sim, output
+    def __init__(self, scene: Scene, sim: Sim, out: CommandOutput, settings: list[Any]) -> None:
+        self.sim, self.out = sim, out
         self.parts: dict[str, Kept] = {}
-        self.path = None if output.folder is None else output.folder / FILE
-        self.identity = "" if self.path is None else _identity(scene, [output.summary["command"], *settings])
+        self.path = None if out.folder is None else out.folder / FILE
+        self.identity = "" if self.path is None else _identity(scene, [out.summary["command"], *settings])
         self.kept_at = time.monotonic()
         self.read = self._read()
 
@@ -95,7 +95,7 @@ class RunState:
             scalars = _unpacked(meta["scalars"], arrays)
         except (Error, KeyError, ValueError, TypeError) as error:
             raise Usage(f"{self.path}: cannot be read ({error}); remove it, and the run begins anew") from None
-        self.output.note_text(phrase("the run goes on at {time:g} s, up to which it was computed before; remove {file} to begin anew", time=self.sim.time,
+        self.out.note_text(phrase("the run goes on at {time:g} s, up to which it was computed before; remove {file} to begin anew", time=self.sim.time,
                                      file=str(self.path)))
         return scalars
 
@@ -117,7 +117,7 @@ class RunState:
         return None
 
     def _said(self, text: Phrase) -> None:
-        self.output.note_text(text)
+        self.out.note_text(text)
 
     # ---- Keeping ----------------------------------------------------------------------------------------------------
     def keep(self, scalars: dict[str, Any], most: float = float("inf")) -> bool:
@@ -149,7 +149,7 @@ class RunState:
         time_, kept = self.sim.time, self.keep(scalars)
         text = (phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command goes on from there", time=time_, end=end) if kept else
                 phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command begins anew", time=time_, end=end))
-        self.output.stopped(text)
+        self.out.stopped(text)
 
     def done(self) -> None:
         """The run is complete, its state is not needed any more."""

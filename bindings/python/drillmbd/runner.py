@@ -8,14 +8,14 @@ import time
 from collections.abc import Callable
 from typing import IO, Any
 
-from .answers import Output
+from .results import CommandOutput
 from .errors import Error
 from .exit_status import STOPPED, line_of, status_and_message
 from .language import phrase
 from .scene import Scene
 from .scene.warned import warnings_of
 
-Answer = Callable[[Scene, Output, Any], int]
+Answer = Callable[[Scene, CommandOutput, Any], int]
 
 
 class Meter:
@@ -46,24 +46,24 @@ class Meter:
             self.width = 0
 
 
-def carry_out(scene: Scene, output: Output, options: Any, answer: Answer) -> int:
+def carry_out(scene: Scene, out: CommandOutput, options: Any, answer: Answer) -> int:
     """The exit status of a command. Errors are raised again after the summary is written."""
-    meter = None if output.quiet or not sys.stderr.isatty() else Meter(output.summary["command"])
-    output.meter = scene.progress = meter
+    meter = None if out.quiet or not sys.stderr.isatty() else Meter(out.summary["command"])
+    out.meter = scene.progress = meter
     try:
         for text in warnings_of(scene):
-            output.warn(output.units.sentence(text))
-        return answer(scene, output, options)
+            out.warn(out.units.sentence(text))
+        return answer(scene, out, options)
     except KeyboardInterrupt:
-        output.stopped(phrase("stopped by Ctrl-C before all results were computed"))
-        return output.finish(STOPPED)
+        out.stopped(phrase("stopped by Ctrl-C before all results were computed"))
+        return out.finish(STOPPED)
     except Exception as error:
         if isinstance(error, Error):
-            error.message = output.units.sentence(error.message)
+            error.message = out.units.sentence(error.message)
         found = status_and_message(error)
-        output.summary["error"] = line_of(error)
+        out.summary["error"] = line_of(error)
         with contextlib.suppress(OSError):
-            output.write_summary(found[0] if found else 1)
+            out.write_summary(found[0] if found else 1)
         raise
     finally:
         scene.progress = None

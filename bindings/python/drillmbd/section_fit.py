@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ._optional import need
-from .answers import Output, finite
+from .results import CommandOutput, finite
 from .measured import CONFIDENCE, KINDS, MOST_FRICTION, Series, label
 from .scene import CannotSave, Scene, loads, saves
 from .scene.units import parse
@@ -108,7 +108,7 @@ def fit(at: Callable[[list[float]], list[float]], values: list[float], start: li
                  math.sqrt(float(rest @ rest) / len(values)))
 
 
-def compare(scene: Scene, name: str, output: Output, series: dict[str, Series], operations: list[Any], block_weight: float) -> None:
+def compare(scene: Scene, name: str, out: CommandOutput, series: dict[str, Series], operations: list[Any], block_weight: float) -> None:
     """A line for each series that reaches into more than one section."""
     try:
         text = saves(scene, False)
@@ -126,9 +126,9 @@ def compare(scene: Scene, name: str, output: Output, series: dict[str, Series], 
             {"name": part.name, "from_m": part.top if math.isfinite(part.top) else None,
              "friction": None if found.reason else found.frictions[k], "half_width_95": None if found.reason else found.half_widths[k]}
             for k, part in enumerate(reached)]}
-        output.say(f"{name}, measured {label(word)} by section: {_text(reached, found, output.units)}")
+        out.say(f"{name}, measured {label(word)} by section: {_text(reached, found, out.units)}")
     if results:
-        output.summary.setdefault("measured_by_section", {})[name] = results
+        out.summary.setdefault("measured_by_section", {})[name] = results
 
 
 def _text(sections: list[Section], found: Found, units: Units) -> str:

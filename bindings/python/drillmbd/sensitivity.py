@@ -1,4 +1,4 @@
-"""Sensitivities: how the state and any channel change with chosen parameters, along a run."""
+"""Sensitivities: how the state and any output change with chosen parameters, along a run."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
-from ._structs import Channel, Parameter, StepReport
-from .channels import channel_quantity
+from ._structs import Output, Parameter, StepReport
+from .outputs import output_quantity
 
 if TYPE_CHECKING:
     from .model import Model
@@ -45,16 +45,16 @@ class Sensitivity(Handle):
         report.status = self.sim._check(_lib.dmb_sensitivity_advance(self._handle, time, byref(report)))
         return report
 
-    @mirrors("dmb_sensitivity_channels")
-    def channels(self, channels: Sequence[Any]) -> tuple[list[float], list[list[float]]]:
-        """Values of channels, pairs (place, "bit_speed"), and of each its derivatives by the parameters in their order
-        [unit of the channel over that of the parameter]."""
-        asked = (Channel * len(channels))(*[Channel(as_place(place), channel_quantity(quantity), 0)
-                                            for place, quantity in channels])
+    @mirrors("dmb_sensitivity_outputs")
+    def outputs(self, outputs: Sequence[Any]) -> tuple[list[float], list[list[float]]]:
+        """Values of outputs, pairs (place, "bit_speed"), and of each its derivatives by the parameters in their order
+        [unit of the output over that of the parameter]."""
+        asked = (Output * len(outputs))(*[Output(as_place(place), output_quantity(quantity), 0)
+                                            for place, quantity in outputs])
         count = len(self.names)
-        values, derivatives = (c_double * len(channels))(), (c_double * (len(channels) * count))()
-        self.sim._check(_lib.dmb_sensitivity_channels(self._handle, asked, len(channels), values, derivatives))
-        return list(values), [list(derivatives[i * count:(i + 1) * count]) for i in range(len(channels))]
+        values, derivatives = (c_double * len(outputs))(), (c_double * (len(outputs) * count))()
+        self.sim._check(_lib.dmb_sensitivity_outputs(self._handle, asked, len(outputs), values, derivatives))
+        return list(values), [list(derivatives[i * count:(i + 1) * count]) for i in range(len(outputs))]
 
     @mirrors("dmb_sensitivity_rows")
     def rows(self, parameter: int | str) -> tuple[list[float], list[float]]:

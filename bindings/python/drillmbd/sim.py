@@ -14,12 +14,12 @@ from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
 from ._library import lib as _lib
 from ._parts import closed, index_of, is_closed
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Input, JointState,
-                       Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
+from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Excitation, JointState,
+                       Momentum, Motion, ResponseOutput, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
 from ._values import real, reals, refuse_type, refuse_value, whole
-from .channels import channel_quantity
+from .outputs import output_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import Error, check
 from .inputs import InputLog, Inputs
@@ -180,10 +180,10 @@ class Sim(Handle, analysis.Analyses):
 
     @mirrors("dmb_sim_set_drive")
     def set_drive(self, drive: Id, value: float | None) -> None:
-        """The drive's programme is the constant value [its unit] from now on; None: its programme again."""
+        """The drive's time function is the constant value [its unit] from now on; None: its time function again."""
         setting = float("nan") if value is None else real(value, "drive", "value")
         if value is not None and not math.isfinite(setting):
-            refuse_value("drive", "value", setting, "be finite, or None for its programme")
+            refuse_value("drive", "value", setting, "be finite, or None for its time function")
         self._check(_lib.dmb_sim_set_drive(self._handle, as_id(drive), setting))
 
     @property
@@ -281,14 +281,14 @@ class Sim(Handle, analysis.Analyses):
         answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), as_place(place))
         return answer
 
-    def contact(self, site: int) -> Contact:
-        """Gap [m], forces [N] and slip [m/s] at contact site number `site`, of info().contact_sites."""
-        site = index_of("contact", "site", site, self._parts.sites)
-        answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), site)
+    def contact(self, number: int) -> Contact:
+        """Gap [m], forces [N] and slip [m/s] at contact point number `number`, of info().contact_points."""
+        number = index_of("contact", "number", number, self._parts.sites)
+        answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), number)
         return answer
 
     def contact_total(self) -> Any:
-        """Sums over all contact sites: closed ones, normal force [N], friction [N], deepest penetration [m]."""
+        """Sums over all contact points: closed ones, normal force [N], friction [N], deepest penetration [m]."""
         return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
 
     contact_sum = contact_total  # its name before
@@ -324,7 +324,7 @@ class Sim(Handle, analysis.Analyses):
         return answer
 
     def reaction(self, part: Id) -> list[float]:
-        """[N, N m] of guide and motion drives on the rig end of a string or a body, body frame, six numbers"""
+        """[N, N m] of support and motion drives on the rig end of a string or a body, body frame, six numbers"""
         values = (c_double * 6)()
         self._told(_lib.dmb_query_reaction(self._handle, as_id(part), values), _lib.dmb_query_reaction, part)
         return list(values)
@@ -367,25 +367,25 @@ class Sim(Handle, analysis.Analyses):
         return answer
 
     # ---- Tables and files -------------------------------------------------------------------------------------------
-    def recorder(self, channels: Sequence[Any], capacity: int, interval: float = 0.0,
+    def recorder(self, outputs: Sequence[Any], capacity: int, interval: float = 0.0,
                  window: Window | None = None) -> Recorder:
-        """A Recorder of `capacity` rows, one each `interval` [s] or (0) for each take(); window for channels of one."""
-        return Recorder(self, channels, capacity, interval, window)
+        """A Recorder of `capacity` rows, one each `interval` [s] or (0) for each take(); window for outputs of one."""
+        return Recorder(self, outputs, capacity, interval, window)
 
-    @mirrors("dmb_query_channel")
-    def channel(self, quantity: str | int, place: Any = None) -> float:
-        """The value of a channel by its name or number at a place, or of a part; None: the first string, or none."""
-        asked, value = Channel(as_place(place), channel_quantity(quantity), 0), c_double()
-        self._check(_lib.dmb_channel_check(self._handle, byref(asked), 1))
-        self._told(_lib.dmb_query_channel(self._handle, byref(asked), byref(value)), _lib.dmb_query_channel)
+    @mirrors("dmb_query_output")
+    def output(self, quantity: str | int, place: Any = None) -> float:
+        """The value of a output by its name or number at a place, or of a part; None: the first string, or none."""
+        asked, value = Output(as_place(place), output_quantity(quantity), 0), c_double()
+        self._check(_lib.dmb_output_check(self._handle, byref(asked), 1))
+        self._told(_lib.dmb_query_output(self._handle, byref(asked), byref(value)), _lib.dmb_query_output)
         return value.value
 
     @mirrors("dmb_window_create")
-    def window(self, channels: Sequence[Any], length: float = 0.0, slots: int = 100,
+    def window(self, outputs: Sequence[Any], length: float = 0.0, slots: int = 100,
                levels: Sequence[float] | None = None) -> Window:
-        """A Window over the last `length` [s] (0: all) of channels, pairs (place, "bit_speed")."""
+        """A Window over the last `length` [s] (0: all) of outputs, pairs (place, "bit_speed")."""
         from .window import Window
-        return Window(self, channels, WindowOptions(length=length, slots=slots), levels)
+        return Window(self, outputs, WindowOptions(length=length, slots=slots), levels)
 
     def sensitivity(self, parameters: Mapping[str, tuple[Sim, Sim, float]], one_sided: bool = False) -> Sensitivity:
         """A Sensitivity of this sim by parameters {"friction": (low, high, step)}."""
@@ -404,7 +404,7 @@ class Sim(Handle, analysis.Analyses):
         return profile(self, string, pipes, per_pipe)
 
     @mirrors("dmb_analysis_state_space")
-    def state_space(self, inputs: Sequence[Input] = (), outputs: Sequence[Output] = (),
+    def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[ResponseOutput] = (),
                     options: StateSpaceOptions | None = None, modes: analysis.Modes | None = None,
                     mode_list: Sequence[int] | None = None, **fields: Any) -> StateSpace:
         """The linearised scene from every Input to every Output as A, B, C, D; with modes reduced to these, or to those of

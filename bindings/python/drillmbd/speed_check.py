@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from . import _structs, enums, remade, rotating
 from ._keep import station
 from ._optional import need
-from .answers import RPM, Output
+from .results import RPM, CommandOutput
 from .errors import Error
 from .scene import Scene
 
@@ -62,18 +62,18 @@ class Result:
 # ---- One speed -------------------------------------------------------------------------------------------------------
 def ramp(begin: float, value: float) -> list[dict[str, Any]]:
     """Terms that lead from 0 to a value within RAMP."""
-    return [{"kind": enums.TERM_STEP5, "x0": begin, "x1": begin + RAMP, "h0": 0.0, "h1": value}]
+    return [{"kind": enums.SEGMENT_STEP5, "x0": begin, "x1": begin + RAMP, "h0": 0.0, "h1": value}]
 
 
 def at_speed(scene: Scene, speed: float, turning: int) -> Scene:
-    """The scene started within RAMP to the rotation and its feed, and then loaded; its other programmes are as described."""
-    programmes = remade.programmes_of(scene)
-    terms = {one: ramp(RAMP, rotating.extreme(programmes[one])) for one in rotating.loads_of_bits(scene) if rotating.extreme(programmes[one])}
+    """The scene started within RAMP to the rotation and its feed, and then loaded; its other time functions are as described."""
+    time_functions = remade.time_functions_of(scene)
+    segments = {one: ramp(RAMP, rotating.extreme(time_functions[one])) for one in rotating.loads_of_bits(scene) if rotating.extreme(time_functions[one])}
     feed = rotating.drive_at_speed(scene, enums.X)
-    if feed is not None and rotating.extreme(programmes[feed]):
-        terms[feed] = ramp(0.0, rotating.extreme(programmes[feed]))
-    terms[turning] = ramp(0.0, speed)
-    return replace(remade.with_programmes(scene, terms), progress=None, changed=None)  # what another process does not need
+    if feed is not None and rotating.extreme(time_functions[feed]):
+        segments[feed] = ramp(0.0, rotating.extreme(time_functions[feed]))
+    segments[turning] = ramp(0.0, speed)
+    return replace(remade.with_time_functions(scene, segments), progress=None, changed=None)  # what another process does not need
 
 
 def places_of(scene: Scene) -> list[Any]:
@@ -98,12 +98,12 @@ def run(course: Course) -> Result:
 def _measured(course: Course, scene: Scene, sim: Any) -> Result:
     numpy = need("numpy")
     places = places_of(scene)
-    channels: list[tuple[Any, int]] = [(scene.model.own(course.drive), enums.CHANNEL_DRIVE_FORCE)]
-    channels += [(place, enums.CHANNEL_BODY_ACCELERATION + axis) for place in places for axis in (enums.Y, enums.Z)]
+    outputs: list[tuple[Any, int]] = [(scene.model.own(course.drive), enums.OUTPUT_DRIVE_FORCE)]
+    outputs += [(place, enums.OUTPUT_BODY_ACCELERATION + axis) for place in places for axis in (enums.Y, enums.Z)]
     sim.static(**scene.fields_of("static"))
     sim.run(course.settle, course.step)
     step = course.step or 1e-3
-    recorder = sim.recorder(channels, int((course.end - course.settle) / step + 3), 0.0 if course.step else step)
+    recorder = sim.recorder(outputs, int((course.end - course.settle) / step + 3), 0.0 if course.step else step)
     sim.run(course.end, course.step, recorder)
     table = numpy.array(recorder.table)
     torque, lateral = table[:, 1], table[:, 2:].reshape(len(table), len(places), 2)
@@ -113,41 +113,41 @@ def _measured(course: Course, scene: Scene, sim: Any) -> Result:
 
 
 # ---- All speeds ------------------------------------------------------------------------------------------------------
-def check(scene: Scene, output: Output, found: Found, count: int) -> None:
+def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
     """Runs speeds of the range of [speeds] in time, prints and writes them beside the linear verdict."""
     turning = rotating.drive_at_speed(scene, enums.RX)
     if turning is None:
-        output.say(NO_DRIVE)
-        output.summary["speeds_check"] = None
+        out.say(NO_DRIVE)
+        out.summary["speeds_check"] = None
         return
     courses = _courses(scene, found, count, turning)
     longest = max(one.end for one in courses)
-    output.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} processes; rotation and feed are "
+    out.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} processes; rotation and feed are "
                f"started within {RAMP:g} s, loads on bits within {RAMP:g} s more; the last {courses[-1].end - courses[-1].settle:.3g} to "
                f"{max(one.end - one.settle for one in courses):.3g} s are judged")
     started = time.perf_counter()
     results = []
     for one in _run_all(courses):
         results.append(one)
-        output.say(_line(one, _linear(found, one.speed), output))
+        out.say(_line(one, _linear(found, one.speed), out))
     elapsed = time.perf_counter() - started
-    output.say(f"limits: torque swings where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
-               f"of {len(places_of(scene))} places, exceeds {output.units.text(GRAVITY, 'm/s2', '.3g')}, with which weight no longer holds the string on the "
+    out.say(f"limits: torque swings where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
+               f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which weight no longer holds the string on the "
                f"wall. {elapsed:.0f} s by the clock")
-    _tell(results, found, output, elapsed)
+    _tell(results, found, out, elapsed)
 
 
 def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Course]:
     """Speeds spread evenly over the range; the rotation of the scene takes the place of the nearest one."""
     low, high = found.grid[0], found.grid[-1]
     speeds = [low + (high - low) * i / (count - 1) for i in range(count)]
-    own = abs(rotating.extreme(remade.programmes_of(scene)[turning]))
+    own = abs(rotating.extreme(remade.time_functions_of(scene)[turning]))
     if low <= own <= high:
         speeds[min(range(count), key=lambda i: abs(speeds[i] - own))] = own
     slowest = slowest_period(scene)
     settle = 2.0 * RAMP + max(1.0, PERIODS * slowest)
-    drive = next(part for part, (name, arguments) in zip(scene.model.ids, _parts(scene)) if name == "add_drive" and arguments[0].get("programme")
-                 and remade.number_of(arguments[0]["programme"]) == turning)
+    drive = next(part for part, (name, arguments) in zip(scene.model.ids, _parts(scene)) if name == "add_drive" and arguments[0].get("time_function")
+                 and remade.number_of(arguments[0]["time_function"]) == turning)
     return [Course(at_speed(scene, speed, turning), speed, settle,
                    settle + max(WINDOW, PERIODS * slowest, REVOLUTIONS * 2.0 * math.pi / speed), scene.run.get("step"), drive) for speed in speeds]
 
@@ -190,32 +190,32 @@ def _linear(found: Found, speed: float) -> str:
     return "not assessed" if found.state.refused else "free"
 
 
-def _line(one: Result, linear: str, output: Output) -> str:
+def _line(one: Result, linear: str, out: CommandOutput) -> str:
     head = f"  {one.speed / RPM:5.0f} rpm: linear {linear}; in time "
     if one.error:
         return f"{head}{FAILED}: {one.error}"
-    units = output.units
+    units = out.units
     return (f"{head}{one.verdict}: torque {units.text(one.torque, 'N m')} +- {100.0 * one.swing:.0f} %, lateral acceleration "
             f"{units.text(one.acceleration, 'm/s2', '.3g')}")
 
 
-def _tell(results: list[Result], found: Found, output: Output, elapsed: float) -> None:
+def _tell(results: list[Result], found: Found, out: CommandOutput, elapsed: float) -> None:
     rows = [(one.speed / RPM, _linear(found, one.speed), one.verdict, one.torque, one.swing, one.acceleration) for one in results]
     marked = [one for one in results if one.verdict not in (STEADY, FAILED)]
     failed = [one for one in results if one.error]
     free = [one for one in marked if _linear(found, one.speed) == "free"]
     if marked:
         speeds = ", ".join(f"{one.speed / RPM:.0f}" for one in marked)
-        output.say(f"avoid in time: {speeds} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
+        out.say(f"avoid in time: {speeds} rpm" + (f"; of these the linear analysis leaves {', '.join(f'{one.speed / RPM:.0f}' for one in free)} rpm free"
                                                    if free else ""))
     elif not failed:
-        output.say(f"in time none of the {len(results)} speeds swings; speeds between them were not run")
+        out.say(f"in time none of the {len(results)} speeds swings; speeds between them were not run")
     if failed:
-        output.note_text(f"check in time: {len(failed)} of {len(results)} runs failed and are not assessed: " +
+        out.note_text(f"check in time: {len(failed)} of {len(results)} runs failed and are not assessed: " +
                          "; ".join(f"{one.speed / RPM:.0f} rpm: {one.error}" for one in failed))
-    output.summary["speeds_check"] = {"limits": {"torque_swing": SWING, "acceleration_m_s2": GRAVITY}, "elapsed_s": elapsed, "speeds": [
+    out.summary["speeds_check"] = {"limits": {"torque_swing": SWING, "acceleration_m_s2": GRAVITY}, "elapsed_s": elapsed, "speeds": [
         {"speed_rpm": speed, "linear": linear, "time": verdict, "torque_N_m": torque, "torque_swing": swing, "acceleration_m_s2": acceleration}
         for speed, linear, verdict, torque, swing, acceleration in rows]}
-    output.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]", "torque swing [-]",
+    out.table("speeds_check.csv", ["speed [rpm]", "linear", "in time", "torque at the rig [N m]", "torque swing [-]",
                                       "lateral acceleration [m/s2]"], rows)
-    output.picture("speeds_check.png", lambda plots: plots.speeds_in_time(rows, found.bands, (SWING, GRAVITY), output.scene.title, output.units))
+    out.picture("speeds_check.png", lambda plots: plots.speeds_in_time(rows, found.bands, (SWING, GRAVITY), out.scene.title, out.units))

@@ -4,7 +4,7 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, Any
 
-from .answers import RPM, Output
+from .results import RPM, CommandOutput
 from .errors import Error
 from .scene import Scene, SceneError
 from .unit_systems import SI, TABLE, Units
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .critical_speeds import Found
 
 QUANTILE = 1.6448536269514722  #: of the standard normal distribution, at 95 %
-MOST_CORNERS = 4               #: uncertain values of which all combinations of low and high are computed; more: one after the other
+MOST_BREAKPOINTS = 4               #: uncertain values of which all combinations of low and high are computed; more: one after the other
 NO_RANGE = ("range: not assessed, because the scene gives no uncertain diameter or friction; the bands are those of the described values. Give "
             "[[variability.scatter]] with key = \"hole.diameter\" or \"hole.mu_dynamic\"")
 
@@ -27,7 +27,7 @@ def ends_of(marginal: Any) -> tuple[float, float]:
     return float(translation(-QUANTILE)), float(translation(QUANTILE))
 
 
-def corners(scene: Scene) -> list[dict[str, Any]]:
+def breakpoints(scene: Scene) -> list[dict[str, Any]]:
     """Changes of the scene, one case each. Fields along hole or string have one value along all of it; processes in time are left out."""
     from .probability.draw import Draw
     assert scene.variability is not None
@@ -35,7 +35,7 @@ def corners(scene: Scene) -> list[dict[str, Any]]:
     middle = draw.values([0.0] * draw.dimension)
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     ends = {one.name: ends_of(one.marginal) for one in parts}
-    if len(parts) <= MOST_CORNERS:
+    if len(parts) <= MOST_BREAKPOINTS:
         choices = [dict(zip(ends, values)) for values in itertools.product(*ends.values())]
     else:
         choices = [{name: value} for name, pair in ends.items() for value in pair]
@@ -54,15 +54,15 @@ def union(bands: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return found
 
 
-def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[float, float]]:
-    """The union of the bands [rad/s] of the described scene and of all corners of its range; it is printed and noted in the summary."""
+def bands_over_range(scene: Scene, out: CommandOutput, found: Found) -> list[tuple[float, float]]:
+    """The union of the bands [rad/s] of the described scene and of all breakpoints of its range; it is printed and noted in the summary."""
     from .critical_speeds import analyse
     if scene.variability is None or not (scene.variability.scatters or scene.variability.fields) or scene.changed is None:
-        output.say(NO_RANGE)
-        output.summary["speeds_range"] = None
+        out.say(NO_RANGE)
+        out.summary["speeds_range"] = None
         return []
     bands = [(band.low, band.high) for band in found.bands]
-    cases = corners(scene)
+    cases = breakpoints(scene)
     failed: list[str] = []
     lost = 0
     for changes in cases:
@@ -74,18 +74,18 @@ def bands_over_range(scene: Scene, output: Output, found: Found) -> list[tuple[f
             failed.append(str(error))
             lost += 1
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
-    parts_text = ", ".join(_words(one, output.units) for one in parts)
+    parts_text = ", ".join(_words(one, out.units) for one in parts)
     ranges = union(bands)
     text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else "no critical speed in any of them")
     if lost:
         text += f"; {lost} of the {len(cases)} cases are not assessed"
-    how = "all combinations" if len(parts) <= MOST_CORNERS else "one at its end, the others in the middle"
-    output.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
+    how = "all combinations" if len(parts) <= MOST_BREAKPOINTS else "one at its end, the others in the middle"
+    out.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):
-        output.note_text(f"speeds, a case of the range: {one}")
+        out.note_text(f"speeds, a case of the range: {one}")
     if scene.variability.processes:
-        output.say("random processes in time are left out of the range")
-    output.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "not_assessed": lost,
+        out.say("random processes in time are left out of the range")
+    out.summary["speeds_range"] = {"bands_rpm": [[low / RPM, high / RPM] for low, high in ranges], "cases": len(cases), "not_assessed": lost,
                                       "of": [one.name for one in parts]}
     return ranges
 

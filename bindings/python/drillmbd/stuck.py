@@ -8,7 +8,7 @@ from typing import Any
 from . import enums
 from ._structs import TorqueDragRow
 from .analysis import usual_operation
-from .answers import Output, friction_option, quantity
+from .results import CommandOutput, friction_option, quantity
 from .errors import Usage
 from .model import _DEFINITIONS
 from .scene import Scene
@@ -68,7 +68,7 @@ def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float
     return None
 
 
-def stuck(scene: Scene, output: Output, options: Any) -> int:
+def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
     """Force and torque that arrive at a stuck far end, and how far the string is free by its stretch."""
     limits = {name: quantity(text, unit, f"--{name}") if text is not None else scene.limits.get(name)
               for name, text, unit in (("pull", options.pull, "N"), ("push", options.push, "N"),
@@ -83,36 +83,36 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
     more: dict[str, Any] = friction_option(options)
     string = scene.names[next(iter(scene.pipes))]
     told: dict[str, Any] = {}
-    units = output.units
+    units = out.units
     with scene.new_sim() as sim:
         for name, ask in (("pull", pull_at_bit), ("push", push_at_bit)):
             limit = limits[name]
             if limit is None:
-                output.say(f"{name}: no limit in the scene; give --{name}")
+                out.say(f"{name}: no limit in the scene; give --{name}")
                 continue
             force, row = ask(sim, string, limit, **more)
             if not force > 0.0:
                 told[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
-                output.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction take it all")
+                out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction take it all")
                 continue
             told[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
-            output.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far end, "
+            out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far end, "
                        f"{row.helical_share:.2g} of helical buckling")
         torque = limits["torque"]
         if torque is None:
-            output.say("torque: no limit in the scene; give --torque")
+            out.say("torque: no limit in the scene; give --torque")
         else:
             lost = _row(sim, string, enums.OPERATION_ROTATE, 0.0, **more).torque
             told["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
-            output.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} at the far end")
+            out.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} at the far end")
     if options.stretch is not None:
         pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
         if not pull > 0.0 or not by > 0.0:
             raise Usage("--overpull and --stretch must be > 0")
         length = free_length(scene, string, pull, by)
         told["free_length_m"] = length
-        output.say("free as far as the string goes: it would lengthen by less" if length is None
+        out.say("free as far as the string goes: it would lengthen by less" if length is None
                    else f"free down to {units.text(length, 'm')} from the rig end, friction left out")
-    output.summary["stuck"] = told
-    return output.finish()
+    out.summary["stuck"] = told
+    return out.finish()

@@ -14,14 +14,14 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from . import __version__
-from .answers import Output, no_formula, units_of
+from .results import CommandOutput, no_formula, units_of
 from .errors import Error, Usage
 from .exit_status import FAILED, STOPPED, line_of
 from .probability.study import code
-from .questions import QUESTIONS
+from .commands import QUESTIONS
 from .runner import carry_out
 from .scene import CannotSave, Scene, SceneError, saves
-from .scene.changes import path_of_key
+from .scene.overrides import path_of_key
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _NOT_NUMBERS = ("command", "scene", "title", "drillmbd", "files", "status", "torque_drag_by_depth", "broomstick", "elapsed_s", "identity")
@@ -119,15 +119,15 @@ class Sweep:
 
     def _answer(self, number: int, scene: Scene, file: str, options: Any) -> dict[str, Any]:
         """The summary of a case that is computed now. Raises KeyboardInterrupt where Ctrl-C ended it."""
-        output = Output(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True, units_of(options, scene))
-        output.summary["identity"] = self._identity(scene)
+        out = CommandOutput(str(self.folder / f"{number:05d}") if self.folder else None, file, scene, self.question, True, units_of(options, scene))
+        out.summary["identity"] = self._identity(scene)
         try:
-            carry_out(scene, output, options, QUESTIONS[self.question])
+            carry_out(scene, out, options, QUESTIONS[self.question])
         finally:
-            self._warn(output.summary["warnings"])
-        if output.interrupted:
+            self._warn(out.summary["warnings"])
+        if out.interrupted:
             raise KeyboardInterrupt
-        return output.summary
+        return out.summary
 
     def _identity(self, scene: Scene) -> str:
         """A number of all that the results depend on; "" where the scene cannot be written."""

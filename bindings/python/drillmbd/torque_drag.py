@@ -10,7 +10,7 @@ from typing import Any
 from . import broomstick, enums, hydraulics, measured, rig_limits, section_fit
 from ._structs import Operation, TorqueDragOptions, TorqueDragRow
 from .analysis import OPERATIONS, TorqueDrag, operation_name
-from .answers import RPM, Output, file_name, finite, friction_option, key_of, quantity
+from .results import RPM, CommandOutput, file_name, finite, friction_option, key_of, quantity
 from .errors import Error, Usage
 from .operating import BIT_FRICTION, Operating, operating, operations_of, with_weight
 from .profile import values_of
@@ -48,36 +48,36 @@ class Curves:
         return float(row.hook_load) + self.block_weight
 
 
-def torque_drag(scene: Scene, output: Output, options: Any) -> int:
+def torque_drag(scene: Scene, out: CommandOutput, options: Any) -> int:
     """All results of the soft string by depth and operation."""
     if not scene.pipes:
         raise Usage("torque-drag is about a string, the scene has none")
-    settings = settings_of(scene, options, output.units)
-    output.summary["block_weight_N"] = settings.block_weight
-    output.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
+    settings = settings_of(scene, options, out.units)
+    out.summary["block_weight_N"] = settings.block_weight
+    out.summary["operations"] = {word: {"weight_on_bit_N": one.weight_on_bit, "torque_on_bit_N_m": one.torque_on_bit,
                                            "rotary_speed_rad_s": one.rotary_speed, "axial_speed_m_s": one.axial_speed}
                                     for word, one in zip(WORDS.values(), settings.operations)}
     for text in settings.notes:
-        output.say(text)
+        out.say(text)
     if options.measured is not None:
         settings.series, remarks = measured.read(options.measured)
         for text in remarks:
-            output.note_text(f"{options.measured}: {text}")
+            out.note_text(f"{options.measured}: {text}")
     with scene.new_sim() as sim:
         for name in scene.pipes:
             string = scene.names[name]
-            depths = depths_of(sim, string, options.depths, output.units)
+            depths = depths_of(sim, string, options.depths, out.units)
             found = sim.torque_drag(settings.operations, depths, string=string, **settings.more)
             curves = Curves(name, string, found, settings.block_weight)
-            _write_rows(sim, output, curves, settings)
+            _write_rows(sim, out, curves, settings)
             loads = [rig_limits.loads_at(rows, list(WORDS.values()), settings.block_weight) for rows in found.rows]
-            rig_limits.write(output, name, found.column("depth"), loads, scene.limits, settings.plan)
+            rig_limits.write(out, name, found.column("depth"), loads, scene.limits, settings.plan)
             trip_speed = abs(settings.operations[int(enums.OPERATION_PICK_UP)].axial_speed)
-            hydraulics.write(sim, output, name, found.column("depth"), trip_speed)
-            _compare(scene, sim, output, curves, settings)
-            broomstick.write(scene, sim, output, curves, settings)
+            hydraulics.write(sim, out, name, found.column("depth"), trip_speed)
+            _compare(scene, sim, out, curves, settings)
+            broomstick.write(scene, sim, out, curves, settings)
             settings.series = {}
-    return output.finish()
+    return out.finish()
 
 
 # ---- Settings --------------------------------------------------------------------------------------------------------
@@ -152,22 +152,22 @@ def _check_depth(option: str, depth: float, ends: tuple[float, float], units: Un
                     f"{units.text(last, 'm', 'g')}, where it ends in the scene")
 
 
-def _compare(scene: Scene, sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
+def _compare(scene: Scene, sim: Sim, out: CommandOutput, curves: Curves, settings: Settings) -> None:
     """The measurements against this string; those beyond it are refused."""
     if not settings.series:
         return
     first, last = _range(sim, curves.string)
     for one in settings.series.values():
         for depth in one.depths:
-            _check_depth("--measured", depth, (first, last), output.units)
+            _check_depth("--measured", depth, (first, last), out.units)
     friction = settings.more.get("friction")
     if friction is None:
         friction = broomstick.wall_friction(scene, first, last)
     values = broomstick.wall_frictions(scene, first, last)
     if max(values) - min(values) > 1e-9:
-        output.say(f"{curves.name}, measured: first one coefficient for all sections of the hole, then one for each section")
-    measured.compare(sim, curves.string, curves.name, output, settings.series, settings.operations, settings.block_weight, friction)
-    section_fit.compare(scene, curves.name, output, settings.series, settings.operations, settings.block_weight)
+        out.say(f"{curves.name}, measured: first one coefficient for all sections of the hole, then one for each section")
+    measured.compare(sim, curves.string, curves.name, out, settings.series, settings.operations, settings.block_weight, friction)
+    section_fit.compare(scene, curves.name, out, settings.series, settings.operations, settings.block_weight)
 
 
 # ---- Rows ------------------------------------------------------------------------------------------------------------
@@ -175,26 +175,26 @@ def _values(curves: Curves, row: TorqueDragRow) -> list[float]:
     return [curves.hook_load(row) if name == "hook_load" else float(getattr(row, name)) for name in FIELDS]
 
 
-def _write_rows(sim: Sim, output: Output, curves: Curves, settings: Settings) -> None:
+def _write_rows(sim: Sim, out: CommandOutput, curves: Curves, settings: Settings) -> None:
     found, told = curves.found, {}
     for kind, row in zip(WORDS, found.rows[-1]):
         neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
-        output.say(f"{curves.name}, {WORDS[kind]} at {output.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, output.units)}")
+        out.say(f"{curves.name}, {WORDS[kind]} at {out.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, out.units)}")
         told[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
                              **{key_of(name, FIELDS[name]): finite(value) for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
-        output.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
-    output.summary.setdefault("torque_drag", {})[curves.name] = told
-    output.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
+        out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
+    out.summary.setdefault("torque_drag", {})[curves.name] = told
+    out.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
         word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
                **{key_of(name, FIELDS[name]): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}
         for number, word in WORDS.items()}
     heads = ["depth [m]", "operation", "locked", *(f"{name.replace('_', ' ')} [{unit or '-'}]" for name, unit in FIELDS.items())]
-    output.table(f"torque_drag_{file_name(curves.name)}.csv", heads,
+    out.table(f"torque_drag_{file_name(curves.name)}.csv", heads,
                  [[row.depth, word, row.locked, *_values(curves, row)]
                   for number, word in WORDS.items() for row in (rows[number] for rows in found.rows)])
-    output.picture(f"torque_drag_{file_name(curves.name)}.png",
-                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight, output.units))
+    out.picture(f"torque_drag_{file_name(curves.name)}.png",
+                   lambda plots: plots.torque_drag(found, list(WORDS.values()), curves.name, curves.block_weight, out.units))
 
 
 def _sentence(curves: Curves, row: TorqueDragRow, neutral: float | None, units: Units) -> str:

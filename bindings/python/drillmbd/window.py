@@ -1,4 +1,4 @@
-"""A window over channels: least, greatest, mean, stick-slip index."""
+"""A window over outputs: least, greatest, mean, stick-slip index."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,30 +9,30 @@ from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
 from ._parts import index_of
-from ._structs import Channel, WindowOptions, WindowResult
+from ._structs import Output, WindowOptions, WindowResult
 from ._values import reals, refuse_type
-from .channels import channel_quantity
+from .outputs import output_quantity
 
 if TYPE_CHECKING:
     from .sim import Sim
 
 
 class Window(Handle):
-    """Watches channels over the last so many seconds; made by Sim.window. Call take() after every step."""
+    """Watches outputs over the last so many seconds; made by Sim.window. Call take() after every step."""
     _kind = "window"
 
-    def __init__(self, sim: Sim, channels: Sequence[Any], options: WindowOptions, levels: Sequence[float] | None) -> None:
+    def __init__(self, sim: Sim, outputs: Sequence[Any], options: WindowOptions, levels: Sequence[float] | None) -> None:
         self.sim, self._handle = sim, c_void_p()
-        self._count = len(channels)
-        for number, one in enumerate(channels):
+        self._count = len(outputs)
+        for number, one in enumerate(outputs):
             if not isinstance(one, (tuple, list)) or len(one) != 2:
-                refuse_type(f"window channel {number}", "channel", one, 'be a pair (place, "bit_speed")')
-        asked = (Channel * len(channels))(*[Channel(as_place(place), channel_quantity(quantity), 0)
-                                            for place, quantity in channels])
+                refuse_type(f"window output {number}", "output", one, 'be a pair (place, "bit_speed")')
+        asked = (Output * len(outputs))(*[Output(as_place(place), output_quantity(quantity), 0)
+                                            for place, quantity in outputs])
         if levels is not None:
             self._levels = (c_double * self._count)(*reals(levels, "window", "levels", self._count))
             options.levels = self._levels
-        sim._check(_lib.dmb_window_create(sim._handle, byref(options), asked, len(channels), byref(self._handle)))
+        sim._check(_lib.dmb_window_create(sim._handle, byref(options), asked, len(outputs), byref(self._handle)))
 
     @mirrors("dmb_window_take")
     def take(self) -> int:
@@ -40,11 +40,11 @@ class Window(Handle):
         return self._sure(_lib.dmb_window_take(self._handle, self.sim._handle))
 
     @mirrors("dmb_window_get")
-    def result(self, channel: int = 0) -> WindowResult:
-        """Least, greatest, mean, index of a watched channel, by its number."""
+    def result(self, output: int = 0) -> WindowResult:
+        """Least, greatest, mean, index of a watched output, by its number."""
         answer: WindowResult = WindowResult.blank()
-        channel = index_of("window", "channel", channel, self._count)
-        self._sure(_lib.dmb_window_get(self._handle, channel, byref(answer)))
+        output = index_of("window", "output", output, self._count)
+        self._sure(_lib.dmb_window_get(self._handle, output, byref(answer)))
         return answer
 
     @mirrors("dmb_window_reset")

@@ -204,9 +204,9 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x);
  *
  *     d_now = T d_trial,  T = blkdiag(Q, Q),  Q = R_now^T R_trial,      K_now = T K_trial T^T    (eq:buckling.frames)
  *
- * Rows that guides hold are held in body axes; T leaves them alone and turns those that are free among themselves. With
- * joints the reduced coordinates are rows: d = R z, z_now = W z_trial, W the independent rows of T R, and
- * A_now = W^-T A_trial W^-1. */
+ * Rows that supports hold are held in body axes; T leaves them alone and turns those that are free among themselves.
+ * With joints the reduced coordinates are rows: d = R z, z_now = W z_trial, W the independent rows of T R, and A_now =
+ * W^-T A_trial W^-1. */
 
 typedef struct dmb_frames {
     double *turn;    /* (values of the pattern) W^-1 of each block, where its diagonal is in the pattern */

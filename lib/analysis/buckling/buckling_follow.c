@@ -231,7 +231,7 @@ static int32_t look_ahead(follower *f)
 #define DMB_FOLLOW_STRAIGHT 0.9
 #define DMB_FOLLOW_SHORTER 0.25
 #define DMB_FOLLOW_TRIES 8
-#define DMB_FOLLOW_CORNER 1e-5
+#define DMB_FOLLOW_BREAKPOINT 1e-5
 
 static int32_t find_next(follower *f, int32_t *event)
 {
@@ -241,7 +241,7 @@ static int32_t find_next(follower *f, int32_t *event)
         if (status < 0 || *event != DMB_EVENT_NONE || path->next.negative != 0 || k >= DMB_FOLLOW_TRIES) return status;
         const int straight = dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT;
         if (straight) f->longest = fmax(f->longest, f->arc);
-        if (straight || f->arc < DMB_FOLLOW_CORNER * f->longest) return status;
+        if (straight || f->arc < DMB_FOLLOW_BREAKPOINT * f->longest) return status;
     }
 }
 

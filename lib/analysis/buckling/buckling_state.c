@@ -16,7 +16,7 @@
 /* ---- Turning of a node ---------------------------------------------------------------------------------------------
  */
 
-/* The part of Q among the components that are free; a guide leaves all, a plane, a line or nothing. */
+/* The part of Q among the components that are free; a support leaves all, a plane, a line or nothing. */
 static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9])
 {
     uint32_t free[3], count = 0;

@@ -5,7 +5,7 @@
  * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
  *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
- * coordinates where joints connect chains (dynamic_stiffness_links.c). Rows that guides hold do not move. Rows that
+ * coordinates where joints connect chains (dynamic_stiffness_links.c). Rows that supports hold do not move. Rows that
  * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
  * p. */
 #include <math.h>

@@ -275,9 +275,9 @@ void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_func
 
 /* Answers of the queries now, for outputs of a response. */
 
-/* The value of an output of any kind but DMB_OUTPUT_DISPLACEMENT, which depends on where it is counted from. *status:
+/* The value of an output of any kind but DMB_RESPONSE_DISPLACEMENT, which depends on where it is counted from. *status:
  * errors of the query. */
-double dmb_answer_of(const dmb_sim *sim, const dmb_output *output, int32_t *status);
+double dmb_answer_of(const dmb_sim *sim, const dmb_response_output *output, int32_t *status);
 
 /* ---- Dynamic stiffness ------------------------------------------------------------------------------------------- */
 
@@ -366,7 +366,8 @@ void dmb_dynamic_links_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array
  *
  *     A x + B^T multiplier = f
  *
- * in the dependent rows of each cluster of joints. The residual in rows that are held is the force of their guides. */
+ * in the dependent rows of each cluster of joints. The residual in rows that are held is the force of their supports.
+ */
 
 /* y -= A p in the rows that are solved. */
 void dmb_dynamic_subtract(const dmb_dynamic_stiffness *stiffness, dmb_complex_array p, dmb_complex_array y);

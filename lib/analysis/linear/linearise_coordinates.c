@@ -1,4 +1,4 @@
-/* Rows that guides and motion drives hold, and the independent coordinates where joints are. */
+/* Rows that supports and motion drives hold, and the independent coordinates where joints are. */
 #include <math.h>
 #include <string.h>
 
@@ -246,7 +246,7 @@ void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, c
 }
 
 /* y += |A| |x|, A of that shape, by rows */
-static void add_terms(const double *A, uint32_t rows, uint32_t columns, const double *x, double *y)
+static void add_segments(const double *A, uint32_t rows, uint32_t columns, const double *x, double *y)
 {
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t c = 0; c < columns; c++) y[r] += fabs(A[(size_t)columns * r + c] * x[c]);
@@ -261,8 +261,8 @@ static void add_joint_terms(const dmb_scene *scene, const double *joints, const 
             for (uint32_t r = 0; r < layout->size[c->node[k]]; r++) {
                 const double *row = joints + c->tangent + (size_t)(c->column[k] + r) * c->columns;
                 for (uint32_t l = 0; l < c->node_count; l++)
-                    add_terms(row + c->column[l], 1, layout->size[c->node[l]], x + layout->row[c->node[l]],
-                              y + layout->row[c->node[k]] + r);
+                    add_segments(row + c->column[l], 1, layout->size[c->node[l]], x + layout->row[c->node[l]],
+                                 y + layout->row[c->node[k]] + r);
             }
     }
 }
@@ -274,11 +274,11 @@ void dmb_linear_terms(const dmb_linear *linear, const dmb_linear_matrix *A, cons
     memset(y, 0, linear->rows * sizeof(double));
     for (uint32_t i = 0; i < layout->n; i++) {
         const uint32_t size = layout->size[i], row = layout->row[i];
-        add_terms(A->diagonal + layout->diag[i], size, size, x + row, y + row);
+        add_segments(A->diagonal + layout->diag[i], size, size, x + row, y + row);
         if (i + 1 == layout->n || scene->node_chain[i + 1] != scene->node_chain[i]) continue;
         const uint32_t next = layout->size[i + 1], below = layout->row[i + 1];
-        add_terms(A->upper + layout->link[i], size, next, x + below, y + row);
-        add_terms(A->lower + layout->link[i], next, size, x + row, y + below);
+        add_segments(A->upper + layout->link[i], size, next, x + below, y + row);
+        add_segments(A->lower + layout->link[i], next, size, x + row, y + below);
     }
     add_joint_terms(scene, A->joints, x, y);
 }

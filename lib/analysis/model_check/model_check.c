@@ -215,7 +215,7 @@ static void pass_stuck(const groups *g)
         if (g->sim->stuck_held[i]) hold(g, g->sim->scene->stuck[i].point.node);
 }
 
-/* Guides, drives, walls and rock. An axial-torsional node stands on its axis. */
+/* Supports, drives, walls and rock. An axial-torsional node stands on its axis. */
 static void pass_nodes(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;

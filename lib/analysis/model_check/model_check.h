@@ -24,7 +24,7 @@ typedef struct dmb_model_check {
 int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *findings);
 void dmb_model_check_close(dmb_model_check *findings);
 
-/* Parts on which gravity acts and no guide, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
+/* Parts on which gravity acts and no support, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
 int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
 
 /* Elements of the state by their mass, bars on the hole's axis left out. */

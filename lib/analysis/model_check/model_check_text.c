@@ -122,11 +122,12 @@ static void put_degrees_of_freedom(sheet *s, const dmb_check_report *r)
     begin_count(s, "coordinates", r->coordinates);
     end_line(s, NULL);
     begin_count(s, "Gruebler count", r->gruebler);
-    dmb_message_set(&note, "%u - guides %u - prescribed %u - equations %u", r->coordinates, r->held, r->prescribed,
+    dmb_message_set(&note, "%u - supports %u - prescribed %u - equations %u", r->coordinates, r->held, r->prescribed,
                     r->constraint_rows);
     end_line(s, &note);
     begin_count(s, "degrees of freedom", r->degrees_of_freedom);
-    dmb_message_set(&note, "%u - guides %u - prescribed %u - rank %u", r->coordinates, r->held, r->prescribed, r->rank);
+    dmb_message_set(&note, "%u - supports %u - prescribed %u - rank %u", r->coordinates, r->held, r->prescribed,
+                    r->rank);
     end_line(s, &note);
     begin_count(s, "redundant equations", r->redundant);
     end_line(s, NULL);

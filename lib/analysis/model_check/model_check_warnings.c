@@ -159,7 +159,7 @@ static void loose_parts(const sink *to)
     dmb_message text, name, rest;
     const dmb_loose_parts *loose = &to->findings->loose;
     if (loose->groups == 0) return;
-    dmb_message_set(&text, "%s%s: no guide, drive, joint, spring or wall holds it against gravity, it will fall",
+    dmb_message_set(&text, "%s%s: no support, drive, joint, spring or wall holds it against gravity, it will fall",
                     node_name(to->scene, loose->node, &name), more(loose->groups, &rest));
     say(to, &text);
 }

@@ -105,8 +105,8 @@ void dmb_modes_weigh_coordinates(const dmb_mode_search *search)
 }
 
 /* sum |A_ij| |x_j| by rows, added to `to` with a factor */
-static void add_terms(const dmb_linear *linear, const dmb_linear_matrix *A, double factor, const double *x, double *y,
-                      double *to)
+static void add_segments(const dmb_linear *linear, const dmb_linear_matrix *A, double factor, const double *x,
+                         double *y, double *to)
 {
     dmb_linear_terms(linear, A, x, y);
     for (uint32_t i = 0; i < linear->rows; i++) to[i] += factor * y[i];
@@ -137,8 +137,8 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
     memset(terms, 0, rows * sizeof(double));
     for (int m = 0; m < 3; m++)
         for (int part = 0; part < parts && matrix[m] != NULL; part++)
-            add_terms(linear, matrix[m], hypot(factor[m][0], factor[m][1]), (part ? modes->im : modes->re) + rows * k,
-                      one, terms);
+            add_segments(linear, matrix[m], hypot(factor[m][0], factor[m][1]),
+                         (part ? modes->im : modes->re) + rows * k, one, terms);
     double rounding = DBL_EPSILON * norm_of(search, terms, NULL, 1);
     if (modes->info.dense) rounding += search->noise;
     defect.value = forces > 0.0 ? defect.value / forces : 0.0;

@@ -6,7 +6,7 @@
  * was straight has no stiffness against that, which is therefore one more candidate.
  * With B the candidates of all parts, the motions sought are B q with
  *
- *     (1 - R E) B q = 0     joints and guides let it happen (E takes the coordinates out of d),
+ *     (1 - R E) B q = 0     joints and supports let it happen (E takes the coordinates out of d),
  *     R^T K B q = 0         nothing that acts in the state turns it back.
  *
  * An element's strain is 0 in a candidate, so that its part of K B is rounding however long, bent or soft the string

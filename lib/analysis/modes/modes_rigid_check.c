@@ -30,8 +30,8 @@
 
 /* ---- Rounding of K d --------------------------------------------------------------------------------------------- */
 
-/* Residual forces of the state do not count as holding: it turns with a motion. On rows that a guide holds they are its
- * reaction, which balances. */
+/* Residual forces of the state do not count as holding: it turns with a motion. On rows that a support holds they are
+ * its reaction, which balances. */
 static void add_unbalanced(const dmb_linear *linear, double tolerance, const double *d, double *terms)
 {
     const dmb_block_layout *layout = &linear->scene.layout;

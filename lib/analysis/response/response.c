@@ -13,27 +13,27 @@
 #include "system/assemble/actuators.h"
 #include "system/system.h"
 
-dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t inputs, uint32_t outputs)
+dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitations, uint32_t outputs)
 {
     dmb_response *response = dmb_allocate(allocator, sizeof *response);
     if (response == NULL) return NULL;
     response->magic = DMB_HANDLE_RESPONSE;
-    response->inputs = inputs;
+    response->excitations = excitations;
     response->outputs = outputs;
     response->allocator = *allocator;
-    response->block_size = 2 * (size_t)inputs * sizeof(double);
+    response->block_size = 2 * (size_t)excitations * sizeof(double);
     response->block = dmb_allocate(allocator, response->block_size);
     if (response->block == NULL) dmb_response_destroy(&response);
     if (response == NULL) return NULL;
     response->amplitude = response->block;
-    response->phase = response->amplitude + inputs;
+    response->phase = response->amplitude + excitations;
     return response;
 }
 
-/* At most 1e6 points and what refinement adds, 1024 inputs and outputs: below 2^63 bytes. */
+/* At most 1e6 points and what refinement adds, 1024 excitations and outputs: below 2^63 bytes. */
 int32_t dmb_response_resize(dmb_response *response, uint32_t points)
 {
-    const uint64_t numbers = (uint64_t)points * (1 + 2 * (uint64_t)response->inputs * response->outputs);
+    const uint64_t numbers = (uint64_t)points * (1 + 2 * (uint64_t)response->excitations * response->outputs);
     if (numbers > SIZE_MAX / sizeof(double)) return DMB_ERR_NO_MEMORY;
     const size_t size = (size_t)numbers * sizeof(double);
     double *table = dmb_allocate(&response->allocator, size);
@@ -73,7 +73,7 @@ int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimension
     const int32_t status = ask(response, dimensions);
     if (status < 0) return status;
     dimensions[0] = response->points;
-    dimensions[1] = response->inputs;
+    dimensions[1] = response->excitations;
     dimensions[2] = response->outputs;
     return DMB_OK;
 }
@@ -98,14 +98,14 @@ static void add_input(const dmb_response *response, size_t point, uint32_t input
 void dmb_response_combined(const dmb_response *response, size_t point, uint32_t output, double value[2])
 {
     value[0] = value[1] = 0.0;
-    for (uint32_t i = 0; i < response->inputs; i++) add_input(response, point, i, output, value);
+    for (uint32_t i = 0; i < response->excitations; i++) add_input(response, point, i, output, value);
 }
 
 int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values)
 {
     const int32_t status = ask(response, values);
     if (status < 0) return status;
-    if (output >= response->outputs || (input >= response->inputs && input != DMB_COMBINED)) return DMB_ERR_VALUE;
+    if (output >= response->outputs || (input >= response->excitations && input != DMB_COMBINED)) return DMB_ERR_VALUE;
     for (size_t point = 0; point < response->points; point++) {
         double *to = values + 2 * point;
         if (input != DMB_COMBINED)
@@ -124,9 +124,9 @@ typedef struct response_work {
     dmb_linear *linear;
     dmb_linear_turned turned;
     dmb_dynamic_stiffness stiffness;
-    dmb_excitation *inputs;
-    dmb_response_output *outputs;
-    uint32_t input_count, output_count;
+    dmb_linear_excitation *excitations;
+    dmb_linear_output *outputs;
+    uint32_t excitation_count, output_count;
     dmb_complex_array x, f; /* displacements, and the forces that lead to them, shape (rows) */
     void *block;
     size_t block_size;
@@ -137,17 +137,17 @@ typedef struct response_work {
 static void lay_out(dmb_arena *arena, response_work *w)
 {
     const uint32_t rows = w->sim->scene->row_count;
-    w->inputs = DMB_ARENA_ARRAY(arena, dmb_excitation, w->input_count);
-    w->outputs = DMB_ARENA_ARRAY(arena, dmb_response_output, w->output_count);
-    double *numbers = DMB_ARENA_DOUBLES(arena, 2 * (size_t)rows * (w->input_count + 2u));
+    w->excitations = DMB_ARENA_ARRAY(arena, dmb_linear_excitation, w->excitation_count);
+    w->outputs = DMB_ARENA_ARRAY(arena, dmb_linear_output, w->output_count);
+    double *numbers = DMB_ARENA_DOUBLES(arena, 2 * (size_t)rows * (w->excitation_count + 2u));
     if (numbers == NULL) return;
     w->x.re = numbers;
     w->x.im = numbers + rows;
     w->f.re = numbers + 2 * (size_t)rows;
     w->f.im = numbers + 3 * (size_t)rows;
-    for (uint32_t i = 0; i < w->input_count; i++) {
-        w->inputs[i].re = numbers + 2 * (size_t)rows * (i + 2u);
-        w->inputs[i].im = w->inputs[i].re + rows;
+    for (uint32_t i = 0; i < w->excitation_count; i++) {
+        w->excitations[i].re = numbers + 2 * (size_t)rows * (i + 2u);
+        w->excitations[i].im = w->excitations[i].re + rows;
     }
 }
 
@@ -192,27 +192,27 @@ static int32_t linearise(response_work *w)
     return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
 }
 
-static int32_t take_inputs(response_work *w, const dmb_input *inputs, dmb_response *response)
+static int32_t take_inputs(response_work *w, const dmb_excitation *excitations, dmb_response *response)
 {
     int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < w->input_count && status >= 0; i++) {
-        dmb_input input;
-        status = dmb_input_take(inputs, i, &w->sim->message, &input);
+    for (uint32_t i = 0; i < w->excitation_count && status >= 0; i++) {
+        dmb_excitation input;
+        status = dmb_input_take(excitations, i, &w->sim->message, &input);
         if (status < 0) return status;
         response->amplitude[i] = input.amplitude;
         response->phase[i] = input.phase;
-        status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->inputs + i);
+        status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->excitations + i);
     }
     return status;
 }
 
-static int32_t take_outputs(response_work *w, const dmb_output *outputs)
+static int32_t take_outputs(response_work *w, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
-        dmb_output output;
+        dmb_response_output output;
         int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
         if (status < 0) return status;
-        status = dmb_response_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
+        status = dmb_linear_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
         if (status < 0) return status;
     }
     return DMB_OK;
@@ -222,14 +222,14 @@ static int32_t take_outputs(response_work *w, const dmb_output *outputs)
 
 static int32_t no_displacement(const response_work *w, uint32_t input)
 {
-    dmb_message_set(&w->sim->message, "input %u: at frequency 0 a speed has no displacement to respond to", input);
+    dmb_message_set(&w->sim->message, "excitation %u: at frequency 0 a speed has no displacement to respond to", input);
     return DMB_ERR_SINGULAR;
 }
 
 /* Right-hand side of an input into x: forces, which are f too, or displacements that a drive asks for. */
 static int32_t load(response_work *w, uint32_t input, double omega)
 {
-    const dmb_excitation *e = w->inputs + input;
+    const dmb_linear_excitation *e = w->excitations + input;
     const uint32_t rows = w->linear->rows;
     double re = 1.0, im = 0.0;
     if (e->law == DMB_EXCITE_INERTIA) re = omega * omega;
@@ -262,15 +262,15 @@ static int32_t solve_point(response_work *w, dmb_response *response, uint32_t po
     if (told < 0) return told;
     const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
     if (bad >= 0) return nothing_holds(w, frequency, (uint32_t)bad);
-    for (uint32_t i = 0; i < w->input_count; i++) {
+    for (uint32_t i = 0; i < w->excitation_count; i++) {
         const int32_t status = load(w, i, omega);
         if (status < 0) return status;
-        dmb_dynamic_stiffness_solve(&w->stiffness, w->inputs[i].law == DMB_EXCITE_MOTION, w->x);
+        dmb_dynamic_stiffness_solve(&w->stiffness, w->excitations[i].law == DMB_EXCITE_MOTION, w->x);
         (void)dmb_linear_change_of(&w->turned, w->linear, s, w->x.re, w->x.im);
         double *value = dmb_response_value(response, point, i);
         for (uint32_t k = 0; k < w->output_count; k++) {
             const dmb_complex_number found =
-                dmb_response_output_value(&w->stiffness, w->outputs + k, w->inputs + i, w->x, w->f);
+                dmb_response_output_value(&w->stiffness, w->outputs + k, w->excitations + i, w->x, w->f);
             value[2 * (size_t)k] = found.re;
             value[2 * (size_t)k + 1] = found.im;
         }
@@ -304,13 +304,14 @@ static int32_t refine(response_work *w, dmb_response *response)
     return status >= 0 && points == before ? DMB_NOTE_STOPPED : status;
 }
 
-static int32_t respond(response_work *w, const dmb_input *inputs, const dmb_output *outputs, dmb_response *response)
+static int32_t respond(response_work *w, const dmb_excitation *excitations, const dmb_response_output *outputs,
+                       dmb_response *response)
 {
     int32_t status = take_memory(w);
     if (status >= 0) status = linearise(w);
     if (status >= 0)
         response->undamped = !(w->options.structural_damping > 0.0) && dmb_linear_is_undamped(w->linear, w->x.re);
-    if (status >= 0) status = take_inputs(w, inputs, response);
+    if (status >= 0) status = take_inputs(w, excitations, response);
     if (status >= 0) status = take_outputs(w, outputs);
     if (status >= 0) status = solve_grid(w, response);
     for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) {
@@ -337,25 +338,25 @@ static void release(response_work *w)
     if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
 }
 
-static int32_t check_counts(dmb_sim *sim, uint32_t inputs, uint32_t outputs)
+static int32_t check_counts(dmb_sim *sim, uint32_t excitations, uint32_t outputs)
 {
     dmb_check check = dmb_check_of(&sim->message, "response", DMB_NONE);
-    dmb_check_count(&check, "input_count", inputs, 1, DMB_RESPONSE_INPUTS_MAX);
+    dmb_check_count(&check, "excitation_count", excitations, 1, DMB_RESPONSE_INPUTS_MAX);
     dmb_check_count(&check, "output_count", outputs, 1, DMB_RESPONSE_INPUTS_MAX);
     return check.status;
 }
 
-static int32_t analyse(response_work *w, const dmb_response_options *options, const dmb_input *inputs,
-                       const dmb_output *outputs, dmb_response **response)
+static int32_t analyse(response_work *w, const dmb_response_options *options, const dmb_excitation *excitations,
+                       const dmb_response_output *outputs, dmb_response **response)
 {
     dmb_sim *sim = w->sim;
     int32_t status = dmb_response_options_take(options, &sim->message, &w->options);
-    if (status >= 0) status = check_counts(sim, w->input_count, w->output_count);
+    if (status >= 0) status = check_counts(sim, w->excitation_count, w->output_count);
     if (status >= 0) status = dmb_state_copy_check(sim, "response");
     if (status >= 0) status = dmb_actuators_check_linear(sim, "response", 1, &sim->message);
     if (status < 0) return status;
-    dmb_response *made = dmb_response_new(&sim->allocator, w->input_count, w->output_count);
-    status = made != NULL ? respond(w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
+    dmb_response *made = dmb_response_new(&sim->allocator, w->excitation_count, w->output_count);
+    status = made != NULL ? respond(w, excitations, outputs, made) : DMB_ERR_NO_MEMORY;
     if (status >= 0) status = note_left_out(w);
     release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
@@ -366,19 +367,19 @@ static int32_t analyse(response_work *w, const dmb_response_options *options, co
     return status;
 }
 
-int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
-                              uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_excitation *excitations,
+                              uint32_t excitation_count, const dmb_response_output *outputs, uint32_t output_count,
                               dmb_response **response)
 {
     if (response == NULL) return DMB_ERR_NULL;
     *response = NULL;
-    if (sim == NULL || inputs == NULL || outputs == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || excitations == NULL || outputs == NULL) return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     response_work w;
     memset(&w, 0, sizeof w);
     w.sim = sim;
-    w.input_count = input_count;
+    w.excitation_count = excitation_count;
     w.output_count = output_count;
-    return dmb_sim_leave(sim, analyse(&w, options, inputs, outputs, response));
+    return dmb_sim_leave(sim, analyse(&w, options, excitations, outputs, response));
 }

@@ -9,13 +9,13 @@
 
 struct dmb_response {
     uint32_t magic;
-    uint32_t points, inputs, outputs;
+    uint32_t points, excitations, outputs;
     int32_t undamped; /* 1: no structural damping, and no motion meets a damping force */
     int32_t reserved;
     dmb_allocator allocator;
-    double *amplitude, *phase; /* shape (inputs) */
+    double *amplitude, *phase; /* shape (excitations) */
     double *frequency;         /* [Hz] shape (points) */
-    double *value;             /* real and imaginary parts, shape (points, inputs, outputs, 2) */
+    double *value;             /* real and imaginary parts, shape (points, excitations, outputs, 2) */
     void *block;               /* amplitude, phase */
     size_t block_size;
     void *table; /* frequency, value */
@@ -23,18 +23,18 @@ struct dmb_response {
 };
 
 /* Without points; NULL if there is no memory. */
-dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t inputs, uint32_t outputs);
+dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitations, uint32_t outputs);
 /* A table of that many points, its numbers not written, in place of what the response has, which the caller gives back
  * with dmb_release. DMB_OK or DMB_ERR_NO_MEMORY, which changes nothing. */
 int32_t dmb_response_resize(dmb_response *response, uint32_t points);
 
-/* Output at a point for all inputs with their amplitudes and phases. */
+/* Output at a point for all excitations with their amplitudes and phases. */
 void dmb_response_combined(const dmb_response *response, size_t point, uint32_t output, double value[2]);
 
 /* Real and imaginary parts of the first output of an input at a point; outputs follow. */
 static inline double *dmb_response_value(const dmb_response *response, size_t point, size_t input)
 {
-    return response->value + 2 * response->outputs * (response->inputs * point + input);
+    return response->value + 2 * response->outputs * (response->excitations * point + input);
 }
 
 /* Options of a frequency response, checked. */
@@ -45,8 +45,8 @@ enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
 int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);
 /* Struct number i of the caller's array, whose items are as far apart as the first one says; its fields checked as far
  * as that needs no scene. */
-int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message, dmb_input *out);
-int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *message, dmb_output *out);
+int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out);
+int32_t dmb_output_take(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out);
 /* Likewise of a stepped sine, at a frequency that is checked too. */
 int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
                                       dmb_stepped_sine_options *out);
@@ -71,53 +71,54 @@ enum {
                              joints; its speed is the input: they are rows/(i w) */
 };
 
-typedef struct dmb_excitation {
+typedef struct dmb_linear_excitation {
     int32_t law;    /* DMB_EXCITE_... */
     uint32_t drive; /* that is the input; DMB_NONE: none is */
     uint32_t bit;   /* likewise whose bottom-hole load is */
     double gain, integral_gain;
-    double *re, *im; /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
+    double *re, *im; /* forces on all rows, those that supports hold included, or displacements, shape (row_count); the
                         caller's memory, zeros to begin with */
-} dmb_excitation;
+} dmb_linear_excitation;
 
 /* Fills the excitation of input number `index`, already checked to be one of its kind. linear->work: its trial and work
  * are written. message: why not. Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE, _UNSUPPORTED; those of
  * dmb_system_evaluate. */
-int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_input *input, uint32_t index, dmb_message *message,
-                          dmb_excitation *out);
+int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_excitation *input, uint32_t index, dmb_message *message,
+                          dmb_linear_excitation *out);
 
 /* An output of a frequency response: what a query would answer, as a linear function of the motion and of the forces it
  * takes. */
 
-typedef struct dmb_response_output {
+typedef struct dmb_linear_output {
     dmb_functional functional;
     int32_t rate;        /* times (i w)^rate */
     int32_t elastic;     /* 1: the part by pose is of the stiffness and has its structural damping */
     uint32_t cluster;    /* whose forces of constraint count; DMB_NONE: none do */
     uint32_t multiplier; /* first of them in the rows of the cluster */
     uint32_t multiplier_count;
-    uint32_t guide_count; /* rows that are held and whose forces count */
+    uint32_t support_count; /* rows that are held and whose forces count */
     double multiplier_weight[6];
-    uint32_t guide[6]; /* which of held_node, held_component */
-    double guide_weight[6];
+    uint32_t support[6]; /* which of held_node, held_component */
+    double support_weight[6];
     uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
     double direct, integral; /* what it adds there: direct + integral/(i w) */
     uint32_t bit;            /* likewise whose bottom-hole load adds itself where it is the input; DMB_NONE: none */
-} dmb_response_output;
+} dmb_linear_output;
 
 /* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:
  * those of the queries, DMB_ERR_UNSUPPORTED. */
-int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
-                               uint32_t index, dmb_message *message, dmb_response_output *out);
+int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_response_output *output,
+                             uint32_t index, dmb_message *message, dmb_linear_output *out);
 
-/* A channel as an output of another kind, or of kind DMB_OUTPUT_CHANNEL still where it is a smooth answer about its
+/* A output as an output of another kind, or of kind DMB_RESPONSE_OUTPUT still where it is a smooth answer about its
  * place; and the bit whose load it has in it (DMB_NONE). On refusal `why`. Errors: DMB_ERR_UNSUPPORTED, _ID. */
-int32_t dmb_output_of_channel(const dmb_sim *sim, const dmb_output *channel, dmb_output *out, uint32_t *bit,
-                              const char **why);
+int32_t dmb_response_output_of(const dmb_sim *sim, const dmb_response_output *output, dmb_response_output *out,
+                               uint32_t *bit, const char **why);
 
 /* The output for displacements x that forces f of the input (0 where displacements are told) lead to, shapes (rows). */
-dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_response_output *output,
-                                             const dmb_excitation *input, dmb_complex_array x, dmb_complex_array f);
+dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_linear_output *output,
+                                             const dmb_linear_excitation *input, dmb_complex_array x,
+                                             dmb_complex_array f);
 
 /* ---- Speeds to avoid --------------------------------------------------------------------------------------------- */
 

@@ -22,15 +22,15 @@
 typedef struct request {
     const dmb_linear *linear;
     dmb_sim *copy;
-    const dmb_input *input;
+    const dmb_excitation *input;
     uint32_t index;
     dmb_message *message;
-    dmb_excitation *out;
+    dmb_linear_excitation *out;
 } request;
 
 static int32_t refuse(const request *r, int32_t status, const char *why)
 {
-    dmb_message_set(r->message, "input %u: %s", r->index, why);
+    dmb_message_set(r->message, "excitation %u: %s", r->index, why);
     return status;
 }
 
@@ -243,7 +243,7 @@ static int32_t refuse_setting(const request *r, const dmb_scene_input *setting)
 {
     dmb_message_set(
         r->message,
-        "input %u: input \"%s\" has target %d, which changes the scene itself; must be a set point (%d), load "
+        "excitation %u: input \"%s\" has target %d, which changes the scene itself; must be a set point (%d), load "
         "factor (%d) or bit load (%d); run sims with two of its values for others",
         r->index, setting->name, (int)setting->target, (int)DMB_TARGET_SET_POINT, (int)DMB_TARGET_LOAD_FACTOR,
         (int)DMB_TARGET_BIT_LOAD);
@@ -276,7 +276,7 @@ static int32_t add_force(const request *r, int32_t component, double factor, dou
     dmb_functional f;
     const int32_t status = dmb_functional_of_motion(r->copy, r->input->place, r->input->frame, component, &f);
     if (status < 0) {
-        dmb_message_set(r->message, "input %u: place, pipe %u at %g: %s", r->index, r->input->place.pipe,
+        dmb_message_set(r->message, "excitation %u: place, pipe %u at %g: %s", r->index, r->input->place.pipe,
                         r->input->place.fraction, dmb_status_text(status));
         return status;
     }
@@ -301,7 +301,7 @@ static int32_t unbalance(const request *r)
 /* ---- The scene's own excitations --------------------------------------------------------------------------------- */
 
 /* The centrifugal wrench g turns with the frequency: g_y + i g_z along y and g_z - i g_y along z. */
-static void add_rigid_mass(const dmb_sim *copy, uint32_t i, const double g[6], dmb_excitation *out)
+static void add_rigid_mass(const dmb_sim *copy, uint32_t i, const double g[6], dmb_linear_excitation *out)
 {
     const uint32_t row = copy->scene->layout.row[copy->scene->rigid_masses[i].node];
     for (uint32_t c = 0; c < 6; c += 3) {
@@ -334,7 +334,7 @@ static int32_t eccentricity(const request *r)
 
 /* Normal force times a unit coefficient along the hole, (t; -r b), or around it, (b; r t) with b = t x n, as in
  * system/assemble/wall_contact. */
-static void add_ring(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
+static void add_stabiliser(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
 {
     const dmb_site *site = copy->scene->sites + s;
     double R[9], n[3], t[3], b[3], w[6];
@@ -364,7 +364,7 @@ static int32_t friction(const request *r)
     const int32_t around = r->input->component == DMB_RX;
     if (!around && r->input->component != DMB_X)
         return refuse(r, DMB_ERR_VALUE, "component must be DMB_X (friction along the hole) or DMB_RX (around it)");
-    for (uint32_t s = 0; s < r->copy->scene->site_count; s++) add_ring(r->copy, s, around, r->out->re);
+    for (uint32_t s = 0; s < r->copy->scene->site_count; s++) add_stabiliser(r->copy, s, around, r->out->re);
     for (uint32_t s = 0; s < r->copy->scene->path_site_count; s++) add_path(r->copy, s, around, r->out->re);
     return DMB_OK;
 }
@@ -372,19 +372,19 @@ static int32_t friction(const request *r)
 static int32_t make(const request *r)
 {
     switch (r->input->kind) {
-    case DMB_INPUT_DRIVE: return drive(r);
-    case DMB_INPUT_LOAD: return load(r);
-    case DMB_INPUT_BIT_LOAD: return bit_load(r);
-    case DMB_INPUT_SETTING: return setting(r);
-    case DMB_INPUT_FORCE: return force(r);
-    case DMB_INPUT_UNBALANCE: return unbalance(r);
-    case DMB_INPUT_ECCENTRICITY: return eccentricity(r);
+    case DMB_EXCITATION_DRIVE: return drive(r);
+    case DMB_EXCITATION_LOAD: return load(r);
+    case DMB_EXCITATION_BIT_LOAD: return bit_load(r);
+    case DMB_EXCITATION_SETTING: return setting(r);
+    case DMB_EXCITATION_FORCE: return force(r);
+    case DMB_EXCITATION_UNBALANCE: return unbalance(r);
+    case DMB_EXCITATION_ECCENTRICITY: return eccentricity(r);
     default: return friction(r);
     }
 }
 
-int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_input *input, uint32_t index, dmb_message *message,
-                          dmb_excitation *out)
+int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_excitation *input, uint32_t index, dmb_message *message,
+                          dmb_linear_excitation *out)
 {
     const request r = {linear, linear->work, input, index, message, out};
     out->drive = out->bit = DMB_NONE;

@@ -7,9 +7,9 @@
 #include "base/value_check.h"
 #include "drillmbd/output.h"
 
-DMB_DEFINE_INIT(dmb_input, 56, {.kind = DMB_INPUT_FORCE, .amplitude = 1.0})
+DMB_DEFINE_INIT(dmb_excitation, 56, {.kind = DMB_EXCITATION_FORCE, .amplitude = 1.0})
 
-DMB_DEFINE_INIT(dmb_output, 40, {.kind = DMB_OUTPUT_DISPLACEMENT})
+DMB_DEFINE_INIT(dmb_response_output, 40, {.kind = DMB_RESPONSE_DISPLACEMENT})
 
 DMB_DEFINE_INIT(dmb_response_options, 72,
                 {
@@ -123,18 +123,19 @@ static const void *item_of(const void *items, uint32_t stride, uint32_t i, uint3
     return item;
 }
 
-int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message, dmb_input *out)
+int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out)
 {
-    dmb_check check = dmb_check_of(message, "input", i);
+    dmb_check check = dmb_check_of(message, "excitation", i);
     uint32_t size;
-    const void *item = item_of(inputs, inputs->struct_size, i, &size);
-    *out = dmb_input_default();
-    if (size != inputs->struct_size || dmb_input_read(out, item) < 0) {
-        dmb_message_set(message, "input %u: struct_size is not one this library knows, or not that of the first", i);
+    const void *item = item_of(excitations, excitations->struct_size, i, &size);
+    *out = dmb_excitation_default();
+    if (size != excitations->struct_size || dmb_excitation_read(out, item) < 0) {
+        dmb_message_set(message, "excitation %u: struct_size is not one this library knows, or not that of the first",
+                        i);
         return DMB_ERR_STRUCT_SIZE;
     }
-    const int32_t last = out->kind == DMB_INPUT_UNBALANCE ? DMB_RX : DMB_RZ;
-    dmb_check_choice(&check, "kind", out->kind, DMB_INPUT_DRIVE, DMB_INPUT_SETTING);
+    const int32_t last = out->kind == DMB_EXCITATION_UNBALANCE ? DMB_RX : DMB_RZ;
+    dmb_check_choice(&check, "kind", out->kind, DMB_EXCITATION_DRIVE, DMB_EXCITATION_SETTING);
     dmb_check_choice(&check, "component", out->component, DMB_X, last);
     dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     dmb_check_within(&check, "amplitude", out->amplitude, -1e30, 1e30);
@@ -142,22 +143,23 @@ int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message
     return check.status;
 }
 
-int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *message, dmb_output *out)
+int32_t dmb_output_take(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out)
 {
     dmb_check check = dmb_check_of(message, "output", i);
     uint32_t size;
     const void *item = item_of(outputs, outputs->struct_size, i, &size);
-    *out = dmb_output_default();
-    if (size != outputs->struct_size || dmb_output_read(out, item) < 0) {
+    *out = dmb_response_output_default();
+    if (size != outputs->struct_size || dmb_response_output_read(out, item) < 0) {
         dmb_message_set(message, "output %u: struct_size is not one this library knows, or not that of the first", i);
         return DMB_ERR_STRUCT_SIZE;
     }
-    dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_CHANNEL);
-    if (out->kind != DMB_OUTPUT_CHANNEL)
-        dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
-    else if (dmb_channel_name(out->component, NULL) == NULL)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "a channel that dmb_channel_name knows");
-    if (out->kind == DMB_OUTPUT_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
+    dmb_check_choice(&check, "kind", out->kind, DMB_RESPONSE_DISPLACEMENT, DMB_RESPONSE_OUTPUT);
+    if (out->kind != DMB_RESPONSE_OUTPUT)
+        dmb_check_choice(&check, "component", out->component, DMB_X,
+                         out->kind == DMB_RESPONSE_CONTACT ? DMB_Z : DMB_RZ);
+    else if (dmb_output_name(out->component, NULL) == NULL)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "a output that dmb_output_name knows");
+    if (out->kind == DMB_RESPONSE_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,
                        "DMB_X (weight on the bit) or DMB_RX (torque)");
     dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);

@@ -2,7 +2,8 @@
  *
  *     dN = N_d dd + N_r dr,   dF = F_v dv + F_N dN      (depth d, its rate r, slip v)
  *
- * Forces of guides are the rows of A x - f that are not solved, those of constraints what balances the dependent rows.
+ * Forces of supports are the rows of A x - f that are not solved, those of constraints what balances the dependent
+ * rows.
  */
 #include "analysis/response/response.h"
 
@@ -20,8 +21,8 @@ typedef struct request {
     dmb_linear *linear;
     dmb_sim *copy;
     const dmb_response_options *options;
-    const dmb_output *output;
-    dmb_response_output *out;
+    const dmb_response_output *output;
+    dmb_linear_output *out;
     uint32_t index;
     dmb_message *message;
 } request;
@@ -50,7 +51,7 @@ static double answer(const dmb_sim *copy, const void *what)
 
 static int32_t of_motion(const request *r)
 {
-    const dmb_output *o = r->output;
+    const dmb_response_output *o = r->output;
     const int32_t status = dmb_functional_of_motion(r->copy, o->place, o->frame, o->component, &r->out->functional);
     r->out->rate = o->kind;
     return status < 0 ? refuse_place(r, status) : DMB_OK;
@@ -62,7 +63,7 @@ static int32_t of_section(const request *r)
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status >= 0) status = dmb_functional_around(r->copy, r->output->place, &r->out->functional);
     if (status < 0) return refuse_place(r, status);
-    r->out->elastic = r->output->kind != DMB_OUTPUT_SECTION_STRAIN;
+    r->out->elastic = r->output->kind != DMB_RESPONSE_SECTION_STRAIN;
     dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
     return DMB_OK;
 }
@@ -171,7 +172,7 @@ static int32_t of_contact(const request *r)
     if (r->options->contact == DMB_CONTACT_OPEN)
         return refuse(r, DMB_ERR_UNSUPPORTED, "contact is left out, its forces do not change");
     if (r->output->place.pipe >= (uint64_t)scene->site_count + scene->path_site_count)
-        return refuse(r, DMB_ERR_VALUE, "place.pipe is no number of a contact site");
+        return refuse(r, DMB_ERR_VALUE, "place.pipe is no number of a contact point");
     if (c != DMB_Z && scene->friction_law.kind == DMB_FRICTION_BRISTLE)
         return refuse(r, DMB_ERR_UNSUPPORTED, "friction of bristles is not an output");
     dmb_contact_slope_of(scene, &r->copy->now, r->output->place.pipe, &slope);
@@ -183,7 +184,8 @@ static int32_t of_contact(const request *r)
     return DMB_OK;
 }
 
-/* ---- Forces of guides and constraints ---------------------------------------------------------------------------- */
+/* ---- Forces of supports and constraints ----------------------------------------------------------------------------
+ */
 
 static void take_cluster_of_node(const request *r, uint32_t node)
 {
@@ -191,27 +193,27 @@ static void take_cluster_of_node(const request *r, uint32_t node)
     if (scene->cluster_count > 0) r->out->cluster = scene->node_cluster[node];
 }
 
-static void take_guide(const request *r, uint32_t held, double weight)
+static void take_support(const request *r, uint32_t held, double weight)
 {
-    r->out->guide[r->out->guide_count] = held;
-    r->out->guide_weight[r->out->guide_count++] = weight;
+    r->out->support[r->out->support_count] = held;
+    r->out->support_weight[r->out->support_count++] = weight;
     take_cluster_of_node(r, r->copy->scene->held_node[held]);
 }
 
 /* The query is linear in what the rows that are held have left. */
-static int32_t of_guide(const request *r)
+static int32_t of_support(const request *r)
 {
     const dmb_scene *scene = r->copy->scene;
     int32_t status;
     const double base = dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "place.part names no string or body of this model");
-    for (uint32_t i = 0; i < scene->held_count && r->out->guide_count < 6; i++) {
+    for (uint32_t i = 0; i < scene->held_count && r->out->support_count < 6; i++) {
         double *left = r->copy->held_reaction + i, kept = *left;
         const double scale = fmax(fabs(base), 1.0);
         *left += scale;
         const double weight = (dmb_answer_of(r->copy, r->output, &status) - base) / scale;
         *left = kept;
-        if (weight != 0.0) take_guide(r, i, weight);
+        if (weight != 0.0) take_support(r, i, weight);
     }
     return DMB_OK;
 }
@@ -304,14 +306,14 @@ static int32_t of_joint(const request *r)
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "place.part names no joint of this model");
-    r->out->elastic = r->output->kind > DMB_OUTPUT_JOINT_ACCELERATION;
-    if (r->output->kind == DMB_OUTPUT_JOINT_REACTION)
+    r->out->elastic = r->output->kind > DMB_RESPONSE_JOINT_ACCELERATION;
+    if (r->output->kind == DMB_RESPONSE_JOINT_REACTION)
         reaction_of_joint(r, joint_of(r));
-    else if (r->output->kind == DMB_OUTPUT_JOINT_ACTION)
+    else if (r->output->kind == DMB_RESPONSE_JOINT_ACTION)
         law_of_joint(r, joint_of(r));
     else
         coordinate(r, joint_of(r), r->output->component, &r->out->functional);
-    if (!r->out->elastic) r->out->rate = r->output->kind - DMB_OUTPUT_JOINT_POSITION;
+    if (!r->out->elastic) r->out->rate = r->output->kind - DMB_RESPONSE_JOINT_POSITION;
     return DMB_OK;
 }
 
@@ -362,7 +364,7 @@ static int32_t of_drive(const request *r)
         return DMB_OK;
     }
     for (uint32_t h = 0; h < scene->held_count; h++)
-        if (dmb_held_row(scene, h) == drive->row) take_guide(r, h, 1.0);
+        if (dmb_held_row(scene, h) == drive->row) take_support(r, h, 1.0);
     return DMB_OK;
 }
 
@@ -391,29 +393,29 @@ static int32_t of_bit(const request *r)
 static int32_t make(const request *r)
 {
     switch (r->output->kind) {
-    case DMB_OUTPUT_DISPLACEMENT:
-    case DMB_OUTPUT_VELOCITY:
-    case DMB_OUTPUT_ACCELERATION: return of_motion(r);
-    case DMB_OUTPUT_SECTION_FORCE:
-    case DMB_OUTPUT_SECTION_STRAIN:
-    case DMB_OUTPUT_CHANNEL: return of_section(r); /* loads of the section at the rig end */
-    case DMB_OUTPUT_CONTACT: return of_contact(r);
-    case DMB_OUTPUT_DRIVE: return of_drive(r);
-    case DMB_OUTPUT_REACTION: return of_guide(r);
-    case DMB_OUTPUT_MULTIPLIER: return of_multiplier(r);
-    case DMB_OUTPUT_BIT: return of_bit(r);
+    case DMB_RESPONSE_DISPLACEMENT:
+    case DMB_RESPONSE_VELOCITY:
+    case DMB_RESPONSE_ACCELERATION: return of_motion(r);
+    case DMB_RESPONSE_SECTION_FORCE:
+    case DMB_RESPONSE_SECTION_STRAIN:
+    case DMB_RESPONSE_OUTPUT: return of_section(r); /* loads of the section at the rig end */
+    case DMB_RESPONSE_CONTACT: return of_contact(r);
+    case DMB_RESPONSE_DRIVE: return of_drive(r);
+    case DMB_RESPONSE_REACTION: return of_support(r);
+    case DMB_RESPONSE_MULTIPLIER: return of_multiplier(r);
+    case DMB_RESPONSE_BIT: return of_bit(r);
     default: return of_joint(r);
     }
 }
 
-static int32_t of_channel(const request *r)
+static int32_t of_output(const request *r)
 {
     const char *why = "";
-    dmb_output meant;
+    dmb_response_output meant;
     request part = *r;
-    const int32_t status = dmb_output_of_channel(r->copy, r->output, &meant, &r->out->bit, &why);
+    const int32_t status = dmb_response_output_of(r->copy, r->output, &meant, &r->out->bit, &why);
     if (status < 0) {
-        dmb_message_set(r->message, "output %u: channel %s: %s", r->index, dmb_channel_name(r->output->component, NULL),
+        dmb_message_set(r->message, "output %u: output %s: %s", r->index, dmb_output_name(r->output->component, NULL),
                         why); /* it was looked up with the output */
         return status;
     }
@@ -421,11 +423,11 @@ static int32_t of_channel(const request *r)
     return make(&part);
 }
 
-int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
-                               uint32_t index, dmb_message *message, dmb_response_output *out)
+int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_response_output *output,
+                             uint32_t index, dmb_message *message, dmb_linear_output *out)
 {
     const request r = {linear, linear->work, options, output, out, index, message};
     memset(out, 0, sizeof *out);
     out->cluster = out->drive = out->bit = DMB_NONE;
-    return output->kind == DMB_OUTPUT_CHANNEL ? of_channel(&r) : make(&r);
+    return output->kind == DMB_RESPONSE_OUTPUT ? of_output(&r) : make(&r);
 }

@@ -32,7 +32,7 @@ static void mark_pair(const dmb_response *response, size_t pair, uint8_t *split)
 
 static uint32_t mark(const dmb_response *response, uint8_t *split)
 {
-    const size_t pairs = (size_t)response->inputs * response->outputs;
+    const size_t pairs = (size_t)response->excitations * response->outputs;
     const double *f = response->frequency;
     uint32_t count = 0;
     for (size_t k = 0; k < pairs; k++) mark_pair(response, k, split);
@@ -45,7 +45,7 @@ static uint32_t mark(const dmb_response *response, uint8_t *split)
 
 static void merge(const dmb_response *old, const uint8_t *split, dmb_response *response, uint8_t *fresh)
 {
-    const size_t stride = 2 * (size_t)old->inputs * old->outputs;
+    const size_t stride = 2 * (size_t)old->excitations * old->outputs;
     size_t to = 0;
     for (size_t i = 0; i < old->points; i++) {
         response->frequency[to] = old->frequency[i];

@@ -13,12 +13,13 @@
 #include "sim/sim.h"
 #include "system/system.h"
 
-DMB_DEFINE_INIT(
-    dmb_order, 72,
-    {
-        .order = 1.0,
-        .input = {.struct_size = (uint32_t)sizeof(dmb_input), .kind = DMB_INPUT_ECCENTRICITY, .amplitude = 1.0},
-    })
+DMB_DEFINE_INIT(dmb_order, 72,
+                {
+                    .order = 1.0,
+                    .excitation = {.struct_size = (uint32_t)sizeof(dmb_excitation),
+                                   .kind = DMB_EXCITATION_ECCENTRICITY,
+                                   .amplitude = 1.0},
+                })
 
 DMB_DEFINE_INIT(dmb_speeds_options, 80,
                 {
@@ -42,7 +43,7 @@ typedef struct speeds_run {
     dmb_sim *sim;
     dmb_speeds_options options;
     const dmb_order *orders;
-    const dmb_output *outputs;
+    const dmb_response_output *outputs;
     const double *limits;
     uint32_t order_count, output_count, points; /* points: of all curves */
     dmb_speeds_curve *curves;                   /* shape (order_count) */
@@ -171,7 +172,7 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     if (status < 0) return status;
     const dmb_response_options options = response_options(r, order.order);
     dmb_sim_hand_on(r->sim, (double)k / r->order_count, (k + 1.0) / r->order_count);
-    status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
+    status = dmb_analysis_response(r->sim, &options, &order.excitation, 1, r->outputs, r->output_count, &response);
     dmb_sim_take_back(r->sim);
     if (status < 0) return status;
     if (status == DMB_NOTE_INCOMPLETE) r->left_out = r->sim->message;
@@ -328,7 +329,7 @@ static int32_t analyse(speeds_run *r, const dmb_speeds_options *options, dmb_spe
 }
 
 int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                            uint32_t order_count, const dmb_output *outputs, const double *limits,
+                            uint32_t order_count, const dmb_response_output *outputs, const double *limits,
                             uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
 {
     if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)

@@ -15,7 +15,7 @@
 /* ---- Outputs, asked at one instant ------------------------------------------------------------------------------- */
 
 typedef struct sine_output {
-    dmb_output output;
+    dmb_response_output output;
     double start[9]; /* [-] axes of the place at the call, columns, world */
 } sine_output;
 
@@ -58,8 +58,8 @@ static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *st
 
 static double value_of(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
-    return o->output.kind == DMB_OUTPUT_DISPLACEMENT ? displacement(sim, o, status)
-                                                     : dmb_answer_of(sim, &o->output, status);
+    return o->output.kind == DMB_RESPONSE_DISPLACEMENT ? displacement(sim, o, status)
+                                                       : dmb_answer_of(sim, &o->output, status);
 }
 
 /* Takes the pose of the call. Errors: those of the queries. */
@@ -67,7 +67,7 @@ static int32_t begin_output(const dmb_sim *sim, sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
-    if (output->output.kind == DMB_OUTPUT_DISPLACEMENT) status = dmb_query_pose(sim, output->output.place, &pose);
+    if (output->output.kind == DMB_RESPONSE_DISPLACEMENT) status = dmb_query_pose(sim, output->output.place, &pose);
     memcpy(output->start, pose.rotation, sizeof output->start);
     if (status >= 0) (void)value_of(sim, output, &status);
     return status;
@@ -144,7 +144,7 @@ static void begin_window(sine_run *r)
 
 static double drift_of(const sine_run *r, uint32_t o)
 {
-    if (r->output[o].output.kind != DMB_OUTPUT_DISPLACEMENT) return 0.0;
+    if (r->output[o].output.kind != DMB_RESPONSE_DISPLACEMENT) return 0.0;
     return (sample_of(r->sim, r->output + o) - r->first[o]) / (r->step * steps_of(r));
 }
 
@@ -245,10 +245,10 @@ static int32_t take_memory(sine_run *r)
     return DMB_OK;
 }
 
-static int32_t take_outputs(sine_run *r, const dmb_output *outputs)
+static int32_t take_outputs(sine_run *r, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < r->outputs; i++) {
-        dmb_output *output = &r->output[i].output;
+        dmb_response_output *output = &r->output[i].output;
         int32_t status = dmb_output_take(outputs, i, &r->sim->message, output);
         if (status < 0) return status;
         status = begin_output(r->sim, r->output + i);
@@ -261,7 +261,7 @@ static int32_t take_outputs(sine_run *r, const dmb_output *outputs)
     return DMB_OK;
 }
 
-static int32_t shake(sine_run *r, const dmb_output *outputs)
+static int32_t shake(sine_run *r, const dmb_response_output *outputs)
 {
     int32_t status = take_memory(r);
     if (status >= 0) status = take_outputs(r, outputs);
@@ -271,7 +271,7 @@ static int32_t shake(sine_run *r, const dmb_output *outputs)
 }
 
 static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_options *options,
-                       const dmb_output *outputs, double *amplitudes, dmb_stepped_sine_report *report)
+                       const dmb_response_output *outputs, double *amplitudes, dmb_stepped_sine_report *report)
 {
     dmb_sim *sim = r->sim;
     r->report = dmb_stepped_sine_report_default();
@@ -294,7 +294,7 @@ static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_opt
 }
 
 int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                  const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
                                   dmb_stepped_sine_report *report)
 {
     if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;

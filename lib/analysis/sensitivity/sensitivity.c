@@ -80,23 +80,23 @@ static int same_make(const dmb_sim *a, const dmb_sim *b)
            same_arrays(a, b);
 }
 
-/* A step ends at corners of programmes, which the steps beside it share. */
-static int same_times(const dmb_term *a, const dmb_term *b)
+/* A step ends at breakpoints of time functions, which the steps beside it share. */
+static int same_times(const dmb_segment *a, const dmb_segment *b)
 {
     if (a->kind != b->kind) return 0;
-    if (a->kind == DMB_TERM_STEP || a->kind == DMB_TERM_STEP5) return a->x0 == b->x0 && a->x1 == b->x1;
-    if (a->kind != DMB_TERM_TABLE) return 1;
+    if (a->kind == DMB_SEGMENT_STEP || a->kind == DMB_SEGMENT_STEP5) return a->x0 == b->x0 && a->x1 == b->x1;
+    if (a->kind != DMB_SEGMENT_TABLE) return 1;
     return a->table_count == b->table_count &&
            memcmp(a->table_time, b->table_time, a->table_count * sizeof *a->table_time) == 0;
 }
 
 static int same_corners(const dmb_scene *a, const dmb_scene *b)
 {
-    if (a->programme_count != b->programme_count) return 0;
-    for (uint32_t i = 0; i < a->programme_count; i++) {
-        if (a->programmes[i].count != b->programmes[i].count) return 0;
-        for (uint32_t k = 0; k < a->programmes[i].count; k++)
-            if (!same_times(a->programmes[i].terms + k, b->programmes[i].terms + k)) return 0;
+    if (a->time_function_count != b->time_function_count) return 0;
+    for (uint32_t i = 0; i < a->time_function_count; i++) {
+        if (a->time_functions[i].count != b->time_functions[i].count) return 0;
+        for (uint32_t k = 0; k < a->time_functions[i].count; k++)
+            if (!same_times(a->time_functions[i].segments + k, b->time_functions[i].segments + k)) return 0;
     }
     return 1;
 }
@@ -135,8 +135,8 @@ static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p,
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
     }
     if (!same_corners(sim->scene, side->scene)) {
-        dmb_message_set(&text, "%s has programmes with other terms or times: steps end there; only values may differ",
-                        name);
+        dmb_message_set(
+            &text, "%s has time functions with other terms or times: steps end there; only values may differ", name);
         return refuse(sim, number, p, DMB_ERR_UNSUPPORTED, text.text);
     }
     if (side->clock->time != sim->clock->time) {

@@ -78,7 +78,7 @@ void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of)
 int32_t dmb_sensitivity_stands(const dmb_sensitivity *s);
 /* Rates as before the call (back), or those reached for the next one to begin with. */
 void dmb_sensitivity_settle(dmb_sensitivity *s, int back);
-/* After accelerations were made anew, by a corner or by the caller: rates that fit them. Errors as dmb_system_jump,
+/* After accelerations were made anew, by a breakpoint or by the caller: rates that fit them. Errors as dmb_system_jump,
  * with a message; the rates are as before then. */
 int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s);
 /* The sim's follower: rates along a step. */

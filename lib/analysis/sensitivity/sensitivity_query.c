@@ -1,4 +1,4 @@
-/* Questions about rates: channels, rows, corners passed. */
+/* Questions about rates: outputs, rows, breakpoints passed. */
 #include <math.h>
 #include <string.h>
 
@@ -11,31 +11,31 @@
 #include "system/system.h"
 
 /* The same part in another model of the scene. */
-static dmb_channel channel_in(const dmb_model *model, const dmb_channel *channel)
+static dmb_output output_in(const dmb_model *model, const dmb_output *output)
 {
-    dmb_channel there = *channel;
+    dmb_output there = *output;
     if (there.place.part.generation != 0) there.place.part.generation = model->stamp;
     return there;
 }
 
-static int32_t channel_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, int side, const dmb_channel *channel,
-                              double *value)
+static int32_t output_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, int side, const dmb_output *output,
+                             double *value)
 {
-    const dmb_channel there = channel_in(p->model[side], channel);
+    const dmb_output there = output_in(p->model[side], output);
     dmb_sensitivity_aside(s, p, side);
     s->worker->magic = DMB_HANDLE_SIM;
     s->worker->options.energy_ledger = s->sim->options.energy_ledger; /* without it energies are not told */
-    const int32_t status = dmb_channel_value(s->worker, &there, value);
+    const int32_t status = dmb_output_value(s->worker, &there, value);
     s->worker->options.energy_ledger = 0;
     s->worker->magic = 0;
     return status;
 }
 
-static int32_t channel_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, const dmb_channel *channel, double *rate)
+static int32_t output_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, const dmb_output *output, double *rate)
 {
     double value[2] = {0.0, 0.0};
-    int32_t status = channel_beside(s, p, DMB_SIDE_LOW, channel, &value[DMB_SIDE_LOW]);
-    if (status >= 0) status = channel_beside(s, p, DMB_SIDE_HIGH, channel, &value[DMB_SIDE_HIGH]);
+    int32_t status = output_beside(s, p, DMB_SIDE_LOW, output, &value[DMB_SIDE_LOW]);
+    if (status >= 0) status = output_beside(s, p, DMB_SIDE_HIGH, output, &value[DMB_SIDE_HIGH]);
     *rate = (value[DMB_SIDE_HIGH] - value[DMB_SIDE_LOW]) / (2.0 * p->step);
     return status;
 }
@@ -43,47 +43,47 @@ static int32_t channel_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, co
 /* Sums over a run and counts, which the steps beside the sim's do not keep. */
 static int is_summed(int32_t quantity)
 {
-    return quantity == DMB_CHANNEL_ENERGY_ERROR || quantity == DMB_CHANNEL_DRIVE_WORK ||
-           (quantity >= DMB_CHANNEL_ENERGY_DRIVES && quantity <= DMB_CHANNEL_ENERGY_UNEXPLAINED) ||
-           (quantity >= DMB_CHANNEL_STEPS && quantity <= DMB_CHANNEL_REDUNDANT);
+    return quantity == DMB_OUTPUT_ENERGY_ERROR || quantity == DMB_OUTPUT_DRIVE_WORK ||
+           (quantity >= DMB_OUTPUT_ENERGY_DRIVES && quantity <= DMB_OUTPUT_ENERGY_UNEXPLAINED) ||
+           (quantity >= DMB_OUTPUT_STEPS && quantity <= DMB_OUTPUT_REDUNDANT);
 }
 
-static int32_t refuse_channel(const dmb_sensitivity *s, uint32_t number, int32_t quantity, int32_t status)
+static int32_t refuse_output(const dmb_sensitivity *s, uint32_t number, int32_t quantity, int32_t status)
 {
-    dmb_message_set(&s->sim->message, "sensitivity: channel %u: %s", number,
+    dmb_message_set(&s->sim->message, "sensitivity: output %u: %s", number,
                     is_summed(quantity) ? "sums and counts of a run have no derivative here; leave it out"
                                         : dmb_status_text(status));
     return status;
 }
 
-static int32_t check_channels(const dmb_sensitivity *s, const dmb_channel *channels, uint32_t count)
+static int32_t check_outputs(const dmb_sensitivity *s, const dmb_output *outputs, uint32_t count)
 {
     double value;
     for (uint32_t i = 0; i < count; i++) {
         const int32_t status =
-            is_summed(channels[i].quantity) ? DMB_ERR_UNSUPPORTED : dmb_channel_value(s->sim, &channels[i], &value);
-        if (status < 0) return refuse_channel(s, i, channels[i].quantity, status);
+            is_summed(outputs[i].quantity) ? DMB_ERR_UNSUPPORTED : dmb_output_value(s->sim, &outputs[i], &value);
+        if (status < 0) return refuse_output(s, i, outputs[i].quantity, status);
     }
     return DMB_OK;
 }
 
-int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel *channels, uint32_t count,
-                                 double *values, double *derivatives)
+int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *outputs, uint32_t count, double *values,
+                                double *derivatives)
 {
     dmb_sensitivity *s = sensitivity;
     int32_t status = dmb_sensitivity_alive(s);
     if (status < 0) return status;
-    if (channels == NULL || derivatives == NULL) return DMB_ERR_NULL;
+    if (outputs == NULL || derivatives == NULL) return DMB_ERR_NULL;
     status = dmb_sensitivity_stands(s);
-    if (status >= 0) status = check_channels(s, channels, count);
+    if (status >= 0) status = check_outputs(s, outputs, count);
     if (status >= 0) status = dmb_sensitivity_catch_up(s);
     if (status < 0) return status;
     dmb_sensitivity_stand(s);
     for (uint32_t i = 0; i < count; i++) {
-        if (values != NULL) (void)dmb_channel_value(s->sim, &channels[i], &values[i]);
+        if (values != NULL) (void)dmb_output_value(s->sim, &outputs[i], &values[i]);
         for (uint32_t k = 0; k < s->count; k++) {
-            status = channel_rate(s, &s->parameters[k], &channels[i], &derivatives[(size_t)i * s->count + k]);
-            if (status < 0) return refuse_channel(s, i, channels[i].quantity, status);
+            status = output_rate(s, &s->parameters[k], &outputs[i], &derivatives[(size_t)i * s->count + k]);
+            if (status < 0) return refuse_output(s, i, outputs[i].quantity, status);
         }
     }
     return DMB_OK;

@@ -6,7 +6,8 @@
 #include "system/assemble/drives.h"
 #include "system/system.h"
 
-/* ---- Which side of a corner a state is on ------------------------------------------------------------------------ */
+/* ---- Which side of a breakpoint a state is on
+ * ------------------------------------------------------------------------ */
 
 static uint64_t mix(uint64_t hash, int flag)
 {
@@ -69,8 +70,8 @@ static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const do
     }
 }
 
-/* The task on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of corners that it
- * ends on. */
+/* The task on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of breakpoints that
+ * it ends on. */
 typedef int32_t (*move)(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides);
 
 static int32_t step_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
@@ -284,7 +285,7 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     s->sim->follower = NULL;
     dmb_sensitivity_settle(s, status < 0 && (step || !has_taken_the_last(s)));
     s->busy = 0;
-    (void)dmb_sensitivity_catch_up(s); /* a corner just reached; where it fails, the next call tells */
+    (void)dmb_sensitivity_catch_up(s); /* a breakpoint just reached; where it fails, the next call tells */
     if (status != DMB_OK || kinks_of(s) == kinks) return status;
     dmb_message_set(&s->sim->message,
                     "sensitivity: up to %g s contact, sticking, limit or bit differed between the sides of a parameter "

@@ -55,7 +55,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_state_space_options *given, 
     dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
     dmb_check_within(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 1e-6, 1.0);
     dmb_check_within(&check, "shift", out->shift, 0.0, 1e9);
-    dmb_check_count(&check, "input_count", inputs, 0, most);
+    dmb_check_count(&check, "excitation_count", inputs, 0, most);
     dmb_check_count(&check, "output_count", outputs, 0, most);
     return check.status < 0 ? check.status : check_modes(sim, out);
 }
@@ -98,7 +98,7 @@ static int32_t linearise(dmb_space_work *w)
 static void lay_out_work(dmb_arena *arena, dmb_space_work *w)
 {
     const size_t rows = w->linear->rows;
-    w->inputs = DMB_ARENA_ARRAY(arena, dmb_excitation, w->input_count);
+    w->inputs = DMB_ARENA_ARRAY(arena, dmb_linear_excitation, w->input_count);
     w->outputs = DMB_ARENA_ARRAY(arena, dmb_output_rows, w->output_count);
     w->input_state = DMB_ARENA_ARRAY(arena, uint32_t, w->input_count);
     w->work = DMB_ARENA_DOUBLES(arena, 8 * rows);
@@ -131,17 +131,17 @@ static int32_t take_work(dmb_space_work *w)
     return DMB_OK;
 }
 
-static int32_t take_inputs(dmb_space_work *w, const dmb_input *inputs)
+static int32_t take_inputs(dmb_space_work *w, const dmb_excitation *inputs)
 {
     for (uint32_t i = 0; i < w->input_count; i++) {
-        dmb_input input;
+        dmb_excitation input;
         int32_t status = dmb_input_take(inputs, i, &w->sim->message, &input);
         if (status >= 0) status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->inputs + i);
         if (status < 0) return status;
         if (w->inputs[i].law == DMB_EXCITE_INERTIA) {
             dmb_message_set(
                 &w->sim->message,
-                "input %u: kind = %d goes with the square of its frequency and is no input of a state space; "
+                "excitation %u: kind = %d goes with the square of its frequency and is no excitation of a state space; "
                 "ask dmb_analysis_response",
                 i, (int)input.kind);
             return DMB_ERR_UNSUPPORTED;
@@ -228,7 +228,7 @@ static void take_info(dmb_space_work *w)
     info->largest_force = w->linear->largest_force;
 }
 
-static int32_t run(dmb_space_work *w, const dmb_input *inputs, const dmb_output *outputs)
+static int32_t run(dmb_space_work *w, const dmb_excitation *inputs, const dmb_response_output *outputs)
 {
     int32_t status = linearise(w);
     if (status >= 0) status = take_work(w);
@@ -260,8 +260,8 @@ static void release(dmb_space_work *w)
     if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
 }
 
-static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options, const dmb_input *inputs,
-                       const dmb_output *outputs, dmb_state_space **space)
+static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options, const dmb_excitation *inputs,
+                       const dmb_response_output *outputs, dmb_state_space **space)
 {
     dmb_sim *sim = w->sim;
     int32_t status = take_options(sim, options, w->input_count, w->output_count, &w->options);
@@ -285,8 +285,8 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
     return status;
 }
 
-int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
-                                 uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_excitation *inputs,
+                                 uint32_t input_count, const dmb_response_output *outputs, uint32_t output_count,
                                  dmb_state_space **space)
 {
     if (space == NULL) return DMB_ERR_NULL;

@@ -12,8 +12,8 @@
  *                                                                                        (eq:response.state-space)
  *
  * A controller whose target is the input has the force (k_p u + k_i e) f, e' = u. An output is P d + S d' + T d'' +
- * F.f; forces of guides and constraints are linear in what the motion takes, r = M d'' + C d' + K d - f: a.r gives P +=
- * K^T a, S += C^T a, T += M^T a, F = -a. */
+ * F.f; forces of supports and constraints are linear in what the motion takes, r = M d'' + C d' + K d - f: a.r gives P
+ * += K^T a, S += C^T a, T += M^T a, F = -a. */
 #ifndef DMB_ANALYSIS_STATE_SPACE_STATE_SPACE_H
 #define DMB_ANALYSIS_STATE_SPACE_STATE_SPACE_H
 
@@ -61,7 +61,7 @@ struct dmb_state_space {
 /* An output as a linear function of the motion: P d + S d' + T d'' + F f, each shape (rows). */
 typedef struct dmb_output_rows {
     double *pose, *speed, *acceleration, *force;
-    uint32_t drive, bit; /* as of dmb_response_output */
+    uint32_t drive, bit; /* as of dmb_linear_output */
     double direct, integral;
     int32_t accelerates; /* 1: T is not 0 */
     int32_t reserved;
@@ -73,7 +73,7 @@ typedef struct dmb_space_work {
     dmb_linear *linear;
     dmb_dynamic_stiffness stiffness;
     dmb_state_space *space;
-    dmb_excitation *inputs;
+    dmb_linear_excitation *inputs;
     dmb_output_rows *outputs;
     uint32_t input_count, output_count;
     uint32_t *input_state; /* first state of each input, DMB_NONE: none, shape (inputs) */
@@ -83,7 +83,7 @@ typedef struct dmb_space_work {
 } dmb_space_work;
 
 /* Functionals of outputs, from those of a response. */
-int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_output *outputs);
+int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *outputs);
 /* The basis in space->shapes, with its count. */
 int32_t dmb_space_make_basis(dmb_space_work *w);
 /* Most shapes that a basis may have. */
@@ -94,6 +94,6 @@ int32_t dmb_space_fill(dmb_space_work *w);
  * dmb_linear_make. */
 int32_t dmb_space_note_turning(dmb_space_work *w, const dmb_linear_options *how);
 /* Number of extra states of an input. */
-uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_excitation *input);
+uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_linear_excitation *input);
 
 #endif

@@ -121,7 +121,7 @@ static int32_t add_statics(dmb_space_work *w)
     double *f = w->work + 2 * (size_t)rows;
     const int32_t status = w->input_count > 0 ? factor(w) : DMB_OK;
     for (uint32_t i = 0; i < w->input_count && status >= 0; i++) {
-        const dmb_excitation *e = w->inputs + i;
+        const dmb_linear_excitation *e = w->inputs + i;
         for (int kind = 2; kind >= 0 && e->law == DMB_EXCITE_MOTION; kind--) {
             dmb_sparse_times(&w->space->whole, kind, e->re, f);
             add_solution(w);

@@ -72,7 +72,7 @@ static int32_t fill_motion(dmb_space_work *w)
 
 /* ---- Inputs ------------------------------------------------------------------------------------------------------ */
 
-uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_excitation *input)
+uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_linear_excitation *input)
 {
     if (input->law == DMB_EXCITE_MOTION) return w->options.motion == DMB_MOTION_ACCELERATION ? 2 : 1;
     return input->law == DMB_EXCITE_CONTROL && input->integral_gain != 0.0;
@@ -80,7 +80,7 @@ uint32_t dmb_space_states_of(const dmb_space_work *w, const dmb_excitation *inpu
 
 static void fill_force(dmb_space_work *w, uint32_t i)
 {
-    const dmb_excitation *e = w->inputs + i;
+    const dmb_linear_excitation *e = w->inputs + i;
     const uint32_t r = count(w), rows = w->linear->rows, state = w->input_state[i];
     const double gain = e->law == DMB_EXCITE_CONTROL ? e->gain : 1.0;
     double *g = w->work + rows;
@@ -183,7 +183,7 @@ static void add_prescribed(const dmb_space_work *w, const dmb_output_rows *o, ui
 /* The force of an input that acts on what is asked, and a drive that is both. */
 static void add_direct(const dmb_space_work *w, const dmb_output_rows *o, uint32_t i, double *C, double *D)
 {
-    const dmb_excitation *e = w->inputs + i;
+    const dmb_linear_excitation *e = w->inputs + i;
     const uint32_t state = w->input_state[i];
     const int controls = e->law == DMB_EXCITE_CONTROL;
     if (e->law != DMB_EXCITE_MOTION) {
@@ -201,7 +201,7 @@ static int32_t refuse_rate(const dmb_space_work *w, uint32_t output, uint32_t in
 {
     dmb_message_set(
         &w->sim->message,
-        "state space: output %u feels the acceleration of the motion drive of input %u at once, which is the "
+        "state space: output %u feels the acceleration of the motion drive of excitation %u at once, which is the "
         "rate of its speed; set motion to DMB_MOTION_ACCELERATION, or ask for another output",
         output, input);
     return DMB_ERR_UNSUPPORTED;
@@ -255,30 +255,30 @@ int32_t dmb_space_fill(dmb_space_work *w)
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------- */
 
-/* Outputs by all rows. They are taken from the response: their functionals as they are, forces of guides and
+/* Outputs by all rows. They are taken from the response: their functionals as they are, forces of supports and
  * constraints by asking for their part of each row's force, a_r = -(output for a force of one on row r, nothing
  * moving). */
 
 /* a_r of one row. */
-static double share_of_row(dmb_space_work *w, const dmb_response_output *output, dmb_complex_array zeros,
+static double share_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
                            dmb_complex_array force, uint32_t row)
 {
-    const dmb_excitation none = {.drive = DMB_NONE, .bit = DMB_NONE};
+    const dmb_linear_excitation none = {.drive = DMB_NONE, .bit = DMB_NONE};
     force.re[row] = -1.0;
     const double value = dmb_response_output_value(&w->stiffness, output, &none, zeros, force).re;
     force.re[row] = 0.0;
     return value;
 }
 
-static void take_shares(dmb_space_work *w, const dmb_response_output *output, double *shares)
+static void take_shares(dmb_space_work *w, const dmb_linear_output *output, double *shares)
 {
     const dmb_scene *scene = &w->linear->scene;
     const size_t rows = w->linear->rows;
     const dmb_complex_array zeros = {w->work, w->work + rows};
     const dmb_complex_array force = {w->work + 2 * rows, w->work + 3 * rows};
     memset(w->work, 0, 4 * rows * sizeof(double));
-    for (uint32_t k = 0; k < output->guide_count; k++) {
-        const uint32_t row = dmb_held_row(scene, output->guide[k]);
+    for (uint32_t k = 0; k < output->support_count; k++) {
+        const uint32_t row = dmb_held_row(scene, output->support[k]);
         shares[row] = share_of_row(w, output, zeros, force, row);
     }
     if (output->cluster == DMB_NONE) return;
@@ -290,7 +290,7 @@ static void take_shares(dmb_space_work *w, const dmb_response_output *output, do
 }
 
 /* The functional and its rates: at most twice, of what goes by pose alone. */
-static void take_functional(const dmb_response_output *output, dmb_output_rows *out)
+static void take_functional(const dmb_linear_output *output, dmb_output_rows *out)
 {
     double *rates[5] = {out->pose, out->speed, out->acceleration, NULL, NULL};
     const dmb_functional *f = &output->functional;
@@ -301,7 +301,7 @@ static void take_functional(const dmb_response_output *output, dmb_output_rows *
     }
 }
 
-static void take_output(dmb_space_work *w, const dmb_response_output *output, dmb_output_rows *out)
+static void take_output(dmb_space_work *w, const dmb_linear_output *output, dmb_output_rows *out)
 {
     const dmb_sparse_rows *whole = &w->space->whole;
     const uint32_t rows = w->linear->rows;
@@ -311,7 +311,7 @@ static void take_output(dmb_space_work *w, const dmb_response_output *output, dm
     out->direct = output->direct;
     out->integral = output->integral;
     take_functional(output, out);
-    if (output->guide_count > 0 || output->cluster != DMB_NONE) {
+    if (output->support_count > 0 || output->cluster != DMB_NONE) {
         memset(shares, 0, rows * sizeof(double));
         take_shares(w, output, shares);
         dmb_sparse_add_transposed(whole, DMB_WHOLE_STIFFNESS, shares, out->pose);
@@ -322,17 +322,17 @@ static void take_output(dmb_space_work *w, const dmb_response_output *output, dm
     for (uint32_t r = 0; r < rows; r++) out->accelerates |= out->acceleration[r] != 0.0;
 }
 
-int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_output *outputs)
+int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *outputs)
 {
     dmb_response_options options = dmb_response_options_default();
     options.contact = w->options.contact;
     options.friction = w->options.friction;
     options.contact_gap = w->options.contact_gap;
     for (uint32_t i = 0; i < w->output_count; i++) {
-        dmb_response_output taken;
-        dmb_output output;
+        dmb_linear_output taken;
+        dmb_response_output output;
         int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
-        if (status >= 0) status = dmb_response_output_of(w->linear, &options, &output, i, &w->sim->message, &taken);
+        if (status >= 0) status = dmb_linear_output_of(w->linear, &options, &output, i, &w->sim->message, &taken);
         if (status < 0) return status;
         take_output(w, &taken, w->outputs + i);
     }

@@ -186,7 +186,7 @@ static void apply(void *context, const double *x, const double *Dx, double *y)
     dmb_solve_for(sim, y, y);
 }
 
-/* A displacement that random forces give, so that it is one that guides and joints allow. */
+/* A displacement that random forces give, so that it is one that supports and joints allow. */
 static void draw(void *context, uint64_t *seed, double *x)
 {
     dmb_sim *sim = context;
@@ -254,7 +254,7 @@ static void softest_metric(void *context, const double *x, double *y)
     across(s->sim, x, y);
 }
 
-/* K^-1 E guess, so that guides and joints allow it, the first time; random motions after that. */
+/* K^-1 E guess, so that supports and joints allow it, the first time; random motions after that. */
 static void softest_draw(void *context, uint64_t *seed, double *x)
 {
     softest *s = context;

@@ -18,7 +18,7 @@ typedef struct friction_field {
     double most;     /* largest |f| */
 } friction_field;
 
-static void add_ring(const dmb_evaluation *evaluation, uint32_t s, friction_field *field)
+static void add_stabiliser(const dmb_evaluation *evaluation, uint32_t s, friction_field *field)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     const uint32_t node = scene->sites[s].node;
@@ -54,7 +54,7 @@ static void fill_chain(const dmb_chain *chain, friction_field *field)
 static void gather_rings(const dmb_evaluation *evaluation, friction_field *field)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    for (uint32_t s = 0; s < scene->site_count; s++) add_ring(evaluation, s, field);
+    for (uint32_t s = 0; s < scene->site_count; s++) add_stabiliser(evaluation, s, field);
     for (uint32_t i = 0; i < scene->node_count; i++)
         for (int e = 0; field->rings[i] > 1 && e < ENTRIES; e++)
             field->E[ENTRIES * (size_t)i + (size_t)e] /= field->rings[i];

@@ -27,7 +27,7 @@ static void name_free_string(dmb_sim *sim, int32_t status)
         dmb_message string;
         if (is_held(scene, scene->strings + i, DMB_X)) continue;
         dmb_message_set(&sim->message,
-                        "static: %s: nothing holds it along its axis, give it a drive, a guide or a "
+                        "static: %s: nothing holds it along its axis, give it a drive, a support or a "
                         "joint; %s",
                         dmb_string_text(scene, i, &string), said.text);
         return;
@@ -134,15 +134,16 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
         owner = dmb_owner_of_node(sim->scene, search->block);
         dmb_message_set(&sim->message,
                         "static: %s: nothing holds it about its axis, and the torques on it sum to %g N m, must be 0: "
-                        "balance them, or give its RX a motion drive, guide, joint or spring",
+                        "balance them, or give its RX a motion drive, support, joint or spring",
                         owner.text.text, search->spins[search->unbalanced].torque);
     } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);
         const char *drive = controller(sim, 0, &text);
-        dmb_message_set(&sim->message,
-                        "static: %s: nothing holds it, the stiffness is singular: %s; give it a guide, drive, joint or "
-                        "spring%s",
-                        owner.text.text, way_out(sim->scene, search->block), drive != NULL ? drive : "");
+        dmb_message_set(
+            &sim->message,
+            "static: %s: nothing holds it, the stiffness is singular: %s; give it a support, drive, joint or "
+            "spring%s",
+            owner.text.text, way_out(sim->scene, search->block), drive != NULL ? drive : "");
     } else if (status == DMB_ERR_ROTATION) {
         owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
         const char *drive = controller(sim, 1, &text);
@@ -150,7 +151,7 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
                         "static: %s: relative rotation in one element above 2.5 rad: take more elements%s",
                         owner.text.text, drive != NULL ? drive : "");
     } else if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "static: the callback of a programme or constraint failed at time %g",
+        dmb_message_set(&sim->message, "static: the callback of a time function or constraint failed at time %g",
                         search->evaluation.time);
     } else {
         dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g%s",

@@ -76,7 +76,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
             sim->trial.acceleration[row] = sim->trial.acceleration[row + 1] = 0.0;
         }
     }
-    for (uint32_t i = 0; i < scene->held_count; i++) { /* a guide keeps its end from following a bend */
+    for (uint32_t i = 0; i < scene->held_count; i++) { /* a support keeps its end from following a bend */
         const uint32_t node = scene->held_node[i], row = scene->layout.row[node] + scene->held_component[i];
         sim->trial.velocity[row] = sim->trial.acceleration[row] = steady->frame_velocity[row] = 0.0;
     }

@@ -183,8 +183,8 @@ static int32_t check_ground(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Rows that guides hold, or drives move, are as fast as the whole lets them. */
-static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
+/* Rows that supports hold, or drives move, are as fast as the whole lets them. */
+static int32_t check_supports(dmb_evaluation *evaluation, dmb_steady *steady)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -201,7 +201,7 @@ static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
         const dmb_owner owner = dmb_owner_of_node(scene, node);
         return DMB_STEADY_REFUSE(
             sim,
-            "%s: its guide or drive holds body-frame component %u at a speed of %g, must be %g for "
+            "%s: its support or drive holds body-frame component %u at a speed of %g, must be %g for "
             "the whole to turn as one body; take DMB_STEADY_AT_REST",
             owner.text.text, c, held, speed);
     }
@@ -272,7 +272,7 @@ static int32_t try_kind(dmb_sim *sim, int32_t kind, dmb_steady *out)
     evaluation.time = sim->clock->time;
     evaluation.load_factor = 1.0;
     int32_t status = kind == DMB_STEADY_SLIDING ? dmb_steady_choose_sliding(sim, out) : choose_rigid(sim, out);
-    if (status >= 0 && kind == DMB_STEADY_RIGID) status = check_guides(&evaluation, out);
+    if (status >= 0 && kind == DMB_STEADY_RIGID) status = check_supports(&evaluation, out);
     return status < 0 ? status : dmb_steady_check_joints(out, &evaluation);
 }
 

@@ -103,7 +103,7 @@ static int is_driven(const dmb_scene *scene, uint32_t row)
     return 0;
 }
 
-/* A guide that holds a string where it slides or turns would squeeze or wind it up. */
+/* A support that holds a string where it slides or turns would squeeze or wind it up. */
 static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
 {
     dmb_message string;
@@ -116,7 +116,7 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
         if (speed == 0.0) continue;
         return DMB_STEADY_REFUSE(
             sim,
-            "%s: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
+            "%s: a support keeps it from %s, a drive moves it at %g, which is not steady; free the support, "
             "or take DMB_STEADY_AT_REST",
             dmb_string_text(scene, s, &string), c == 0 ? "sliding" : "turning", speed);
     }

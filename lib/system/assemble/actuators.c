@@ -113,7 +113,8 @@ void dmb_actuators_accept(const dmb_evaluation *evaluation)
     }
 }
 
-/* ---- Corners ----------------------------------------------------------------------------------------------------- */
+/* ---- Breakpoints
+ * ----------------------------------------------------------------------------------------------------- */
 
 #define DMB_JUMP_ROUNDING 1e-12 /* [-] of a command, that is none */
 
@@ -143,30 +144,30 @@ int32_t dmb_actuators_jump(const dmb_sim *sim)
     return 0;
 }
 
-/* [s] The first corner of a programme that is later than t when delayed. */
-static double programme_corner(const dmb_scene *scene, uint32_t programme, double delay, double t)
+/* [s] The first breakpoint of a time function that is later than t when delayed. */
+static double time_function_breakpoint(const dmb_scene *scene, uint32_t time_function, double delay, double t)
 {
-    double corner = t - delay;
-    if (programme == DMB_NONE) return (double)INFINITY;
-    for (int i = 0; i < 3; i++) { /* t - delay may be rounded to before a corner that has gone by */
-        corner = dmb_programme_next_corner(scene->programmes + programme, corner);
-        if (corner + delay > t) return corner + delay;
+    double breakpoint = t - delay;
+    if (time_function == DMB_NONE) return (double)INFINITY;
+    for (int i = 0; i < 3; i++) { /* t - delay may be rounded to before a breakpoint that has gone by */
+        breakpoint = dmb_time_function_next_breakpoint(scene->time_functions + time_function, breakpoint);
+        if (breakpoint + delay > t) return breakpoint + delay;
     }
     return (double)INFINITY;
 }
 
 /* A command set at the present time is in the line at the end of the step only. */
-static double jump_corner(const dmb_sim *sim, uint32_t i, const dmb_delay_line *line, double t)
+static double jump_breakpoint(const dmb_sim *sim, uint32_t i, const dmb_delay_line *line, double t)
 {
     const double delay = sim->scene->actuators[i].delay, now = sim->clock->time;
     const int set_now = line->value[DMB_DELAY_SAMPLES - 1] != dmb_actuator_flow_of(&sim->now, i)->command;
-    double corner = dmb_delay_next_jump(line, t - delay);
-    for (int k = 0; k < 2 && !(corner + delay > t); k++) corner = dmb_delay_next_jump(line, corner);
-    if (set_now && now + delay > t) corner = fmin(corner, now);
-    return corner + delay > t ? corner + delay : (double)INFINITY;
+    double breakpoint = dmb_delay_next_jump(line, t - delay);
+    for (int k = 0; k < 2 && !(breakpoint + delay > t); k++) breakpoint = dmb_delay_next_jump(line, breakpoint);
+    if (set_now && now + delay > t) breakpoint = fmin(breakpoint, now);
+    return breakpoint + delay > t ? breakpoint + delay : (double)INFINITY;
 }
 
-double dmb_actuators_next_corner(const dmb_sim *sim, double t)
+double dmb_actuators_next_breakpoint(const dmb_sim *sim, double t)
 {
     const dmb_scene *scene = sim->scene;
     double next = (double)INFINITY;
@@ -175,9 +176,9 @@ double dmb_actuators_next_corner(const dmb_sim *sim, double t)
         if (drive->actuator == DMB_NONE || !(law_of(sim, i)->delay > 0.0)) continue;
         const double delay = law_of(sim, i)->delay;
         const dmb_delay_line line = line_of(sim, law_of(sim, i));
-        next = fmin(next, jump_corner(sim, drive->actuator, &line, t));
-        next = fmin(next, programme_corner(scene, drive->programme, delay, t));
-        next = fmin(next, programme_corner(scene, drive->excitation, delay, t));
+        next = fmin(next, jump_breakpoint(sim, drive->actuator, &line, t));
+        next = fmin(next, time_function_breakpoint(scene, drive->time_function, delay, t));
+        next = fmin(next, time_function_breakpoint(scene, drive->excitation, delay, t));
     }
     return next;
 }

@@ -31,8 +31,8 @@ void dmb_actuators_take(dmb_sim *sim);
 int32_t dmb_actuators_may_jump(const dmb_scene *scene);
 /* 1: a delayed command jumps at the present time. */
 int32_t dmb_actuators_jump(const dmb_sim *sim);
-/* [s] The first corner of a delayed command later than t; INFINITY: none. */
-double dmb_actuators_next_corner(const dmb_sim *sim, double t);
+/* [s] The first breakpoint of a delayed command later than t; INFINITY: none. */
+double dmb_actuators_next_breakpoint(const dmb_sim *sim, double t);
 
 /* Linear analyses know motion and integrals of controllers; what an actuator does with a command beside them is in time
  * only. DMB_ERR_UNSUPPORTED with a message where a controller has one that is not direct; `driven`: where any drive has

@@ -9,9 +9,10 @@
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
 
-/* ---- Programmes, controllers and motion -------------------------------------------------------------------------- */
+/* ---- Time functions, controllers and motion
+ * -------------------------------------------------------------------------- */
 
-/* Target now: the caller's value, or the programme and its excitation. */
+/* Target now: the caller's value, or the time function and its excitation. */
 static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)
 {
     const dmb_scene *scene = sim->scene;
@@ -20,9 +21,9 @@ static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *va
     *rate = 0.0;
     *value = sim->drive_input[i];
     if (!isnan(*value)) return DMB_OK;
-    int32_t status = dmb_programme_value(scene->programmes + drive->programme, time, value, rate);
+    int32_t status = dmb_time_function_value(scene->time_functions + drive->time_function, time, value, rate);
     if (status >= 0 && drive->excitation != DMB_NONE)
-        status = dmb_programme_value(scene->programmes + drive->excitation, time, &extra, &extra_rate);
+        status = dmb_time_function_value(scene->time_functions + drive->excitation, time, &extra, &extra_rate);
     *value += extra;
     *rate += extra_rate;
     return status;
@@ -31,31 +32,31 @@ static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *va
 static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, double t0, double t1, double *travel)
 {
     double extra = 0.0;
-    int32_t status = dmb_programme_integral(sim->scene->programmes + drive->programme, t0, t1, travel);
+    int32_t status = dmb_time_function_integral(sim->scene->time_functions + drive->time_function, t0, t1, travel);
     if (status >= 0 && drive->excitation != DMB_NONE)
-        status = dmb_programme_integral(sim->scene->programmes + drive->excitation, t0, t1, &extra);
+        status = dmb_time_function_integral(sim->scene->time_functions + drive->excitation, t0, t1, &extra);
     *travel += extra;
     return status;
 }
 
-/* Slope of the target with which a step ends at the corner of a programme; the programme itself tells the one to
- * come. */
+/* Slope of the target with which a step ends at the breakpoint of a time function; the time function itself tells the
+ * one to come. */
 static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *rate)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
     double extra = 0.0;
-    int32_t status = dmb_programme_rate_before(sim->scene->programmes + drive->programme, time, rate);
+    int32_t status = dmb_time_function_rate_before(sim->scene->time_functions + drive->time_function, time, rate);
     if (status >= 0 && drive->excitation != DMB_NONE)
-        status = dmb_programme_rate_before(sim->scene->programmes + drive->excitation, time, &extra);
+        status = dmb_time_function_rate_before(sim->scene->time_functions + drive->excitation, time, &extra);
     *rate += extra;
     return status;
 }
 
-/* Slope of the target from the present time on: beyond the corner reached, also where that is an ulp later. */
+/* Slope of the target from the present time on: beyond the breakpoint reached, also where that is an ulp later. */
 static int32_t rate_to_come(const dmb_sim *sim, uint32_t i, double *rate)
 {
     double value;
-    return target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, rate);
+    return target_of(sim, i, fmax(sim->clock->time, sim->clock->breakpoint), &value, rate);
 }
 
 static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
@@ -67,8 +68,8 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     if (status < 0 || drive->kind != DMB_DRIVE_MOTION) return status;
     if (!(evaluation->step > 0.0))
         status = rate_to_come(sim, i, &rate);
-    else if (evaluation->corner > 0.0)
-        status = rate_before(sim, i, fmin(evaluation->time, evaluation->corner), &rate);
+    else if (evaluation->breakpoint > 0.0)
+        status = rate_before(sim, i, fmin(evaluation->time, evaluation->breakpoint), &rate);
     if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
     if (status < 0) return status;
     if (drive->joint != DMB_NONE) { /* its constraint moves the coordinate */
@@ -83,19 +84,20 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     return DMB_OK;
 }
 
-int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double corner)
+int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double breakpoint)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
-        const int32_t status = target_of(sim, i, fmax(time, corner), &value, &rate);
+        const int32_t status = target_of(sim, i, fmax(time, breakpoint), &value, &rate);
         if (status < 0) {
             dmb_message name;
-            dmb_message_set(&sim->message,
-                            "%s: callback of its programme failed or gave a value beyond +-1e30 at time %g, where it "
-                            "was asked for its rate from there on",
-                            dmb_drive_text(scene, i, &name), time);
+            dmb_message_set(
+                &sim->message,
+                "%s: callback of its time function failed or gave a value beyond +-1e30 at time %g, where it "
+                "was asked for its rate from there on",
+                dmb_drive_text(scene, i, &name), time);
             return status;
         }
         const int on_joint = scene->drives[i].joint != DMB_NONE;
@@ -106,11 +108,11 @@ int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double corner)
     return 0;
 }
 
-static int32_t factor_of(const dmb_scene *scene, uint32_t programme, double time, double *factor)
+static int32_t factor_of(const dmb_scene *scene, uint32_t time_function, double time, double *factor)
 {
     *factor = 1.0;
-    if (programme == DMB_NONE) return DMB_OK;
-    return dmb_programme_value(scene->programmes + programme, time, factor, NULL);
+    if (time_function == DMB_NONE) return DMB_OK;
+    return dmb_time_function_value(scene->time_functions + time_function, time, factor, NULL);
 }
 
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
@@ -120,7 +122,7 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = prescribe_drive(evaluation, i);
     for (uint32_t i = 0; i < scene->load_count && status >= 0; i++)
-        status = factor_of(scene, scene->loads[i].programme, evaluation->time, &sim->trial.load_factor[i]);
+        status = factor_of(scene, scene->loads[i].time_function, evaluation->time, &sim->trial.load_factor[i]);
     for (uint32_t i = 0; i < scene->bit_count && status >= 0; i++) {
         sim->trial.bit_load[i] = 0.0;
         if (scene->bits[i].load != DMB_NONE)

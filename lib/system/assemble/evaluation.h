@@ -16,8 +16,8 @@ typedef struct dmb_evaluation {
     dmb_sim *sim;           /* trial is read; work arrays are written */
     double time;            /* [s] of the trial */
     double step;            /* [s] from now to trial; 0 in statics */
-    double corner;          /* [s] of a programme, at which the step ends; 0: none */
-    double inside;          /* [s] of a programme, which the step is not divided at; 0: none */
+    double breakpoint;      /* [s] of a time function, at which the step ends; 0: none */
+    double inside;          /* [s] of a time function, which the step is not divided at; 0: none */
     double mass_factor;     /* [1/s2] d v'/d pose parameters (eq:integration.factors) */
     double velocity_factor; /* [1/s] d v/d pose parameters */
     double pseudo_factor;   /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */

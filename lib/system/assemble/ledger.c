@@ -66,7 +66,7 @@ void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
     dmb_ledger_take_forces(sim);
 }
 
-/* Half and half, or up to a corner inside, at which powers jump, and from there on. */
+/* Half and half, or up to a breakpoint inside, at which powers jump, and from there on. */
 static dmb_ledger_parts parts_of(const dmb_evaluation *evaluation)
 {
     dmb_ledger_parts parts = {0.5 * evaluation->step, 0.5 * evaluation->step};

@@ -282,7 +282,7 @@ void dmb_gather_flow(dmb_evaluation *evaluation)
     pull_along(evaluation, scene->strings[0].end_node, evaluation->load_factor * dmb_nozzle_thrust(&scene->flow));
 }
 
-/* Described loads: dead (world or hole frame) and follower (body frame), each times its programme. */
+/* Described loads: dead (world or hole frame) and follower (body frame), each times its time function. */
 
 static void frame_of_load(const dmb_sim *sim, const dmb_configuration *c, const dmb_scene_load *load, double R[9])
 {

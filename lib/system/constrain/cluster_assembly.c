@@ -1,5 +1,5 @@
 /* Joints closed at the start (lib/theory/joints.md). Rigid bodies move and strings do not; strings move, too, but as
- * rigid bodies within what their guides leave free; any node moves, which strains elements. Each begins with Newton's
+ * rigid bodies within what their supports leave free; any node moves, which strains elements. Each begins with Newton's
  * iteration in the coordinates of a partition; where redundant equations make that change its choice for ever,
  * Levenberg and Marquardt's goes on, which takes all equations at once. Before any element is strained, the same is
  * tried from where joints place the parts one after the other (cluster_placement), which closes chains and trees over

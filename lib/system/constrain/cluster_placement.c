@@ -8,8 +8,8 @@
  *     Q = R_a R* R^T R_a^T        d = R_a (p* - p)
  *
  * and the chain of a, if that of b is placed, by Q = R_b R*^T R R_b^T, d = R_b R*^T (p - p*). Starting from the ground
- * and from what several guides hold, then from what one guide holds, this closes every tree of joints over any distance
- * and rotation; joints that close loops remain. */
+ * and from what several supports hold, then from what one support holds, this closes every tree of joints over any
+ * distance and rotation; joints that close loops remain. */
 #include <math.h>
 #include <string.h>
 
@@ -169,9 +169,9 @@ static void motion_of(const dmb_sim *sim, const placing *by, dmb_rigid_motion *m
     for (int i = 0; i < 3; i++) motion->after[i] += motion->before[i] - x[i] + d[i];
 }
 
-#define DMB_GUIDE_ROUNDING 1e-9 /* [-] of the way, what of it counts as 0 */
+#define DMB_SUPPORT_ROUNDING 1e-9 /* [-] of the way, what of it counts as 0 */
 
-/* Whether guides of the chain's base allow the motion: the logarithm of the base's own is 0 where they hold. */
+/* Whether supports of the chain's base allow the motion: the logarithm of the base's own is 0 where they hold. */
 static int is_allowed(const dmb_sim *sim, const dmb_chain *chain, const dmb_rigid_motion *motion)
 {
     const dmb_scene *scene = sim->scene;
@@ -190,11 +190,11 @@ static int is_allowed(const dmb_sim *sim, const dmb_chain *chain, const dmb_rigi
     dmb_se3_log(turned, x, NULL, z);
     for (int c = 0; c < 6; c++) size = fmax(size, fabs(z[c]));
     for (int c = 0; c < 6; c++)
-        if (open[c] == 0.0 && fabs(z[c]) > DMB_GUIDE_ROUNDING * size) return 0;
+        if (open[c] == 0.0 && fabs(z[c]) > DMB_SUPPORT_ROUNDING * size) return 0;
     return 1;
 }
 
-/* The chain of frame b or a to where joint j holds; 0: it stays, because its guides do not allow that. */
+/* The chain of frame b or a to where joint j holds; 0: it stays, because its supports do not allow that. */
 static int place_by(dmb_sim *sim, uint32_t j, int of_b)
 {
     const dmb_scene *scene = sim->scene;

@@ -38,7 +38,7 @@
     X(force_def, 280)           \
     X(hole_point, 120)          \
     X(hole_section, 104)        \
-    X(input, 56)                \
+    X(excitation, 56)           \
     X(input_def, 88)            \
     X(input_info, 96)           \
     X(input_state, 40)          \
@@ -56,7 +56,7 @@
     X(motor, 32)                \
     X(operation, 40)            \
     X(order, 72)                \
-    X(output, 40)               \
+    X(response_output, 40)      \
     X(parameter, 56)            \
     X(path_options, 136)        \
     X(path_point, 56)           \
@@ -67,7 +67,7 @@
     X(profile_recorder, 48)     \
     X(recorder, 48)             \
     X(response_options, 72)     \
-    X(ring_def, 96)             \
+    X(stabiliser_def, 96)       \
     X(row, 32)                  \
     X(section, 104)             \
     X(sim_options, 96)          \
@@ -89,7 +89,7 @@
     X(stuck_state, 88)          \
     X(sub, 64)                  \
     X(sub_def, 56)              \
-    X(term, 96)                 \
+    X(segment, 96)              \
     X(torque_drag_options, 40)  \
     X(torque_drag_row, 128)     \
     X(wall_def, 184)            \

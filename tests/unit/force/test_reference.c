@@ -71,18 +71,18 @@ static void ramp_and_jump(void **state)
     assert_true(fabs(dmb_reference_arrival(&ramp) - 3.5) < 1e-15);
     assert_true(value_at(&ramp, 3.25) == 0.0 && rate_at(&ramp, 3.0) == -4.0 && rate_at(&ramp, 3.5) == 0.0);
     assert_true(dmb_reference_rate_before(&ramp, 3.5) == -4.0 && dmb_reference_rate_before(&ramp, 3.0) == 0.0);
-    assert_true(dmb_reference_next_corner(&ramp, 3.0) == 3.5 && isinf(dmb_reference_next_corner(&ramp, 3.5)));
+    assert_true(dmb_reference_next_breakpoint(&ramp, 3.0) == 3.5 && isinf(dmb_reference_next_breakpoint(&ramp, 3.5)));
     assert_true(value_at(&jump, 3.0) == -1.0 && rate_at(&jump, 3.0) == 0.0);
-    assert_true(isinf(dmb_reference_next_corner(&jump, 0.0)));
+    assert_true(isinf(dmb_reference_next_breakpoint(&jump, 0.0)));
     assert_true(value_at(&jump, 2.9) == 1.0);
 }
 
-/* Simpson between corners is exact for the cubics and parabolas at hand. */
+/* Simpson between breakpoints is exact for the cubics and parabolas at hand. */
 static double simpson(const dmb_reference *r, double a, double b)
 {
     double sum = 0.0;
     while (a < b) {
-        const double end = fmin(b, fmax(dmb_reference_next_corner(r, a), a + 1e-9)), h = end - a;
+        const double end = fmin(b, fmax(dmb_reference_next_breakpoint(r, a), a + 1e-9)), h = end - a;
         sum += h / 6.0 * (value_at(r, a) + 4.0 * value_at(r, a + 0.5 * h) + value_at(r, end));
         a = end;
     }

@@ -123,8 +123,8 @@ static void open_rubbing(rig *s)
     dmb_wall_def wall = s1_hole();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_STEP;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.3;
     term.h1 = 6.0;
     wall.friction_law = DMB_FRICTION_COULOMB;
@@ -136,7 +136,7 @@ static void open_rubbing(rig *s)
     pipe.damping_time = 1e-4;
     const dmb_id id = add_string(s, &string);
     (void)add_pipes(s, &pipe, 8);
-    (void)add_simple_drive(s, DMB_DRIVE_MOTION, id, DMB_RX, add_programme(s, &term, 1));
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, id, DMB_RX, add_time_function(s, &term, 1));
     (void)rig_start(s, NULL);
     (void)find_equilibrium(s, NULL);
 }
@@ -161,17 +161,17 @@ static void waves_are_not(void **state)
 {
     dmb_pipe_def pipe = s1_pipe();
     dmb_string_def string = dmb_string_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig s;
     (void)state;
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.05;
     term.h1 = 6.0;
     rig_open(&s, 0.0, 0.0, 0.0);
     string.start_free = DMB_FREE_RX;
     const dmb_id id = add_string(&s, &string);
     (void)add_pipes(&s, &pipe, 40);
-    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_RX, add_programme(&s, &term, 1));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_RX, add_time_function(&s, &term, 1));
     (void)rig_start(&s, NULL);
     CHECK_CLOSE(iterations_of(&s, 1e-3, 200, 0), 1.0, 0.05);
     assert_int_equal(s.sim->prediction->back_off, DMB_PAUSE_MAX);

@@ -40,18 +40,18 @@ static dmb_body_def spinning_body(void)
 }
 
 /* On a joint that holds nothing, so that all its rows are unknowns; gravity. */
-static rig open_spinning(int guided)
+static rig open_spinning(int supportd)
 {
     rig s;
     dmb_body_def body = spinning_body();
     rig_open(&s, 1.0, -3.0, -9.81);
-    if (guided) {
+    if (supportd) {
         body.free_mask = DMB_FREE_SPHERICAL;
         memset(body.velocity, 0, 3 * sizeof(double));
         for (int i = 0; i < 3; i++) body.centre[i] = 0.25 * e[i];
     }
     const dmb_id id = add_body(&s, &body);
-    if (!guided) (void)add_joint_between(&s, DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
+    if (!supportd) (void)add_joint_between(&s, DMB_JOINT_FREE, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
     assert_true(rig_start(&s, NULL) >= 0);
     return s;
 }
@@ -97,13 +97,13 @@ static void matrix_by_differences(dmb_sim *sim, const double z[ROWS], double out
 static void matrix_is_the_derivative_by_the_increments(void **state)
 {
     (void)state;
-    for (int guided = 0; guided < 2; guided++) {
-        rig s = open_spinning(guided);
+    for (int supportd = 0; supportd < 2; supportd++) {
+        rig s = open_spinning(supportd);
         const double z[ROWS] = {0.02, -0.03, 0.01, 0.2, -0.1, 0.15};
         double want[ROWS][ROWS], worst = 0.0;
         dmb_attempt attempt;
         assert_int_equal(s.sim->scene->rotor_count, 1);
-        assert_int_equal(s.sim->scene->cluster_count, !guided);
+        assert_int_equal(s.sim->scene->cluster_count, !supportd);
         matrix_by_differences(s.sim, z, want);
         memset(&attempt, 0, sizeof attempt);
         evaluate_at(s.sim, z, 1, &attempt);
@@ -114,7 +114,7 @@ static void matrix_is_the_derivative_by_the_increments(void **state)
                 const double right = held ? (i == j ? 1.0 : 0.0) : want[i][j];
                 worst = fmax(worst, fabs(s.sim->stiffness_diagonal[ROWS * i + j] - right));
             }
-        check_below(guided ? "iteration matrix, on a fixed point" : "iteration matrix, free to move",
+        check_below(supportd ? "iteration matrix, on a fixed point" : "iteration matrix, free to move",
                     worst / largest((size_t)ROWS * ROWS, want[0]), 1e-9);
         rig_close(&s);
     }

@@ -49,7 +49,7 @@ static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
 {
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def turn = dmb_drive_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig s;
     rig_open(&s, 9.81, 0.0, 0.0);
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
@@ -59,11 +59,11 @@ static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
     add_pipes(&s, &pipe, 2);
     pipe.kind = DMB_PIPE_FLEXIBLE;
     if (flexible) add_pipes(&s, &pipe, flexible);
-    term.kind = DMB_TERM_STEP;
+    term.kind = DMB_SEGMENT_STEP;
     term.x1 = 0.02;
     term.h1 = 10.0;
     turn.component = DMB_RX;
-    turn.programme = add_programme(&s, &term, 1);
+    turn.time_function = add_time_function(&s, &term, 1);
     add_drive(&s, &turn);
     rig_start(&s, NULL);
     use_lanes(&s, lanes);

@@ -70,10 +70,10 @@ static inline dmb_id add_wall(dmb_model *model)
 
 static inline dmb_id add_constant(dmb_model *model, double value)
 {
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     dmb_id id = {0, 0};
     term.h0 = value;
-    assert_ok(dmb_model_add_programme(model, &term, 1, &id));
+    assert_ok(dmb_model_add_time_function(model, &term, 1, &id));
     return id;
 }
 

@@ -54,7 +54,7 @@ static void no_string_to_belong_to(void **state)
     model = new_model();
     body.attach = DMB_ATTACH_NONE;
     assert_ok(dmb_model_add_body(model, &body, NULL));
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     expect_refusal(model, DMB_ERR_ID, "drive 0", "first string");
 }
@@ -188,18 +188,18 @@ static void drives_that_do_not_fit(void **state)
     dmb_body_def body = dmb_body_def_default();
     dmb_model *model = with_pipes(1);
     (void)state;
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     drive.component = DMB_Y;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     expect_refusal(model, DMB_ERR_VALUE, "drive 0", "component = 1");
     model = with_pipes(1);
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     drive.component = DMB_RX;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     expect_refusal(model, DMB_ERR_VALUE, "drive 1", "one MOTION drive");
     model = with_pipes(1); /* a force beside the motion is fine */
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     drive.kind = DMB_DRIVE_LOAD;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
@@ -207,7 +207,7 @@ static void drives_that_do_not_fit(void **state)
     dmb_model_destroy(&model);
     model = with_pipes(1);
     body.attach = DMB_ATTACH_END;
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_body(model, &body, &drive.part));
     assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_model_message(model), "body 0"));
@@ -225,7 +225,7 @@ static void drive_sideways_on_a_path_node(void **state)
     assert_ok(dmb_model_add_string(model, &string, NULL));
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     add_pipes(model, &pipe, 1);
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     drive.component = DMB_Z;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     expect_refusal(model, DMB_ERR_VALUE, "drive 0", "component = 2");

@@ -7,7 +7,7 @@
     X(dmb_allocator)       \
     X(dmb_model_options)   \
     X(dmb_environment_def) \
-    X(dmb_term)            \
+    X(dmb_segment)         \
     X(dmb_wall_def)        \
     X(dmb_string_def)      \
     X(dmb_pipe_def)        \
@@ -67,11 +67,11 @@ static void sizes(void **state)
 static void surroundings(void **state)
 {
     const dmb_environment_def e = dmb_environment_def_default();
-    const dmb_term t = dmb_term_default();
+    const dmb_segment t = dmb_segment_default();
     (void)state;
     assert_near(e.gravity[2], -9.81, 0.0);
     assert_near(e.fluid_density + e.lateral_damping + e.axial_damping + e.torsional_damping, 0.0, 0.0);
-    assert_int_equal(t.kind, DMB_TERM_CONSTANT);
+    assert_int_equal(t.kind, DMB_SEGMENT_CONSTANT);
     assert_near(t.x0, 0.0, 0.0);
     assert_near(t.x1, 1.0, 0.0);
     assert_near(t.h0 + t.h1 + t.omega + t.phase, 0.0, 0.0);

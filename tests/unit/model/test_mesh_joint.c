@@ -445,7 +445,7 @@ static void all_kinds(void **state)
     coupling.component[1] = DMB_X;
     coupling.ratio = -2.0;
     assert_ok(dmb_model_add_coupling(model, &coupling, NULL));
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     drive.part = joint[0];
     drive.component = DMB_RX;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
@@ -485,7 +485,7 @@ static void plain_string(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     (void)state;
     add_string(model, 0.0, 0.0, 0.0, 10, 2, 0.0);
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     const dmb_scene *scene = compiled(model);
     assert_int_equal(scene->cluster_count + scene->constraint_count + scene->joint_count + scene->reduced_count, 0);

@@ -141,7 +141,7 @@ static void two_motions_of_a_coordinate(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     (void)state;
     joint.kind = DMB_JOINT_CYLINDRICAL;
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_joint(model, &joint, &drive.part));
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     drive.component = DMB_RX;

@@ -339,7 +339,7 @@ static void what_is_left_out_is_not_there(void **state)
     pipe.damping_time = 1e-4;
     pipe.eccentricity = 1e-3;
     add_pipes(model, &pipe, 4);
-    drive.programme = drive.excitation = add_constant(model, 1.0);
+    drive.time_function = drive.excitation = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     bit.rock_law = DMB_ROCK_REGENERATIVE;
     assert_ok(dmb_model_add_bit(model, &bit, NULL));

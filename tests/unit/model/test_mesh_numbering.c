@@ -18,7 +18,7 @@ static void reference_scene(void **state)
     head.mass = 200.0;
     assert_ok(dmb_model_add_body(model, &head, NULL));
     assert_ok(dmb_model_add_bit(model, &bit, NULL));
-    drive.programme = add_constant(model, 0.01);
+    drive.time_function = add_constant(model, 0.01);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     drive.component = DMB_RX;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
@@ -30,9 +30,9 @@ static void reference_scene(void **state)
     assert_int_equal(info.nodes, 101);
     assert_int_equal(info.elements, 100);
     assert_int_equal(info.structural_joints, 101);
-    assert_int_equal(info.degrees_of_freedom, 600); /* 606 less a guide of 4 and two drives */
+    assert_int_equal(info.degrees_of_freedom, 600); /* 606 less a support of 4 and two drives */
     assert_int_equal(info.prescribed, 2);
-    assert_int_equal(info.contact_sites, 101); /* pipe ends but the guided one, and the bit */
+    assert_int_equal(info.contact_points, 101); /* pipe ends but the guided one, and the bit */
     assert_int_equal(info.model_bytes, scene->bytes);
     assert_true(info.sim_bytes > 0);
     assert_near(info.length, 100.0, 1e-15);
@@ -104,7 +104,7 @@ static void rigid_string_is_one_node(void **state)
     assert_int_equal(scene->batch_count, 0);
     assert_int_equal(scene->rigid_count, 1);
     assert_int_equal(scene->structural_joint_count, 30);
-    assert_int_equal(scene->free_count, 2); /* the guide of the rig end holds it all */
+    assert_int_equal(scene->free_count, 2); /* the support of the rig end holds it all */
     assert_near(scene->length_scale, 1.0, 0.0);
     assert_near(scene->strings[0].start_arm, 0.0, 0.0);
     assert_near(scene->strings[0].end_arm, 45.0, 1e-15);
@@ -173,7 +173,7 @@ static void mixed_string(void **state)
     dmb_model_destroy(&model);
 }
 
-/* A guide that acts at a point needs the node there. */
+/* A support that acts at a point needs the node there. */
 static void pinned_ends_have_their_node(void **state)
 {
     dmb_model *model = mixed_model(DMB_FREE_SPHERICAL, DMB_FREE_RZ);
@@ -227,7 +227,7 @@ static void driven_sideways_has_its_node(void **state)
     pipe.kind = DMB_PIPE_FLEXIBLE;
     add_pipes(model, &pipe, 2);
     drive.component = DMB_Z;
-    drive.programme = add_constant(model, 0.1);
+    drive.time_function = add_constant(model, 0.1);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     scene = compiled(model);
     assert_near(scene->strings[0].start_arm, 0.0, 0.0);
@@ -287,7 +287,7 @@ static void path_string_and_its_drives(void **state)
     const dmb_scene *scene;
     (void)state;
     add_pipes(model, &pipe, 4);
-    drive.programme = add_constant(model, 0.1);
+    drive.time_function = add_constant(model, 0.1);
     drive.component = DMB_RX;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     drive.component = DMB_X;
@@ -380,7 +380,7 @@ static void loads_find_pipe_ends(void **state)
         load.force[0] = (double)i;
         assert_ok(dmb_model_add_load(model, &load, NULL));
     }
-    load.programme = add_constant(model, 2.0);
+    load.time_function = add_constant(model, 2.0);
     load.place = dmb_station(bit_id, 0, 0.0);
     assert_ok(dmb_model_add_load(model, &load, NULL));
     load.place = dmb_station(body_id, 0, 0.0);
@@ -390,11 +390,11 @@ static void loads_find_pipe_ends(void **state)
         assert_int_equal(scene->loads[i].node, ends[i].node);
         assert_close(scene->loads[i].arm, ends[i].arm, 0.0);
         assert_near(scene->loads[i].force[0], (double)i, 0.0);
-        assert_int_equal(scene->loads[i].programme, DMB_NONE);
+        assert_int_equal(scene->loads[i].time_function, DMB_NONE);
     }
     assert_int_equal(scene->loads[10].node, 5);
     assert_near(scene->loads[10].arm, 1.5, 0.0);
-    assert_int_equal(scene->loads[10].programme, 0);
+    assert_int_equal(scene->loads[10].time_function, 0);
     assert_int_equal(scene->loads[11].node, 0);
     assert_near(scene->loads[11].arm, -3.0, 0.0);
     dmb_model_destroy(&model);
@@ -450,7 +450,7 @@ static void free_body_masks_and_drives(void **state)
     assert_ok(dmb_model_add_body(model, &body, NULL));
     assert_ok(dmb_model_add_body(model, &body, &drive.part));
     drive.component = DMB_RY;
-    drive.programme = add_constant(model, 1.0);
+    drive.time_function = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     scene = compiled(model);
     assert_int_equal(scene->node_count, 2);

@@ -67,7 +67,7 @@ static void places_do_not_depend_on_the_kind(void **state)
     }
 }
 
-static void guided_rig_end_has_none(void **state)
+static void supportd_rig_end_has_none(void **state)
 {
     static const struct {
         int32_t mask;
@@ -88,7 +88,7 @@ static void guided_rig_end_has_none(void **state)
     }
 }
 
-/* A rigid string on a spherical guide tilts: all its places but the guided one move sideways. */
+/* A rigid string on a spherical support tilts: all its places but the guided one move sideways. */
 static void tilting_body(void **state)
 {
     dmb_model *model = new_model();
@@ -107,8 +107,8 @@ static void tilting_body(void **state)
     dmb_model_destroy(&model);
 }
 
-/* A whole rigid string in a cylindrical guide cannot reach the wall. */
-static void guided_rigid_string_has_none(void **state)
+/* A whole rigid string in a cylindrical support cannot reach the wall. */
+static void supportd_rigid_string_has_none(void **state)
 {
     dmb_model *model = new_model();
     const dmb_pipe_def pipe = s1_pipe();
@@ -240,9 +240,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(lengths_add_up),
         TEST(places_do_not_depend_on_the_kind),
-        TEST(guided_rig_end_has_none),
+        TEST(supportd_rig_end_has_none),
         TEST(tilting_body),
-        TEST(guided_rigid_string_has_none),
+        TEST(supportd_rigid_string_has_none),
         TEST(largest_diameter_touches),
         TEST(rings_of_bodies_and_bits_come_last),
         TEST(path_nodes_rub),

@@ -42,7 +42,7 @@ static void wrong_handles(void **state)
     struct dmb_model other;
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     const dmb_wall_def wall = dmb_wall_def_default();
-    const dmb_term term = dmb_term_default();
+    const dmb_segment term = dmb_segment_default();
     dmb_model_info info = dmb_model_info_default();
     dmb_model *pointer = &other;
     (void)state;
@@ -50,7 +50,7 @@ static void wrong_handles(void **state)
     other.magic = DMB_HANDLE_DEAD;
     assert_int_equal(dmb_model_add_pipes(pointer, &pipe, 1, NULL), DMB_ERR_HANDLE);
     assert_int_equal(dmb_model_add_wall(pointer, &wall, NULL), DMB_ERR_HANDLE);
-    assert_int_equal(dmb_model_add_programme(pointer, &term, 1, NULL), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_model_add_time_function(pointer, &term, 1, NULL), DMB_ERR_HANDLE);
     assert_int_equal(dmb_model_compile(pointer, NULL), DMB_ERR_HANDLE);
     assert_int_equal(dmb_model_get_info(pointer, &info), DMB_ERR_HANDLE);
     assert_string_equal(dmb_model_message(pointer), dmb_status_text(DMB_ERR_HANDLE));
@@ -66,7 +66,7 @@ static void null_definitions(void **state)
     dmb_model *model = new_model();
     (void)state;
     assert_int_equal(dmb_model_set_environment(model, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_model_add_programme(model, NULL, 1, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_model_add_time_function(model, NULL, 1, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_model_add_wall(model, NULL, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_model_add_string(model, NULL, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_model_add_pipes(model, NULL, 1, NULL), DMB_ERR_NULL);
@@ -131,7 +131,7 @@ static void compiled_is_frozen(void **state)
     dmb_model *model = new_model();
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     const dmb_wall_def wall = dmb_wall_def_default();
-    const dmb_term term = dmb_term_default();
+    const dmb_segment term = dmb_segment_default();
     const dmb_environment_def environment = dmb_environment_def_default();
     dmb_model_info info = dmb_model_info_default();
     const dmb_scene *scene;
@@ -144,7 +144,7 @@ static void compiled_is_frozen(void **state)
     assert_non_null(strstr(said, "compiled: 2 nodes, 1 elements"));
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_ERR_ORDER);
     assert_int_equal(dmb_model_add_wall(model, &wall, NULL), DMB_ERR_ORDER);
-    assert_int_equal(dmb_model_add_programme(model, &term, 1, NULL), DMB_ERR_ORDER);
+    assert_int_equal(dmb_model_add_time_function(model, &term, 1, NULL), DMB_ERR_ORDER);
     assert_int_equal(dmb_model_set_environment(model, &environment), DMB_ERR_ORDER);
     assert_int_equal(dmb_model_compile(model, NULL), DMB_ERR_ORDER);
     assert_ptr_equal(model->scene, scene);
@@ -190,20 +190,20 @@ static void arrays_are_copied(void **state)
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     double survey[] = {0.0, 1.5, 0.0, 50.0, 1.2, 0.1}, times[] = {0.0, 1.0, 2.0}, values[] = {5.0, 6.0, 7.0};
     dmb_wall_def wall = dmb_wall_def_default();
-    dmb_term terms[2];
+    dmb_segment terms[2];
     const dmb_scene *scene;
     (void)state;
     wall.survey = survey;
     wall.survey_count = 2;
     assert_ok(dmb_model_add_wall(model, &wall, NULL));
-    terms[0] = dmb_term_default();
+    terms[0] = dmb_segment_default();
     terms[0].h0 = 100.0;
-    terms[1] = dmb_term_default();
-    terms[1].kind = DMB_TERM_TABLE;
+    terms[1] = dmb_segment_default();
+    terms[1].kind = DMB_SEGMENT_TABLE;
     terms[1].table_time = times;
     terms[1].table_value = values;
     terms[1].table_count = 3;
-    assert_ok(dmb_model_add_programme(model, terms, 2, NULL));
+    assert_ok(dmb_model_add_time_function(model, terms, 2, NULL));
     memset(survey, 0xFF, sizeof survey);
     memset(times, 0xFF, sizeof times);
     memset(values, 0xFF, sizeof values);
@@ -211,9 +211,9 @@ static void arrays_are_copied(void **state)
     add_pipes(model, &pipe, 20);
     scene = compiled(model);
     double value = 0.0;
-    assert_ok(dmb_programme_value(&scene->programmes[0], 1.5, &value, NULL));
+    assert_ok(dmb_time_function_value(&scene->time_functions[0], 1.5, &value, NULL));
     assert_near(value, 106.5, 1e-15);
-    assert_int_equal(scene->programme_count, 1);
+    assert_int_equal(scene->time_function_count, 1);
     assert_int_equal(scene->hole.stations, 2);
     assert_near(scene->hole.station[1].depth, 50.0, 0.0);
     dmb_model_destroy(&model);
@@ -224,26 +224,26 @@ static void terms_of_another_size(void **state)
 {
     dmb_model *model = new_model();
     struct {
-        dmb_term term;
+        dmb_segment term;
         double more;
     } terms[2];
     dmb_id id = {0, 0};
     double value = 0.0;
     (void)state;
     for (int i = 0; i < 2; ++i) {
-        assert_ok(dmb_term_init(&terms[i].term, (uint32_t)sizeof terms[i]));
+        assert_ok(dmb_segment_init(&terms[i].term, (uint32_t)sizeof terms[i]));
         terms[i].term.h0 = 1.0 + i;
     }
-    assert_ok(dmb_model_add_programme(model, &terms[0].term, 2, &id));
-    assert_ok(dmb_programme_value(DMB_LIST_AT(dmb_programme, model->programmes, 0), 0.0, &value, NULL));
+    assert_ok(dmb_model_add_time_function(model, &terms[0].term, 2, &id));
+    assert_ok(dmb_time_function_value(DMB_LIST_AT(dmb_time_function, model->time_functions, 0), 0.0, &value, NULL));
     assert_near(value, 3.0, 0.0);
     terms[1].more = 4.0; /* something this library does not know */
-    assert_int_equal(dmb_model_add_programme(model, &terms[0].term, 2, &id), DMB_ERR_STRUCT_SIZE);
+    assert_int_equal(dmb_model_add_time_function(model, &terms[0].term, 2, &id), DMB_ERR_STRUCT_SIZE);
     terms[1].more = 0.0;
-    terms[1].term.struct_size = sizeof(dmb_term);
-    assert_int_equal(dmb_model_add_programme(model, &terms[0].term, 2, &id), DMB_ERR_STRUCT_SIZE);
+    terms[1].term.struct_size = sizeof(dmb_segment);
+    assert_int_equal(dmb_model_add_time_function(model, &terms[0].term, 2, &id), DMB_ERR_STRUCT_SIZE);
     assert_true(strlen(dmb_model_message(model)) > 0);
-    assert_int_equal(model->programmes.count, 1);
+    assert_int_equal(model->time_functions.count, 1);
     dmb_model_destroy(&model);
 }
 
@@ -251,15 +251,15 @@ static void terms_of_another_size(void **state)
 static void unused_fields_are_forgotten(void **state)
 {
     dmb_model *model = new_model();
-    dmb_term term = dmb_term_default();
-    const dmb_term *kept;
+    dmb_segment term = dmb_segment_default();
+    const dmb_segment *kept;
     const double number = 1.0;
     (void)state;
     term.table_time = term.table_value = &number;
     term.table_count = 1000;
     term.callback_context = &term;
-    assert_ok(dmb_model_add_programme(model, &term, 1, NULL));
-    kept = DMB_LIST_AT(dmb_programme, model->programmes, 0)->terms;
+    assert_ok(dmb_model_add_time_function(model, &term, 1, NULL));
+    kept = DMB_LIST_AT(dmb_time_function, model->time_functions, 0)->segments;
     assert_null(kept->table_time);
     assert_null(kept->table_value);
     assert_null(kept->callback_context);

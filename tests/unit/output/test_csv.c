@@ -16,7 +16,7 @@
 #include "drillmbd/names.h"
 #include "drillmbd/query.h"
 
-enum { ROWS = 6, CHANNELS = 3, WIDTH = 1 + CHANNELS };
+enum { ROWS = 6, OUTPUTS = 3, WIDTH = 1 + OUTPUTS };
 
 static const double values[ROWS * WIDTH] = {
     0.0,
@@ -45,7 +45,7 @@ static const double values[ROWS * WIDTH] = {
     9007199254740993.0,
 };
 
-static dmb_channel channels[CHANNELS];
+static dmb_output outputs[OUTPUTS];
 static double table[ROWS * WIDTH];
 
 static dmb_recorder recorder(void)
@@ -53,14 +53,14 @@ static dmb_recorder recorder(void)
     dmb_recorder r = dmb_recorder_default();
     const dmb_id string = {3u << 24, 1}, drive = {6u << 24 | 2u, 1};
     memcpy(table, values, sizeof table);
-    memset(channels, 0, sizeof channels);
-    channels[0].place = dmb_station(string, 99, 0.5);
-    channels[0].quantity = DMB_CHANNEL_VELOCITY_Z;
-    channels[1].place = dmb_station(drive, 0, 0.0);
-    channels[1].quantity = DMB_CHANNEL_DRIVE_FORCE;
-    channels[2].quantity = DMB_CHANNEL_ENERGY_ERROR;
-    r.channel_count = CHANNELS;
-    r.channels = channels;
+    memset(outputs, 0, sizeof outputs);
+    outputs[0].place = dmb_station(string, 99, 0.5);
+    outputs[0].quantity = DMB_OUTPUT_VELOCITY_Z;
+    outputs[1].place = dmb_station(drive, 0, 0.0);
+    outputs[1].quantity = DMB_OUTPUT_DRIVE_FORCE;
+    outputs[2].quantity = DMB_OUTPUT_ENERGY_ERROR;
+    r.output_count = OUTPUTS;
+    r.outputs = outputs;
     r.table = table;
     r.capacity = r.row_count = ROWS;
     return r;
@@ -135,7 +135,7 @@ static void header_has_a_word_for_each_kind(void **state)
     (void)state;
     static char text[1 << 16];
     const char *const words[32] = {
-        [DMB_PART_PROGRAMME] = "programme",
+        [DMB_PART_TIME_FUNCTION] = "time_function",
         [DMB_PART_WALL] = "wall",
         [DMB_PART_STRING] = "string",
         [DMB_PART_BODY] = "body",
@@ -147,7 +147,7 @@ static void header_has_a_word_for_each_kind(void **state)
         [DMB_PART_CONSTRAINT] = "constraint",
         [DMB_PART_SPRING] = "spring",
         [DMB_PART_FORCE] = "force",
-        [DMB_PART_RING] = "ring",
+        [DMB_PART_STABILISER] = "stabiliser",
         [DMB_PART_STUCK] = "stuck",
         [DMB_PART_INPUT] = "input",
         [DMB_PART_EVENT] = "event",
@@ -157,7 +157,7 @@ static void header_has_a_word_for_each_kind(void **state)
         char *name = temporary(), expected[64];
         const dmb_id part = {kind << 24 | 7u, 1};
         r.row_count = 0;
-        channels[1].place.part = part;
+        outputs[1].place.part = part;
         assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
         read_back(name, text, sizeof text);
         snprintf(expected, sizeof expected, ",drive_force %s 7 ", words[kind] != NULL ? words[kind] : "part");
@@ -202,13 +202,13 @@ static void bad_recorders_are_refused(void **state)
     dmb_recorder r = recorder();
     assert_int_equal(dmb_recorder_write_csv(NULL, "x"), DMB_ERR_NULL);
     assert_int_equal(dmb_recorder_write_csv(&r, NULL), DMB_ERR_NULL);
-    r.channels = NULL;
+    r.outputs = NULL;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
     r = recorder(), r.table = NULL;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
-    r = recorder(), r.channel_count = 0;
+    r = recorder(), r.output_count = 0;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
-    r = recorder(), r.channel_count = 4097;
+    r = recorder(), r.output_count = 4097;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
     r = recorder(), r.row_count = ROWS + 1;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);

@@ -8,7 +8,7 @@
 typedef struct subject {
     rig s;
     dmb_id string, body;
-    dmb_channel channels[2];
+    dmb_output outputs[2];
     int32_t quantities[2];
     double table[64];
     dmb_recorder rows;
@@ -28,11 +28,11 @@ static void open_subject(subject *c)
     body.position[1] = 3.0;
     c->body = add_body(&c->s, &body);
     (void)rig_start(&c->s, NULL);
-    c->channels[0] = (dmb_channel){dmb_station(c->string, 0, 0.5), DMB_CHANNEL_POSITION_X, 0};
-    c->channels[1] = (dmb_channel){dmb_station(c->body, 0, 0.0), DMB_CHANNEL_VELOCITY_Z, 0};
+    c->outputs[0] = (dmb_output){dmb_station(c->string, 0, 0.5), DMB_OUTPUT_POSITION_X, 0};
+    c->outputs[1] = (dmb_output){dmb_station(c->body, 0, 0.0), DMB_OUTPUT_VELOCITY_Z, 0};
     c->rows = dmb_recorder_default();
-    c->rows.channels = c->channels;
-    c->rows.channel_count = 2;
+    c->rows.outputs = c->outputs;
+    c->rows.output_count = 2;
     c->rows.table = c->table;
     c->rows.capacity = 4;
     c->quantities[0] = DMB_PROFILE_DISTANCE, c->quantities[1] = DMB_PROFILE_X;
@@ -79,16 +79,16 @@ static dmb_recorder bad_recorder(subject *c, int what)
 {
     dmb_recorder r = c->rows;
     if (what == STRUCT) r.struct_size = 3;
-    if (what == NO_LIST) r.channels = NULL;
+    if (what == NO_LIST) r.outputs = NULL;
     if (what == NO_TABLE) r.table = NULL;
-    if (what == NO_COUNT) r.channel_count = 0;
-    if (what == MANY) r.channel_count = UINT32_MAX;
+    if (what == NO_COUNT) r.output_count = 0;
+    if (what == MANY) r.output_count = UINT32_MAX;
     if (what == NOT_FINITE) r.interval = (double)NAN;
     if (what == NEGATIVE) r.interval = -1.0;
     if (what == OVERFULL) r.row_count = 5;
     if (what == TOO_LARGE) r.capacity = UINT64_MAX;
-    if (what == UNKNOWN) c->channels[1].quantity = 99;
-    if (what == OTHER_PART) c->channels[1].place.part = (dmb_id){9u << 24, 1};
+    if (what == UNKNOWN) c->outputs[1].quantity = 99;
+    if (what == OTHER_PART) c->outputs[1].place.part = (dmb_id){9u << 24, 1};
     return r;
 }
 
@@ -191,8 +191,8 @@ static void unknown_names(void **state)
     (void)state;
     subject c;
     open_subject(&c);
-    c.channels[0].quantity = 99;
-    c.channels[1].place.part = (dmb_id){200u << 24 | 4u, 1};
+    c.outputs[0].quantity = 99;
+    c.outputs[1].place.part = (dmb_id){200u << 24 | 4u, 1};
     assert_int_equal(dmb_recorder_write_csv(&c.rows, path), DMB_OK);
     assert_string_equal(text_of(path), "time [s],unknown string 0 pipe 0 at 0.5 [-],velocity_z part 4 [m/s]\n");
     c.quantities[0] = -1;
@@ -208,14 +208,14 @@ static dmb_window *window_of(subject *c, double length)
     dmb_window_options options = dmb_window_options_default();
     dmb_window *window = NULL;
     options.length = length;
-    must(&c->s, dmb_window_create(c->s.sim, &options, c->channels, 2, &window));
+    must(&c->s, dmb_window_create(c->s.sim, &options, c->outputs, 2, &window));
     return window;
 }
 
-static dmb_window_result result_of(const dmb_window *window, uint32_t channel)
+static dmb_window_result result_of(const dmb_window *window, uint32_t output)
 {
     dmb_window_result result = dmb_window_result_default();
-    assert_int_equal(dmb_window_get(window, channel, &result), DMB_OK);
+    assert_int_equal(dmb_window_get(window, output, &result), DMB_OK);
     return result;
 }
 
@@ -255,7 +255,7 @@ static void samples_that_are_refused(void **state)
     assert_int_equal(result_of(window, 0).samples, 1);
     assert_int_equal(result_of(window, 1).samples, 1);
     dmb_window_destroy(&window);
-    c.channels[1] = (dmb_channel){dmb_station(c.string, 0, 0.0), DMB_CHANNEL_PROFILE + DMB_PROFILE_GAP, 0};
+    c.outputs[1] = (dmb_output){dmb_station(c.string, 0, 0.0), DMB_OUTPUT_PROFILE + DMB_PROFILE_GAP, 0};
     window = window_of(&c, 1.0); /* a guided rig end has no place at the wall */
     assert_int_equal(dmb_window_take(window, c.s.sim), DMB_ERR_NOT_FINITE);
     assert_int_equal(result_of(window, 0).samples, 0);
@@ -274,7 +274,7 @@ static void levels_of_windows(void **state)
         dmb_window_options options = dmb_window_options_default();
         dmb_window *window = NULL;
         options.levels = levels[i];
-        assert_true(dmb_window_create(c.s.sim, &options, c.channels, 2, &window) < 0);
+        assert_true(dmb_window_create(c.s.sim, &options, c.outputs, 2, &window) < 0);
         assert_null(window);
         assert_non_null(strstr(dmb_sim_message(c.s.sim), "window: levels = "));
     }
@@ -291,14 +291,14 @@ static void numbers_of_windows(void **state)
     take_steps(&c.s, 1e-3, 1);
     assert_int_equal(dmb_window_take(window, c.s.sim), DMB_OK);
     const dmb_place watch = dmb_station((dmb_id){0, 0}, 1, 0.0);
-    c.channels[0] = (dmb_channel){watch, DMB_CHANNEL_WINDOW_LOW_SHARE, 0};
-    c.channels[1] = (dmb_channel){watch, DMB_CHANNEL_WINDOW_LOW_SHARE + 1, 0};
+    c.outputs[0] = (dmb_output){watch, DMB_OUTPUT_WINDOW_LOW_SHARE, 0};
+    c.outputs[1] = (dmb_output){watch, DMB_OUTPUT_WINDOW_LOW_SHARE + 1, 0};
     c.rows.window = window;
     assert_int_equal(dmb_recorder_take(&c.rows, c.s.sim), DMB_ERR_VALUE);
-    c.channels[1].quantity = DMB_CHANNEL_WINDOW_MINIMUM;
+    c.outputs[1].quantity = DMB_OUTPUT_WINDOW_MINIMUM;
     assert_int_equal(dmb_recorder_take(&c.rows, c.s.sim), DMB_OK);
     check_close("least of the window [m/s]", c.table[2], -9.81e-3, 1e-12);
-    c.channels[1].place.pipe = 2;
+    c.outputs[1].place.pipe = 2;
     assert_int_equal(dmb_recorder_take(&c.rows, c.s.sim), DMB_ERR_VALUE);
     dmb_window_destroy(&window);
     rig_close(&c.s);

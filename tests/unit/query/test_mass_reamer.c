@@ -32,7 +32,7 @@ static craft launch(void)
     craft c;
     dmb_wall_def wall = s1_hole();
     dmb_body_def head = dmb_body_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_bit_def reamer = dmb_bit_def_default();
     rig_open(&c.s, 0.0, 0.0, 0.0);
     (void)add_wall(&c.s, &wall);
@@ -45,8 +45,8 @@ static craft launch(void)
     ring.pipe = 1;
     ring.fraction = 0.5;
     ring.outer_diameter = 0.09;
-    must_model(&c.s, dmb_model_add_ring(c.s.model, &ring, &c.ring));
-    reamer.ring = c.ring;
+    must_model(&c.s, dmb_model_add_stabiliser(c.s.model, &ring, &c.ring));
+    reamer.stabiliser = c.ring;
     reamer.inner_radius = 0.03;
     reamer.radius = 0.045;
     must_model(&c.s, dmb_model_add_bit(c.s.model, &reamer, &c.reamer));

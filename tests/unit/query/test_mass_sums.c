@@ -147,7 +147,7 @@ static void momentum_of_a_pipe(void **state)
  * with the step; what the iterations left is small. */
 static dmb_energy ledger_of_a_run(double h)
 {
-    const dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_STEP, .x0 = 0.0, .x1 = 0.05, .h1 = 2.0};
+    const dmb_segment ramp = {.struct_size = sizeof ramp, .kind = DMB_SEGMENT_STEP, .x0 = 0.0, .x1 = 0.05, .h1 = 2.0};
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = s1_pipe();
     dmb_drive_def drive = dmb_drive_def_default();
@@ -162,12 +162,12 @@ static dmb_energy ledger_of_a_run(double h)
     add_wall(&s, &wall);
     pipe.damping_time = 1e-4;
     const dmb_id string = add_pipes(&s, &pipe, 3);
-    drive.programme = add_programme(&s, &ramp, 1);
+    drive.time_function = add_time_function(&s, &ramp, 1);
     drive.component = DMB_RX;
     add_drive(&s, &drive);
     load.place = dmb_station(string, 2, 1.0);
     load.force[0] = 500.0;
-    load.programme = drive.programme;
+    load.time_function = drive.time_function;
     must_model(&s, dmb_model_add_load(s.model, &load, NULL));
     options.newton_tolerance = 1e-11;
     rig_start(&s, &options);
@@ -202,9 +202,9 @@ typedef struct wet_craft {
     dmb_id string, head, bit, ring, wide;
 } wet_craft;
 
-static dmb_ring_def ring_at(uint32_t pipe, double added_across)
+static dmb_stabiliser_def ring_at(uint32_t pipe, double added_across)
 {
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     ring.pipe = pipe;
     ring.outer_diameter = 0.11;
     ring.length = 0.4;
@@ -241,9 +241,9 @@ static wet_craft launch_in_mud(const int32_t kinds[3], double joint, const doubl
     bit.mass = 9.0;
     memcpy(bit.added_mass, bit_mud, sizeof bit_mud);
     must_model(&c.s, dmb_model_add_bit(c.s.model, &bit, &c.bit));
-    const dmb_ring_def ring = ring_at(1, -1.0), wide = ring_at(2, 4.0);
-    must_model(&c.s, dmb_model_add_ring(c.s.model, &ring, &c.ring));
-    must_model(&c.s, dmb_model_add_ring(c.s.model, &wide, &c.wide));
+    const dmb_stabiliser_def ring = ring_at(1, -1.0), wide = ring_at(2, 4.0);
+    must_model(&c.s, dmb_model_add_stabiliser(c.s.model, &ring, &c.ring));
+    must_model(&c.s, dmb_model_add_stabiliser(c.s.model, &wide, &c.wide));
     rig_start(&c.s, NULL);
     return c;
 }

@@ -92,7 +92,7 @@ static void offsets_are_refused(void **state)
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* A string that is fed by a motion drive and turned by a torque: its first node's rows, and those of its guide. */
+/* A string that is fed by a motion drive and turned by a torque: its first node's rows, and those of its support. */
 static void rows_of_the_equations(void **state)
 {
     static const int32_t wanted[6] = {DMB_ROW_DRIVEN, DMB_ROW_HELD, DMB_ROW_HELD,
@@ -166,7 +166,7 @@ static void actuators_in_modes(void **state)
         drive.kind = DMB_DRIVE_CONTROL;
         drive.component = DMB_RX;
         drive.gain = 2.0, drive.integral_gain = 50.0;
-        drive.programme = none;
+        drive.time_function = none;
         if (what == 0) drive.delay = 0.01;
         if (what == 1) drive.force_rate = 100.0;
         if (what == 2) drive.lag = 0.01;

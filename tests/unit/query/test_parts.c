@@ -1,4 +1,4 @@
-/* Contact, drives, bit, statistics and the recorder's channels, in a string that lies in its hole and is driven. */
+/* Contact, drives, bit, statistics and the recorder's outputs, in a string that lies in its hole and is driven. */
 #include <string.h>
 
 #include "close.h"
@@ -18,7 +18,7 @@ typedef struct hole_rig {
 /* Ten pipes of S1; feed by speed, torque by load where the rig end may turn; a bit off bottom under a bit load. */
 static hole_rig make(int32_t kind, int32_t start_free)
 {
-    const dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_STEP, .x1 = 0.02, .h1 = 0.1};
+    const dmb_segment ramp = {.struct_size = sizeof ramp, .kind = DMB_SEGMENT_STEP, .x1 = 0.02, .h1 = 0.1};
     dmb_wall_def wall = s1_hole();
     dmb_pipe_def pipe = s1_pipe();
     dmb_bit_def bit = dmb_bit_def_default();
@@ -34,7 +34,7 @@ static hole_rig make(int32_t kind, int32_t start_free)
     bit.bottom = 0.5;
     bit.rock_law = DMB_ROCK_RATE;
     must_model(&r.s, dmb_model_add_bit(r.s.model, &bit, &r.bit));
-    r.feed = add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_X, add_programme(&r.s, &ramp, 1));
+    r.feed = add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_X, add_time_function(&r.s, &ramp, 1));
     if (start_free == DMB_FREE_CYLINDRICAL)
         r.torque = add_simple_drive(&r.s, DMB_DRIVE_LOAD, r.string, DMB_RX, add_constant(&r.s, 40.0));
     rig_start(&r.s, NULL);
@@ -54,7 +54,7 @@ static void contact_at_rest(void **state)
     uint32_t closed = 0;
     must_model(&r.s, dmb_model_get_info(r.s.model, &info));
     must(&r.s, dmb_query_reaction(r.s.sim, r.string, reaction));
-    for (uint32_t i = 0; i < info.contact_sites; i++) {
+    for (uint32_t i = 0; i < info.contact_points; i++) {
         dmb_contact contact = dmb_contact_default();
         must(&r.s, dmb_query_contact(r.s.sim, i, &contact));
         if (contact.part.index == r.string.index) length += contact.length;
@@ -91,7 +91,7 @@ static void friction_of_a_sliding_string(void **state)
         dmb_model_info info = dmb_model_info_default();
         double around = 0.0, along = 0.0;
         must_model(&r.s, dmb_model_get_info(r.s.model, &info));
-        for (uint32_t i = 0; i < info.contact_sites; i++) {
+        for (uint32_t i = 0; i < info.contact_points; i++) {
             dmb_contact contact = dmb_contact_default();
             must(&r.s, dmb_query_contact(r.s.sim, i, &contact));
             along += contact.friction[0];
@@ -157,28 +157,28 @@ static void bit_and_statistics(void **state)
     rig_close(&r.s);
 }
 
-/* Every channel is the number its query gives. */
-static void channels(void **state)
+/* Every output is the number its query gives. */
+static void outputs(void **state)
 {
     (void)state;
     hole_rig r = make(DMB_PIPE_FLEXIBLE, DMB_FREE_CYLINDRICAL);
-    dmb_channel asked[DMB_CHANNEL_COUNT];
+    dmb_output asked[DMB_OUTPUT_COUNT];
     dmb_recorder recorder = dmb_recorder_default();
     dmb_section section = dmb_section_default();
     dmb_drive_state drive = dmb_drive_state_default();
     dmb_bit_state bit = dmb_bit_state_default();
-    double row[1 + DMB_CHANNEL_COUNT], kinetic, normal = (double)NAN;
+    double row[1 + DMB_OUTPUT_COUNT], kinetic, normal = (double)NAN;
     const dmb_place place = dmb_station(r.string, 2, 0.3);
     run(&r.s, 30);
-    for (int32_t i = 0; i < DMB_CHANNEL_COUNT; i++) {
+    for (int32_t i = 0; i < DMB_OUTPUT_COUNT; i++) {
         asked[i].place = place;
-        if (i == DMB_CHANNEL_DRIVE_FORCE || i == DMB_CHANNEL_DRIVE_SPEED) asked[i].place.part = r.feed;
-        if (i == DMB_CHANNEL_BIT_WEIGHT) asked[i].place.part = r.bit;
+        if (i == DMB_OUTPUT_DRIVE_FORCE || i == DMB_OUTPUT_DRIVE_SPEED) asked[i].place.part = r.feed;
+        if (i == DMB_OUTPUT_BIT_WEIGHT) asked[i].place.part = r.bit;
         asked[i].quantity = i;
         asked[i].reserved = 0;
     }
-    recorder.channel_count = DMB_CHANNEL_COUNT;
-    recorder.channels = asked;
+    recorder.output_count = DMB_OUTPUT_COUNT;
+    recorder.outputs = asked;
     recorder.table = row;
     recorder.capacity = 1;
     assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_OK);
@@ -195,28 +195,28 @@ static void channels(void **state)
         normal = contact.normal_force;
         break;
     }
-    const double want[1 + DMB_CHANNEL_COUNT] = {dmb_sim_time(r.s.sim),
-                                                pose.displacement[0],
-                                                pose.displacement[1],
-                                                pose.displacement[2],
-                                                world.velocity[0],
-                                                world.velocity[1],
-                                                world.velocity[2],
-                                                pose.position[0],
-                                                pose.position[1],
-                                                pose.position[2],
-                                                rotation_at(&r.s, place),
-                                                body.velocity[3],
-                                                section.force[0],
-                                                section.force[3],
-                                                hypot(section.force[4], section.force[5]),
-                                                kinetic,
-                                                normal,
-                                                drive.force,
-                                                drive.speed,
-                                                bit.weight + bit.load,
-                                                energy_of(&r.s).error};
-    for (int i = 0; i <= DMB_CHANNEL_COUNT; i++) CHECK_CLOSE(row[i], want[i], 0.0);
+    const double want[1 + DMB_OUTPUT_COUNT] = {dmb_sim_time(r.s.sim),
+                                               pose.displacement[0],
+                                               pose.displacement[1],
+                                               pose.displacement[2],
+                                               world.velocity[0],
+                                               world.velocity[1],
+                                               world.velocity[2],
+                                               pose.position[0],
+                                               pose.position[1],
+                                               pose.position[2],
+                                               rotation_at(&r.s, place),
+                                               body.velocity[3],
+                                               section.force[0],
+                                               section.force[3],
+                                               hypot(section.force[4], section.force[5]),
+                                               kinetic,
+                                               normal,
+                                               drive.force,
+                                               drive.speed,
+                                               bit.weight + bit.load,
+                                               energy_of(&r.s).error};
+    for (int i = 0; i <= DMB_OUTPUT_COUNT; i++) CHECK_CLOSE(row[i], want[i], 0.0);
     rig_close(&r.s);
 }
 
@@ -225,7 +225,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contact_at_rest), cmocka_unit_test(friction_of_a_sliding_string),
         cmocka_unit_test(drives),          cmocka_unit_test(bit_and_statistics),
-        cmocka_unit_test(channels),
+        cmocka_unit_test(outputs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ static void add_one(scene *c, int i)
 {
     static const int32_t kinds[RUNS] = {DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID, DMB_PIPE_FLEXIBLE};
     dmb_string_def string = dmb_string_def_default();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     string.start_depth = c->start[i] = 10.0 + 30.0 * i;
     string.offset[1] = -0.0105;
     c->string[i] = add_string(&c->s, &string);
@@ -41,7 +41,7 @@ static void add_one(scene *c, int i)
     ring.pipe = 5;
     ring.fraction = 0.25;
     ring.outer_diameter = 0.088;
-    must_model(&c->s, dmb_model_add_ring(c->s.model, &ring, &c->ring[i]));
+    must_model(&c->s, dmb_model_add_stabiliser(c->s.model, &ring, &c->ring[i]));
 }
 
 static scene lie(void)
@@ -102,9 +102,9 @@ static void places_in_any_order(void **state)
             CHECK_CLOSE(by_station[k][1], pose_at(&c.s, place).position[0], 1e-12);
             CHECK_CLOSE(by_station[k][2], rotation_at(&c.s, place), 1e-12);
             for (int q = 0; q < 3; q++) CHECK_CLOSE(by_quantity[q][k], by_station[k][q], 0.0);
-            dmb_channel channel = {place, DMB_CHANNEL_PROFILE + DMB_PROFILE_DISTANCE, 0};
+            dmb_output output = {place, DMB_OUTPUT_PROFILE + DMB_PROFILE_DISTANCE, 0};
             double value = (double)NAN;
-            must(&c.s, dmb_query_channel(c.s.sim, &channel, &value));
+            must(&c.s, dmb_query_output(c.s.sim, &output, &value));
             CHECK_CLOSE(value, distance[k], 1e-14 * whole);
         }
     }

@@ -198,12 +198,12 @@ static void add_couplings_and_drives(rig *s, parts *p)
     must_model(s, dmb_model_add_coupling(s->model, &gear, NULL));
     drive.part = p->joint[1][DMB_JOINT_UNIVERSAL];
     drive.component = DMB_RY;
-    drive.programme = add_constant(s, 0.0);
+    drive.time_function = add_constant(s, 0.0);
     (void)add_drive(s, &drive);
     drive.kind = DMB_DRIVE_LOAD;
     drive.part = p->joint[1][DMB_JOINT_PRISMATIC];
     drive.component = DMB_X;
-    drive.programme = add_constant(s, 3.0);
+    drive.time_function = add_constant(s, 3.0);
     (void)add_drive(s, &drive);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = p->joint[1][DMB_JOINT_SPHERICAL];

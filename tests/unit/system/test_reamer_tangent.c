@@ -22,7 +22,7 @@ static rig drilling(int32_t law)
     rig s;
     dmb_wall_def wall = s1_hole();
     dmb_pipe_def pipe = s1_pipe();
-    dmb_ring_def ring = dmb_ring_def_default();
+    dmb_stabiliser_def ring = dmb_stabiliser_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_id on;
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -34,9 +34,9 @@ static rig drilling(int32_t law)
     ring.pipe = 1;
     ring.fraction = 0.7;
     ring.outer_diameter = 0.15;
-    must_model(&s, dmb_model_add_ring(s.model, &ring, &on));
+    must_model(&s, dmb_model_add_stabiliser(s.model, &ring, &on));
     dmb_bit_def bit = cutting(law, 0.0475, 0.0), reamer = cutting(law, 0.075, 0.0475);
-    reamer.ring = on;
+    reamer.stabiliser = on;
     must_model(&s, dmb_model_add_bit(s.model, &bit, NULL));
     must_model(&s, dmb_model_add_bit(s.model, &reamer, NULL));
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_constant(&s, 2e-3));

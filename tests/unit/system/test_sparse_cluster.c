@@ -149,15 +149,15 @@ static void mixture(machine *m)
 {
     dmb_coupling_def gear = dmb_coupling_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term rise = dmb_term_default();
+    dmb_segment rise = dmb_segment_default();
     chain(m, DMB_JOINT_REVOLUTE);
     gear.joint[0] = m->joints[3];
     gear.joint[1] = m->joints[5];
     gear.ratio = -0.5;
     must_model(&m->s, dmb_model_add_coupling(m->s.model, &gear, NULL));
-    rise.kind = DMB_TERM_STEP;
+    rise.kind = DMB_SEGMENT_STEP;
     rise.h1 = 2.0;
-    must_model(&m->s, dmb_model_add_programme(m->s.model, &rise, 1, &drive.programme));
+    must_model(&m->s, dmb_model_add_time_function(m->s.model, &rise, 1, &drive.time_function));
     drive.part = m->joints[8];
     drive.component = DMB_RX;
     must_model(&m->s, dmb_model_add_drive(m->s.model, &drive, NULL));

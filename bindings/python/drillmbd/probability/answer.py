@@ -9,12 +9,12 @@ import time as clock
 from typing import Any
 
 from .._optional import need
-from ..answers import Output
+from ..results import CommandOutput
 from ..errors import Usage
 from . import engines
 from .demands import Demand, demand_of
 from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, plan, sobol_indices
-from .points import Points
+from .sampling import Points
 from .sample import FAILED, Result, SceneSample
 from .study import Progress, Study, StudyFile, usable
 from .until import MOST, Rule, following, rule
@@ -71,10 +71,10 @@ class Asked:
 class Answer:
     """One answer."""
 
-    def __init__(self, asked: Asked, output: Output) -> None:
+    def __init__(self, asked: Asked, output: CommandOutput) -> None:
         self.asked, self.sample, self.options, self.output = asked, asked.sample, asked.options, output
-        if asked.sample.draw.scene.output.get("units"):
-            output.note_text("[output] units is ignored: probability writes SI units")
+        if asked.sample.draw.scene.results.get("units"):
+            output.note_text("[results] units is ignored: probability writes SI units")
         self.question = self.sample.question
         self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
         self.scales = None if self.options.failure else asked.scales()

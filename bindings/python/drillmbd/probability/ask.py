@@ -4,7 +4,7 @@ from __future__ import annotations
 import argparse
 import pathlib
 
-from ..answers import Output
+from ..results import CommandOutput
 from ..errors import Usage
 from ..runner import carry_out
 from ..scene import load
@@ -76,7 +76,7 @@ def probability(options: argparse.Namespace) -> int:
 def _alone(sample: SceneSample, options: argparse.Namespace, question: str) -> int:
     """The answer of one scene by this process, which has the workers."""
     asked = Asked(sample, options)
-    output = Output(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
+    output = CommandOutput(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
     output.started = options.started
     made = Auto(asked, output) if question == "auto" else Answer(asked, output)
     return carry_out(sample.draw.scene, output, options, lambda *_: _answer(made))

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._optional import need
-from ..answers import Output
+from ..results import CommandOutput
 from ..errors import Usage
 from ..scene.failure import KINDS
 from .answer import ANY, Answer, Asked
 from .draw import CannotDraw
 from .estimates import Estimate, clopper_pearson
-from .points import Points, stream
+from .sampling import Points, stream
 from .sample import SceneSample
 
 NEAR = 0.5  #: of a limit: a margin of torque and drag below it is not trusted
@@ -81,7 +81,7 @@ def _upper_share(count: int, samples: int, parts: float) -> float:
 class Auto(Answer):
     """Both stages."""
 
-    def __init__(self, asked: Asked, output: Output) -> None:
+    def __init__(self, asked: Asked, output: CommandOutput) -> None:
         super().__init__(asked, output)
         self.question = "auto"
         if asked.sampling != "monte-carlo" or asked.rule is not None or asked.options.surrogate:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .._optional import need
-from ..answers import Output
+from ..results import CommandOutput
 from ..errors import Error, Usage
 from ..exit_status import FAILED, STOPPED, line_of
 from ..runner import carry_out
@@ -59,7 +59,7 @@ def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
 class Map:
     """All cells of one command."""
 
-    def __init__(self, sample: SceneSample, options: argparse.Namespace, question: str, output: Output) -> None:
+    def __init__(self, sample: SceneSample, options: argparse.Namespace, question: str, output: CommandOutput) -> None:
         self.sample, self.options, self.question, self.output = sample, options, question, output
         self.vary = _varied(options.vary)
         self.cells: list[Cell] = []
@@ -85,7 +85,7 @@ class Map:
         sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **values}, whole.asked)
         try:
             asked = Asked(sample, self.options)
-            output = Output(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene, "probability", True)
+            output = CommandOutput(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene, "probability", True)
             made = Auto(asked, output) if self.question == "auto" else Answer(asked, output)
             status = carry_out(sample.draw.scene, output, self.options, lambda *_: made.answer())
             if status == STOPPED:
@@ -162,7 +162,7 @@ def answer(sample: SceneSample, options: argparse.Namespace) -> int:
     if options.indices or (options.method or sample.draw.varies.method) == "subset":
         raise Usage("--vary maps probabilities of plain samples: leave --indices and --method subset out")
     question = options.question or sample.draw.scene.variability.question  # type: ignore[union-attr]
-    output = Output(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
+    output = CommandOutput(options.output, options.scene, sample.draw.scene, "probability", options.quiet)
     output.started = options.started
     output.summary.update(question=question, vary=options.vary)
     made = Map(sample, options, question, output)

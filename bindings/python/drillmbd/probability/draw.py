@@ -6,9 +6,9 @@ import re
 from typing import Any
 
 from .._optional import need
-from ..enums import TERM_CONSTANT, TERM_HARMONIC, TERM_STEP, TERM_STEP5, TERM_TABLE
+from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE
 from ..scene import Scene
-from ..scene.terms import _term as known_term
+from ..scene.segments import _segment as known_segment
 from ..scene.units import text
 from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
 from .blas import one_thread
@@ -20,23 +20,23 @@ class CannotDraw(ValueError):
     """Something that varies and does not fit the scene."""
 
 
-def value_of_terms(terms: list[dict[str, Any]], time: float) -> float:
-    """A programme at a time, by its described terms."""
+def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
+    """A time function at a time, by its described segments."""
     numpy, total = need("numpy"), 0.0
-    for term in terms:
-        kind = TERM_TABLE if term.get("table") else term.get("kind", TERM_CONSTANT)
-        if term.get("function") is not None:
-            total += term["function"](time)[0]
-        elif kind == TERM_TABLE:
-            times, values = zip(*term["table"])
+    for segment in segments:
+        kind = SEGMENT_TABLE if segment.get("table") else segment.get("kind", SEGMENT_CONSTANT)
+        if segment.get("function") is not None:
+            total += segment["function"](time)[0]
+        elif kind == SEGMENT_TABLE:
+            times, values = zip(*segment["table"])
             total += float(numpy.interp(time, times, values))
-        elif kind == TERM_STEP5:
-            d = min(max((time - term.get("x0", 0.0)) / (term.get("x1", 1.0) - term.get("x0", 0.0)), 0.0), 1.0)
-            total += term.get("h0", 0.0) + (term.get("h1", 0.0) - term.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
-        elif kind in (TERM_CONSTANT, TERM_STEP, TERM_HARMONIC):
-            total += known_term(time, term)[1]
+        elif kind == SEGMENT_STEP5:
+            d = min(max((time - segment.get("x0", 0.0)) / (segment.get("x1", 1.0) - segment.get("x0", 0.0)), 0.0), 1.0)
+            total += segment.get("h0", 0.0) + (segment.get("h1", 0.0) - segment.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
+        elif kind in (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC):
+            total += known_segment(time, segment)[1]
         else:
-            raise CannotDraw(f"a term of kind {kind} cannot be multiplied; use how = \"added\"")
+            raise CannotDraw(f"a segment of kind {kind} cannot be multiplied; use how = \"added\"")
     return total
 
 
@@ -62,12 +62,12 @@ class Draw:
         self.dimension = sum(self.sizes)
 
     def _refuse_both(self) -> None:
-        """A programme that a process makes anew forgets what scatters in it."""
+        """A time function that a process makes anew forgets what scatters in it."""
         for one in self.varies.processes:
-            key = f"programme[{self._programme_number(one)}]"
+            key = f"time_function[{self._time_function_number(one)}]"
             if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters for name in scatter.keys) \
-                    or sum(other.programme == one.programme for other in self.varies.processes) > 1:
-                raise CannotDraw(f"{one.name}: the programme {one.programme} varies by something else too; make two programmes of it")
+                    or sum(other.time_function == one.time_function for other in self.varies.processes) > 1:
+                raise CannotDraw(f"{one.name}: the time function {one.time_function} varies by something else too; make two time functions of it")
 
     def _refuse_twice(self) -> None:
         """A key that is written by two of them: one would be lost."""
@@ -156,7 +156,7 @@ class Draw:
                 found[key] = text(values[one.name] * base, unit)
         self._field_changes(values, found)
         for process, _, times in self.processes:
-            found.update(self._programme(process, times, values[process.name]))
+            found.update(self._time_function(process, times, values[process.name]))
         found["variability"] = None  # nothing varies in the sample itself
         return found
 
@@ -178,7 +178,7 @@ class Draw:
             found[f"{key}.pipes"] = self._pipe_tables(key, values, found)
 
     def _hole_sections(self, along: list[RandomField], values: dict[str, Any]) -> list[dict[str, Any]]:
-        """Sections at all depths of all fields, lines between them. A parabola rounds each corner (`transition`)."""
+        """Sections at all depths of all fields, lines between them. A parabola rounds each breakpoint (`transition`)."""
         numpy = need("numpy")
         depths = sorted({float(depth) for one in along for depth in self._depths(one)})
         depths = [depth for i, depth in enumerate(depths) if i == 0 or depth - depths[i - 1] > 1e-6 * one_span(along)]
@@ -215,31 +215,31 @@ class Draw:
             del found[key]  # they stand in the tables now
         return tables
 
-    def _programme_number(self, one: RandomProcess) -> int:
-        made = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_programme"]
-        return made.index(self.scene.names[one.programme])
+    def _time_function_number(self, one: RandomProcess) -> int:
+        made = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_time_function"]
+        return made.index(self.scene.names[one.time_function])
 
-    def _programme(self, one: RandomProcess, times: Any, factors: Any) -> dict[str, Any]:
-        number = self._programme_number(one)
-        terms = [arguments for name, arguments in self._parts() if name == "add_programme"][number]
-        unit = self.scene.programme_units[one.programme]
+    def _time_function(self, one: RandomProcess, times: Any, factors: Any) -> dict[str, Any]:
+        number = self._time_function_number(one)
+        segments = [arguments for name, arguments in self._parts() if name == "add_time_function"][number]
+        unit = self.scene.time_function_units[one.time_function]
         if one.how == "added":
             rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
-            return {f"programme[{number}].term": [*self._written(list(terms), unit), {"table": rows}]}
-        rows = [[text(float(t), "s"), text(value_of_terms(list(terms), float(t)) * float(v), unit)] for t, v in zip(times, factors)]
-        return {f"programme[{number}].term": [{"table": rows}]}
+            return {f"time_function[{number}].segment": [*self._written(list(segments), unit), {"table": rows}]}
+        rows = [[text(float(t), "s"), text(value_of_segments(list(segments), float(t)) * float(v), unit)] for t, v in zip(times, factors)]
+        return {f"time_function[{number}].segment": [{"table": rows}]}
 
-    def _written(self, terms: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:
+    def _written(self, segments: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:
         from ..scene import fields as known
-        struct = known.fields_of(known.DEFINITIONS["term"])
+        struct = known.fields_of(known.DEFINITIONS["segment"])
         found = []
-        for term in terms:
-            if term.get("function") is not None:
-                raise CannotDraw("a programme per revolution cannot be added to")
+        for segment in segments:
+            if segment.get("function") is not None:
+                raise CannotDraw("a time function per revolution cannot be added to")
             one = {key: known.write(struct[key], value, unit if key in ("h0", "h1") else None)
-                   for key, value in term.items() if key in struct}
-            if term.get("table"):
-                one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in term["table"]]
+                   for key, value in segment.items() if key in struct}
+            if segment.get("table"):
+                one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in segment["table"]]
             found.append(one)
         return found
 
@@ -249,4 +249,4 @@ def one_span(along: list[RandomField]) -> float:
     return max(one.ends[1] for one in along) - min(one.ends[0] for one in along)
 
 
-__all__ = ["CannotDraw", "Draw", "value_of_terms"]
+__all__ = ["CannotDraw", "Draw", "value_of_segments"]

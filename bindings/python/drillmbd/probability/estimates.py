@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .._optional import need
-from .points import Points, normal, stream
+from .sampling import Points, normal, stream
 
 Evaluate = Callable[[Sequence[int], Any], Any]
 

@@ -19,7 +19,7 @@ from ..sim import Sim
 if TYPE_CHECKING:
     from ..scene import Scene
 
-#: Signals are named (part, quantity, what of it): of a part by CHANNEL_... "", of a string by PROFILE_... "max" or "min" over it.
+#: Signals are named (part, quantity, what of it): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min" over it.
 COURSE = 100  #: stretches between the depths at which courses are compared
 STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
 
@@ -138,7 +138,7 @@ class Course:
 
 @dataclass(frozen=True)
 class How:
-    """The functions that find the demand of a kind from series in time or from torque and drag, and the channels that the series are of."""
+    """The functions that find the demand of a kind from series in time or from torque and drag, and the outputs that the series are of."""
     demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
     signals: dict[str, tuple[str, int, str]]  #: part, quantity, what of it
     soft: Callable[[Soft, dict[str, float]], float] | None = None
@@ -205,10 +205,10 @@ class Watch:
     def __init__(self, scene: Scene, sim: Sim, failures: list[Failure], looks: int) -> None:
         self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind not in BESIDE]
         asked = {(one.names[part], quantity, what) for one in self.failures for part, quantity, what in HOW[one.kind].signals.values()}
-        self.channels = sorted(one for one in asked if one[2] == "")
+        self.outputs = sorted(one for one in asked if one[2] == "")
         self.profiles = sorted(one for one in asked if one[2] in ("max", "min"))
         self.counters = {one.name: self._fatigue(one) for one in self.failures if one.kind == "fatigue"}
-        places = [(as_place(scene.names[name]), quantity) for name, quantity, _ in self.channels]
+        places = [(as_place(scene.names[name]), quantity) for name, quantity, _ in self.outputs]
         self.recorder = sim.recorder(places, looks + 2) if places else None
         self.times: list[float] = []
         self.rows: list[list[float]] = []
@@ -253,7 +253,7 @@ class Watch:
                 found[signal] = numpy.full(len(self.times), worst)
             elif what == "":
                 assert table is not None
-                found[signal] = table[:, 1 + [(a, int(b), c) for a, b, c in self.channels].index(key)]
+                found[signal] = table[:, 1 + [(a, int(b), c) for a, b, c in self.outputs].index(key)]
             else:
                 found[signal] = rows[:, [(a, int(b), c) for a, b, c in self.profiles].index(key)]
         return found

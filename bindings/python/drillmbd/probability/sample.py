@@ -68,7 +68,7 @@ class OwnLook:
     sim: Any                       #: at the end of the run
     values: dict[str, Any]         #: of all that varies in this sample
     times: Any                     #: [s] of the looks
-    channels: dict[str, Any]       #: the scene's [[channel]] by name, as arrays in time
+    outputs: dict[str, Any]       #: the scene's [[output]] by name, as arrays in time
 
 
 def source_of(own: Any) -> str:
@@ -199,7 +199,7 @@ class SceneSample:
         if self.question == "static":
             return self._static(scene, values)
         end = scene.run.get("end", 0.0)
-        look = self.draw.varies.settings.get("look") or scene.output.get("interval") or scene.run.get("step") or end
+        look = self.draw.varies.settings.get("look") or scene.results.get("interval") or scene.run.get("step") or end
         with scene.new_sim() as sim:
             if scene.run.get("static"):
                 sim.static(**scene.fields_of("static"))
@@ -217,8 +217,8 @@ class SceneSample:
                 ) -> list[tuple[float, float]]:
         """Margins and demands of a sim from now to `end` [s]; more: of demands, what the sim lacks, by kind."""
         watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
-        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], int(end / look) + 4) \
-            if self.own and scene.channels else None
+        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.outputs], int(end / look) + 4) \
+            if self.own and scene.outputs else None
         self._run(scene, sim, end, look, watch, recorder)
         found = watch.margins(more)
         for one in scene.failures:
@@ -261,9 +261,9 @@ class SceneSample:
         numpy, given = need("numpy"), self.own[name]
         function = given.load() if isinstance(given, Own) else given
         table = numpy.array(recorder.table) if recorder is not None else numpy.zeros((len(watch.times), 1))
-        channels = {channel: table[:, 1 + i] for i, (channel, _, _) in enumerate(scene.channels)} if recorder is not None else {}
+        outputs = {output: table[:, 1 + i] for i, (output, _, _) in enumerate(scene.outputs)} if recorder is not None else {}
         try:
-            found = float(function(OwnLook(scene, sim, values, numpy.array(watch.times), channels)))
+            found = float(function(OwnLook(scene, sim, values, numpy.array(watch.times), outputs)))
         except Exception as error:  # anything may be wrong with it; the sample is told as failed
             raise ValueError(f"{name}: {type(error).__name__}: {error}") from error
         if math.isnan(found):

@@ -21,14 +21,14 @@ from ..scene import Scene, SceneError, loads
 from ..scene.failure import Failure
 from .draw import Draw
 from .limits import Soft, soft_margin
-from .points import stream
+from .sampling import stream
 
 STRENGTH = 1e9  #: [Pa] yield strength that the pipes get, so that the shares of the rows are stresses
 PIECE = 30.0    #: [m] of pipes that are described as one
 STATIONS = 401  #: of a profile of the wall force
 STATES = {"pulled out": enums.OPERATION_PICK_UP, "pushed in": enums.OPERATION_SLIDE, "rotated": enums.OPERATION_DRILL}
 _KEPT = ("set_environment", "add_wall", "add_hole_sections", "add_string", "add_pipes", "add_bit", "compile")
-_LEFT_OUT = ("add_programme", "add_drive", "add_input", "add_event")  #: nothing of them acts on a soft string
+_LEFT_OUT = ("add_time_function", "add_drive", "add_input", "add_event")  #: nothing of them acts on a soft string
 TRIES = 20  #: samples drawn at random
 _SAME = 1e-11  #: relative, between numbers that went through the text of a scene and those that did not
 
@@ -256,7 +256,7 @@ class SoftString:
         try:
             self.places: Places | None = Places(draw, lambda values: self._calls(self._scene(values)))
             self.described = Described(self.places.calls, frozenset(path[-1] for path, *_ in self.places.found))
-            self.moving = {path[0] for path, *_ in self.places.found if self.places.calls[path[0]][0] in ("add_programme", "add_bit", "add_drive")}
+            self.moving = {path[0] for path, *_ in self.places.found if self.places.calls[path[0]][0] in ("add_time_function", "add_bit", "add_drive")}
             self.plan = self._plan(self.places.calls)
             self._refuse_lost()
             self._compare(self.places.last)
@@ -268,7 +268,7 @@ class SoftString:
 
     @staticmethod
     def _calls(scene: Scene) -> Any:
-        return [[name, _lists(copy.deepcopy(arguments) if name == "add_programme" else arguments)] for name, arguments in scene.model.calls]
+        return [[name, _lists(copy.deepcopy(arguments) if name == "add_time_function" else arguments)] for name, arguments in scene.model.calls]
 
     @staticmethod
     def _plan(calls: Any) -> Operating:

@@ -28,12 +28,12 @@ class State:
 
 
 def _loaded(scene: Scene) -> Scene:
-    """The scene with the programmes of bit loads at their largest from the beginning."""
+    """The scene with the time functions of bit loads at their largest from the beginning."""
     numbers = {arguments[0]["load"].index & 0xFFFFFF for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")}
     calls, number, changed = [], -1, False
     for name, arguments in scene.model.calls:
-        number += name == "add_programme"
-        if name == "add_programme" and number in numbers:
+        number += name == "add_time_function"
+        if name == "add_time_function" and number in numbers:
             largest = largest_of(arguments)
             if largest is not None:
                 arguments, changed = ({"h0": largest},), True
@@ -43,7 +43,7 @@ def _loaded(scene: Scene) -> Scene:
     model = remake(type(scene.model), calls)
     return replace(scene, model=model, names={key: model.own(part) for key, part in scene.names.items()},
                    failures=[replace(one, parts={key: model.own(part) for key, part in one.parts.items()}) for one in scene.failures],
-                   channels=[(name, model.own(place), quantity) for name, place, quantity in scene.channels])
+                   outputs=[(name, model.own(place), quantity) for name, place, quantity in scene.outputs])
 
 
 def states(scene: Scene) -> list[State]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import units
-from .asked import LIMITS
+from .settings import LIMITS
 from .fields import DEFINITIONS, fields_of
 from .lines import Path
 from .problems import Problems, meant

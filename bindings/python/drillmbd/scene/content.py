@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .._structs import Id, Input, Order, Output, Place
-from ..enums import INPUT_ECCENTRICITY
+from .._structs import Id, Excitation, Order, ResponseOutput, Place
+from ..enums import EXCITATION_ECCENTRICITY
 from ..model import Model, map_ids
 from ..sim import Sim
 from .divide import Divided
@@ -17,8 +17,8 @@ from .source import Source
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
-PARTS = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
-NAMED = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
+PARTS = ("string", "body", "stabiliser", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
+NAMED = ("string", "body", "stabiliser", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
 SINGLE = ("environment", "hole")
 SLIPS = ("slip_axial", "slip_rotation")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
@@ -29,21 +29,21 @@ class Scene:
     """The content of a scene file."""
     title: str
     model: Model                    #: compiled
-    names: dict[str, Id]            #: of parts and programmes
+    names: dict[str, Id]            #: of parts and time functions
     pipes: dict[str, int]           #: number of pipes of each string
-    programme_units: dict[str, str] = field(default_factory=dict)
+    time_function_units: dict[str, str] = field(default_factory=dict)
     sim: dict[str, Any] = field(default_factory=dict)      #: fields of SimOptions
     run: dict[str, Any] = field(default_factory=dict)      #: end [s], step [s], static
-    output: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s], units
+    results: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s], units
     limits: dict[str, float] = field(default_factory=dict)  #: torque [N m], push [N], pull [N], yield_stress [Pa]
-    channels: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
-    channel_units: list[str] = field(default_factory=list)  #: of each channel, SI
+    outputs: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
+    output_units: list[str] = field(default_factory=list)  #: of each output, SI
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
     variability: Variability | None = None  #: what varies
     failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
     remarks: list[Problem] = field(default_factory=list)   #: what was assumed of the values of the file
     source: Source | None = None   #: the text of the file
-    inline: set[str] = field(default_factory=set)          #: programmes that the file gives as a value in the place of a name
+    inline: set[str] = field(default_factory=set)          #: time functions that the file gives as a value in the place of a name
     changed: Callable[[Mapping[str, Any]], Scene] | None = field(default=None, compare=False, repr=False)  #: read again with changes by key
     divided: list[Divided] = field(default_factory=list)   #: pipes for which the file gives no elements and one does not suffice
 
@@ -59,7 +59,7 @@ class Scene:
     def fields_of(self, analysis: str) -> dict[str, Any]:
         """The fields of the options of an analysis."""
         return {key: value for key, value in self.analyses.get(analysis, {}).items()
-                if key not in ("input", "output") and not (analysis == "speeds" and key == "order")}
+                if key not in ("excitation", "output") and not (analysis == "speeds" and key == "order")}
 
     def effective(self, analysis: str) -> dict[str, Any]:
         """The table of an analysis with the values that it takes from other tables."""
@@ -73,31 +73,31 @@ class Scene:
             values = {**values, **options_of(self, analysis)}
         return values
 
-    def inputs(self) -> list[Input]:
+    def excitations(self) -> list[Excitation]:
         """Of the response."""
-        return [Input(**one) for one in self.analyses["response"]["input"]]
+        return [Excitation(**one) for one in self.analyses["response"]["excitation"]]
 
-    def outputs(self, analysis: str) -> list[Output]:
+    def response_outputs(self, analysis: str) -> list[ResponseOutput]:
         """Of the response or of the speeds."""
-        return [Output(**{key: value for key, value in one.items() if key not in ("name", "unit", "limit")})
+        return [ResponseOutput(**{key: value for key, value in one.items() if key not in ("name", "unit", "limit")})
                 for one in self.analyses[analysis]["output"]]
 
     def output_names(self, analysis: str) -> list[str]:
         """Names of the outputs with their units."""
         return [f"{one['name']} [{one['unit']}]" for one in self.analyses[analysis]["output"]]
 
-    def channel_heads(self) -> list[str]:
-        """Names of the channels with their units in SI, at the end; a unit in the name is left out."""
+    def output_heads(self) -> list[str]:
+        """Names of the outputs with their units in SI, at the end; a unit in the name is left out."""
         return [f"{name[:name.rindex('[')].rstrip() if name.endswith(']') and '[' in name else name} [{unit}]"
-                for (name, _, _), unit in zip(self.channels, self.channel_units)]
+                for (name, _, _), unit in zip(self.outputs, self.output_units)]
 
     def orders(self) -> list[Order]:
         """Of the speeds."""
         found = []
         for one in self.analyses["speeds"]["order"]:
             values = {key: value for key, value in one.items() if key != "order"}
-            values.setdefault("kind", INPUT_ECCENTRICITY)
-            found.append(Order(order=one["order"], input=Input(**values)))
+            values.setdefault("kind", EXCITATION_ECCENTRICITY)
+            found.append(Order(order=one["order"], excitation=Excitation(**values)))
         return found
 
     def same_as(self, other: Scene) -> bool:
@@ -108,16 +108,16 @@ class Scene:
             return {**{key: value for key, value in usual.items() if isinstance(value, (int, float, list))}, **values}
 
         def asked(scene: Scene) -> Any:
-            channels = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
-                        for name, place, quantity in scene.channels]
+            outputs = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
+                        for name, place, quantity in scene.outputs]
             analyses = {name: filled(name, scene.effective(name)) for name in ANALYSES if name in scene.analyses or name in ("static", "modes")}
-            for name, key, struct in (("response", "input", "response input"), ("speeds", "order", "response input"), ("response", "output", "output"),
+            for name, key, struct in (("response", "excitation", "response excitation"), ("speeds", "order", "response excitation"), ("response", "output", "output"),
                                       ("speeds", "output", "output")):
                 if name in analyses:
-                    kind = {"kind": int(INPUT_ECCENTRICITY)} if key == "order" else {}
+                    kind = {"kind": int(EXCITATION_ECCENTRICITY)} if key == "order" else {}
                     analyses[name][key] = [filled(struct, {**kind, **one}) for one in analyses[name][key]]
             analyses = map_ids(analyses, lambda part: (part.index, bool(part)))
             failures = map_ids([vars(one) for one in scene.failures], lambda part: (part.index, bool(part)))
-            return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.output, channels, scene.pipes, analyses, scene.limits,
+            return (scene.title, filled("sim", scene.sim), {"static": 0, **scene.run}, scene.results, outputs, scene.pipes, analyses, scene.limits,
                     scene.variability, failures)
         return asked(self) == asked(other) and self.model.same_scene(other.model)

@@ -11,8 +11,8 @@ from typing import Any
 
 from .. import _structs, enums
 from .._structs import Id, Place
-from ..channels import channel_unit
-from ..channels import Named
+from ..outputs import output_unit
+from ..outputs import Named
 from . import units
 from .problems import meant
 
@@ -93,7 +93,7 @@ def _enum_in(about: str) -> Any:
 
 # ---- Names of values -------------------------------------------------------------------------------------------------
 def word_of(member: Any) -> str:
-    """TermKind.STEP5 as "step5", NormalLaw.HUNT_CROSSLEY as "hunt-crossley"."""
+    """SegmentKind.STEP5 as "step5", NormalLaw.HUNT_CROSSLEY as "hunt-crossley"."""
     return str(member.name).lower().replace("_", "-")
 
 
@@ -204,7 +204,7 @@ def by_component(units_of_two: str, component: int) -> str:
 
 
 def drive_unit(kind: int, component: int) -> str:
-    """The unit of a drive's programme."""
+    """The unit of a drive's time function."""
     return by_component("N, N m" if kind == enums.DRIVE_LOAD else "m/s, rad/s", component)
 
 
@@ -213,23 +213,23 @@ DRIVE_PAIRS = ("curve", "gain_table")  # of speed and force
 OF_COMPONENT = ("gain", "integral_gain", "limit_low", "limit_high", "force_rate", "drag", "back_drag")
 
 
-def output_unit(kind: int, component: int) -> str:
+def response_unit(kind: int, component: int) -> str:
     """The unit of an output of a response."""
-    if kind == enums.OUTPUT_CHANNEL:
-        return channel_unit(component)
-    about: dict[int, str] = {enums.OUTPUT_DISPLACEMENT: "m, rad", enums.OUTPUT_VELOCITY: "m/s, rad/s",
-             enums.OUTPUT_ACCELERATION: "m/s2, rad/s2", enums.OUTPUT_SECTION_FORCE: "N, N m",
-             enums.OUTPUT_SECTION_STRAIN: "-, rad/m", enums.OUTPUT_CONTACT: "N", enums.OUTPUT_REACTION: "N, N m",
-             enums.OUTPUT_JOINT_POSITION: "m, rad", enums.OUTPUT_JOINT_SPEED: "m/s, rad/s",
-             enums.OUTPUT_JOINT_ACCELERATION: "m/s2, rad/s2", enums.OUTPUT_JOINT_REACTION: "N, N m",
-             enums.OUTPUT_JOINT_ACTION: "N, N m", enums.OUTPUT_BIT: "N, N m"}
+    if kind == enums.RESPONSE_OUTPUT:
+        return output_unit(component)
+    about: dict[int, str] = {enums.RESPONSE_DISPLACEMENT: "m, rad", enums.RESPONSE_VELOCITY: "m/s, rad/s",
+             enums.RESPONSE_ACCELERATION: "m/s2, rad/s2", enums.RESPONSE_SECTION_FORCE: "N, N m",
+             enums.RESPONSE_SECTION_STRAIN: "-, rad/m", enums.RESPONSE_CONTACT: "N", enums.RESPONSE_REACTION: "N, N m",
+             enums.RESPONSE_JOINT_POSITION: "m, rad", enums.RESPONSE_JOINT_SPEED: "m/s, rad/s",
+             enums.RESPONSE_JOINT_ACCELERATION: "m/s2, rad/s2", enums.RESPONSE_JOINT_REACTION: "N, N m",
+             enums.RESPONSE_JOINT_ACTION: "N, N m", enums.RESPONSE_BIT: "N, N m"}
     return by_component(about.get(kind, "N, N m"), component)
 
 
-def input_unit(kind: int, component: int) -> str:
-    """The unit of the amplitude of an input, that of a drive's programme apart."""
-    known: dict[int, str] = {enums.INPUT_FORCE: by_component("N, N m", component), enums.INPUT_BIT_LOAD: "N",
-                             enums.INPUT_UNBALANCE: "kg m"}
+def excitation_unit(kind: int, component: int) -> str:
+    """The unit of the amplitude of an input, that of a drive's time function apart."""
+    known: dict[int, str] = {enums.EXCITATION_FORCE: by_component("N, N m", component), enums.EXCITATION_BIT_LOAD: "N",
+                             enums.EXCITATION_UNBALANCE: "kg m"}
     return known.get(kind, "-")
 
 
@@ -239,10 +239,10 @@ def event_fields() -> dict[str, Field]:
     return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
 
 
-def unit_of_channel(quantity: int, setting: str | None, component: int | None) -> str:
-    """The unit of a channel. setting: of the input that it reads, where it goes by that; component: of the drive that it
+def unit_of_output(quantity: int, setting: str | None, component: int | None) -> str:
+    """The unit of a output. setting: of the input that it reads, where it goes by that; component: of the drive that it
     is about, by which "N or N m" is a force or a torque."""
-    unit = channel_unit(quantity) if quantity >= 0 else "-"
+    unit = output_unit(quantity) if quantity >= 0 else "-"
     listed = unit.replace("unit of the input", setting or "-").split(" or ")
     return listed[-1 if component is not None and component >= enums.RX else 0].split(",")[0]
 
@@ -266,11 +266,11 @@ def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
 
 DEFINITIONS: dict[str, Any] = {
     "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "section": _structs.HoleSection, "string": _structs.StringDef,
-    "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "ring": _structs.RingDef,
+    "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "stabiliser": _structs.StabiliserDef,
     "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
-    "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "sub": _structs.SubDef, "term": _structs.Term,
+    "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "sub": _structs.SubDef, "segment": _structs.Segment,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
-    "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,
+    "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response excitation": _structs.Excitation, "output": _structs.ResponseOutput,
     "order": _structs.Order}

@@ -5,7 +5,7 @@ import re
 from typing import Any
 
 from . import hole, units
-from .asked import LIMITS, OUTPUT, RUN
+from .settings import LIMITS, OUTPUT, RUN
 from .fields import DEFINITIONS, Field, fields_of, words_of
 from .problems import meant
 
@@ -16,11 +16,11 @@ TABLES: dict[str, tuple[str, str]] = {
     "hole.section": ("section", "depth diameter mu_static mu_dynamic"), "string": ("string", "name start_depth"),
     "string.pipes": ("pipes", "count pipe length outer_diameter inner_diameter elements joint_length joint_outer_diameter joint_inner_diameter "
                               "eccentricity damping_time yield_strength"),
-    "bit": ("bit", "name load mass diameter rock_law"), "drive": ("drive", "name component programme kind"),
-    "programme.term": ("term", "kind h0 h1 x0 x1 table"), "ring": ("ring", ""), "body": ("body", "name mass"),
+    "bit": ("bit", "name load mass diameter rock_law"), "drive": ("drive", "name component time_function kind"),
+    "time_function.segment": ("segment", "kind h0 h1 x0 x1 table"), "stabiliser": ("stabiliser", ""), "body": ("body", "name mass"),
     "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"), "spring": ("spring", ""),
     "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress"), "run": ("", "end step static"),
-    "output": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
+    "results": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
     "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
 
 _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 x 6.5": drillmbd catalogue'),
@@ -37,7 +37,7 @@ _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 
 
 
 def _fields(table: str) -> dict[str, Field]:
-    own: dict[str, dict[str, Field]] = {"limits": LIMITS, "run": RUN, "output": OUTPUT}
+    own: dict[str, dict[str, Field]] = {"limits": LIMITS, "run": RUN, "results": OUTPUT}
     found = dict(own[table] if table in own else fields_of(DEFINITIONS[TABLES[table][0]]))
     if table == "string.pipes":
         del found["string"]  # they stand in their string

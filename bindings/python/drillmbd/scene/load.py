@@ -11,12 +11,12 @@ from typing import Any
 
 from .. import enums
 from .._keep import station
-from .._structs import Channel, Id, Motor, Place, Term
+from .._structs import Output, Id, Motor, Place, Segment
 from ..errors import Error
 from ..model import Model, motor_drive
 from . import catalogue, failure, fields, hole, units, variability, viscometer
-from .asked import Asked
-from .changes import apply
+from .settings import Asked
+from .overrides import apply
 from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
 from .divide import Divided, divide
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
@@ -25,7 +25,7 @@ from .problems import Problem, Problems, SceneError, meant
 from .read_file import TooLarge, limited
 from .source import Source
 from .sub import Subs
-from .terms import PerRevolution
+from .segments import PerRevolution
 
 MOST_BYTES = 50_000_000
 #: [s] damping_time of pipes that a scene file does not give: 0.03 % of critical damping at 1 Hz, 3 % at 100 Hz. Without any,
@@ -92,30 +92,30 @@ def _scene_of(content: dict[str, Any], problems: Problems, folder: Any, name: st
     return scene, loader.undivided
 
 #: Kinds of the parts that a key names; those of other keys: any part.
-NAMES_OF = {"programme": ("programme",), "excitation": ("programme",), "load": ("programme",), "string": ("string",), "ring": ("ring",),
+NAMES_OF = {"time_function": ("time_function",), "excitation": ("time_function",), "load": ("time_function",), "string": ("string",), "stabiliser": ("stabiliser",),
             "input": ("input",), "body": ("body",), "third_joint": ("joint",), "fourth_joint": ("joint",)}
 
 
 class Loader:
-    """Goes through the content: names, units of programmes, then part by part into the model."""
+    """Goes through the content: names, units of time functions, then part by part into the model."""
 
     def __init__(self, content: dict[str, Any], problems: Problems, folder: pathlib.Path) -> None:
         self.content, self.problems, self.folder = content, problems, folder
         self.model, self.names = Model(), dict[str, Any]()  # name -> id, None where it was refused
         self.kinds: dict[str, str] = {}                     # name -> "string", "drive", ...
         self.pipes: dict[str, int] = {}                     # string -> number of its pipes
-        self.units: dict[str, str] = {}                     # programme -> unit
-        self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
+        self.units: dict[str, str] = {}                     # time function -> unit
+        self.segments: dict[str, list[dict[str, Any]]] = {}    # time function -> its segments, plain
         self.paths: dict[tuple[str, str], Path] = {}        # (kind, name) -> its table
-        self.unused: list[tuple[Path, str]] = []            # programmes, and the fault if no other one is the cause
-        self.inline: set[str] = set()                       # programmes that are values in the place of names
+        self.unused: list[tuple[Path, str]] = []            # time functions, and the fault if no other one is the cause
+        self.inline: set[str] = set()                       # time functions that are values in the place of names
         self.undivided: list[Divided] = []                  # pipes whose number of elements is not given
         self.subs = Subs(self)
 
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "catalogue", "run", "output", "limits", "channel", "programme", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
+        known = ["title", "catalogue", "run", "results", "limits", "output", "time_function", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
                  "failure"]
         for key in self.content:
             if key not in known:
@@ -124,10 +124,10 @@ class Loader:
         if not isinstance(title, str):
             self.problems.add(("title",), title, "must be a text")
         self._collect_names()
-        self._find_programme_units()
+        self._find_time_function_units()
         self._describe()
         scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
-                      pipes=self.pipes, programme_units=self.units, source=Source(self.paths), inline=self.inline)
+                      pipes=self.pipes, time_function_units=self.units, source=Source(self.paths), inline=self.inline)
         Asked(self).settings(scene)
         scene.variability = variability.Reader(self).variability()
         scene.failures = failure.Reader(self, scene.limits).failures()
@@ -173,13 +173,13 @@ class Loader:
     # ---- Names ------------------------------------------------------------------------------------------------------
     def _collect_names(self) -> None:
         own = [(kind, f"{kind}-{number + self.subs.offset(kind)}", path, table)
-               for kind in ("programme", *PARTS) for number, (path, table) in enumerate(self.parts(kind))]
+               for kind in ("time_function", *PARTS) for number, (path, table) in enumerate(self.parts(kind))]
         for kind, by_number, path, table in own + self.subs.names():
             name = table.get("name", by_number) if isinstance(table, dict) else by_number
             if not isinstance(name, str) or not name:
                 self.problems.add(path + ("name",), name, "must be a text that is not empty")
             elif name in self.kinds:
-                self.problems.add(path + ("name",), name, f"names a {self.kinds[name]} already; every name once")
+                self.problems.add(path + ("name",), name, f"names a {self.kinds[name].replace("_", " ")} already; every name once")
             else:
                 self.kinds[name] = kind
                 self.paths[kind, name] = path
@@ -194,21 +194,21 @@ class Loader:
         name = table.get("name", by_number)
         return name if isinstance(name, str) and name else by_number
 
-    def _find_programme_units(self) -> None:
-        """A programme has the unit of what it is used for."""
+    def _find_time_function_units(self) -> None:
+        """A time function has the unit of what it is used for."""
         uses: list[tuple[Path, Any, str]] = []
         for path, table in self.parts("drive"):
-            uses += [(path + (key,), table.get(key), self.drive_unit(table)) for key in ("programme", "excitation")]
+            uses += [(path + (key,), table.get(key), self.drive_unit(table)) for key in ("time_function", "excitation")]
         uses += [(path + ("load",), table.get("load"), "N") for path, table in self.parts("bit")]
-        uses += [(path + ("programme",), table.get("programme"), "-") for path, table in self.parts("load")]
+        uses += [(path + ("time_function",), table.get("time_function"), "-") for path, table in self.parts("load")]
         for path, name, unit in uses:
-            if isinstance(name, str) and self.kinds.get(name) == "programme":
+            if isinstance(name, str) and self.kinds.get(name) == "time_function":
                 if self.units.setdefault(name, unit) != unit:
                     self.problems.add(path, name, f"is used in {self.units[name]} elsewhere and in {unit} here; "
-                                                  "make two programmes")
+                                                  "make two time functions")
 
     def drive_unit(self, table: dict[str, Any]) -> str:
-        """The unit of the programme of a drive."""
+        """The unit of the time function of a drive."""
         known = fields_of(DEFINITIONS["drive"])
         return fields.drive_unit(*(self.word(known[key], table.get(key), 0) for key in ("kind", "component")))
 
@@ -259,10 +259,10 @@ class Loader:
         if not isinstance(value, str) or value not in self.kinds:
             wanted = next((part for part in reversed(path) if isinstance(part, str)), "part")
             kinds = NAMES_OF.get(wanted, PARTS)
-            self.problems.add(path, value, f"names no {kinds[0] if len(kinds) == 1 else 'part'}"
+            self.problems.add(path, value, f"names no {kinds[0].replace("_", " ") if len(kinds) == 1 else 'part'}"
                               + meant(str(value), [name for name, kind in self.kinds.items() if kind in kinds]))
         elif not self.problems.found:
-            self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
+            self.problems.add(path, value, f"names a {self.kinds[value].replace("_", " ")} that is made after this; time functions come first, "
                                            "then strings, subs, bodies, bits, rings, joints, couplings, drives, loads, springs, "
                                            "stuck places, inputs")
         return None
@@ -338,8 +338,8 @@ class Loader:
                 self.add(("environment",), self.model.set_environment, DEFINITIONS["environment"], {**values, **mud})
         if "hole" in self.content:
             hole.describe(self)
-        for number, (path, table) in enumerate(self.parts("programme")):
-            self._programme(path, self.name("programme", number, table), table)
+        for number, (path, table) in enumerate(self.parts("time_function")):
+            self._time_function(path, self.name("time_function", number, table), table)
         for number, (path, table) in enumerate(self.parts("string")):
             self._string(path, self.name("string", number, table), table)
         self.subs.describe()
@@ -364,37 +364,37 @@ class Loader:
             return None
         return {"yield_stress": mud.yield_stress, "consistency": mud.consistency, "flow_exponent": mud.flow_exponent}
 
-    def _programme(self, path: Path, name: str, table: dict[str, Any]) -> None:
+    def _time_function(self, path: Path, name: str, table: dict[str, Any]) -> None:
         for key in table:
-            if key not in ("name", "unit", "term"):
-                self.problems.unknown(path + (key,), ("name", "unit", "term"))
+            if key not in ("name", "unit", "segment"):
+                self.problems.unknown(path + (key,), ("name", "unit", "segment"))
         unit = self.units.get(name) or table.get("unit")
         if not isinstance(unit, str):
-            self.unused.append((path, f"programme {name} is used by no drive, load or bit: take it out, or give its unit"))
+            self.unused.append((path, f"time function {name} is used by no drive, load or bit: take it out, or give its unit"))
             return
         self.units[name] = unit
-        terms = self.tables(table, path, "term")
-        if not terms:
-            self.problems.add(path, None, "must have at least one term")
-        plain = [one for one in (self._term(where, term, unit) for where, term in terms) if one is not None]
-        if terms and len(plain) == len(terms):
-            self.put(name, "programme", self._add_programme(path, plain))
-            self.terms[name] = plain
+        segments = self.tables(table, path, "segment")
+        if not segments:
+            self.problems.add(path, None, "must have at least one segment")
+        plain = [one for one in (self._segment(where, segment, unit) for where, segment in segments) if one is not None]
+        if segments and len(plain) == len(segments):
+            self.put(name, "time_function", self._add_time_function(path, plain))
+            self.segments[name] = plain
         else:
-            self.put(name, "programme", None)
+            self.put(name, "time_function", None)
 
-    def _add_programme(self, path: Path, plain: list[dict[str, Any]]) -> Any:
+    def _add_time_function(self, path: Path, plain: list[dict[str, Any]]) -> Any:
         try:
-            terms = [Term(**one) for one in plain]
-            plain[:] = [term.describe() for term in terms]  # as a saved file has them
-            return self.model.add_programme(*terms)
+            segments = [Segment(**one) for one in plain]
+            plain[:] = [segment.describe() for segment in segments]  # as a saved file has them
+            return self.model.add_time_function(*segments)
         except Error as error:
             self.problems.add(path, None, error.message)
         except ValueError as error:
             self.problems.add(path, None, str(error))
         return None
 
-    def _term(self, path: Path, table: dict[str, Any], unit: str) -> dict[str, Any] | None:
+    def _segment(self, path: Path, table: dict[str, Any], unit: str) -> dict[str, Any] | None:
         """The fields of a Term."""
         if table.get("kind") == "per-revolution":
             return self._per_revolution(path, table)
@@ -404,14 +404,14 @@ class Loader:
         except units.UnitError as error:
             self.problems.add(path[:2] + ("unit",), unit, str(error))
             return None
-        values = self.read(path, table, fields_of(DEFINITIONS["term"]), ("table",),
+        values = self.read(path, table, fields_of(DEFINITIONS["segment"]), ("table",),
                            lambda name: unit if name in ("h0", "h1") else None)
-        if values.get("kind") == enums.TERM_CALLBACK:
+        if values.get("kind") == enums.SEGMENT_CALLBACK:
             self.problems.add(path + ("kind",), "callback", "is for programs; a file has tables")
         if "table" in table:
             values["table"] = self.pairs(path + ("table",), table["table"], "s", unit, "time and value")
             values.pop("kind", None)
-        elif values.get("kind") == enums.TERM_TABLE:
+        elif values.get("kind") == enums.SEGMENT_TABLE:
             self.problems.add(path, None, 'must have a table, as table = [["0 s", "0 m/s"], ["1 s", "0.1 m/s"]]')
         return values if len(self.problems.found) == before else None
 
@@ -436,15 +436,15 @@ class Loader:
         number = {"share": Field("share", "quantity", "-"), "order": Field("order", "quantity", "-")}
         values = self.read(path, table, number, ("kind", "of"))
         of = table.get("of")
-        if not isinstance(of, str) or of not in self.terms:
-            known = [name for name in self.terms]
-            self.problems.add(path + ("of",), of, "must name a programme that stands before this one"
+        if not isinstance(of, str) or of not in self.segments:
+            known = [name for name in self.segments]
+            self.problems.add(path + ("of",), of, "must name a time function that stands before this one"
                               + meant(str(of), known))
             return None
-        if not PerRevolution.knows(self.terms[of]) or not values.get("order", 1.0) > 0.0:
-            self.problems.add(path, None, "must follow a programme of constants, steps and harmonics, by an order > 0")
+        if not PerRevolution.knows(self.segments[of]) or not values.get("order", 1.0) > 0.0:
+            self.problems.add(path, None, "must follow a time function of constants, steps and harmonics, by an order > 0")
             return None
-        function = PerRevolution(of, values.get("share", 0.0), values.get("order", 1.0), tuple(self.terms[of]))
+        function = PerRevolution(of, values.get("share", 0.0), values.get("order", 1.0), tuple(self.segments[of]))
         return {"function": function, "provides": int(enums.PROVIDES_RATE | enums.PROVIDES_INTEGRAL)}
 
     def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
@@ -488,7 +488,7 @@ class Loader:
             return
         table = dict(table)
         motor = self._motor(path, table) if kind == "drive" and "motor" in table else {}
-        self._inline_programmes(kind, path, table)
+        self._inline_time_functions(kind, path, table)
         component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
         special = {key: fields.by_component(known[key].unit, component)
                    for key in fields.OF_COMPONENT if kind == "drive"}
@@ -507,18 +507,18 @@ class Loader:
             table["name"] = name
         if kind in NAMED:
             self.own_name(path, table, values)
-        if kind == "drive" and "programme" not in table:
-            self.problems.add(path, None, "must have a programme")
+        if kind == "drive" and "time_function" not in table:
+            self.problems.add(path, None, "must have a time function")
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
         self.put(name, kind, None)
-        if not refused and not (kind == "drive" and "programme" not in values) and not (
+        if not refused and not (kind == "drive" and "time_function" not in values) and not (
                 len(self.problems.found) > before and kind in ("joint", "coupling", "spring", "input", "load")):
             self.put(name, kind, self.add(path, getattr(self.model, "add_" + kind), struct, values))
 
     def _motor(self, path: Path, table: dict[str, Any]) -> dict[str, Any]:
-        """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no programme."""
+        """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no time function."""
         given, before, where = table.pop("motor"), len(self.problems.found), path + ("motor",)
-        table.update(kind="control", component="rx", **({} if "programme" in table else {"programme": "0 rad/s"}))
+        table.update(kind="control", component="rx", **({} if "time_function" in table else {"time_function": "0 rad/s"}))
         if not isinstance(given, dict):
             self.problems.add(where, given, "must be a table of the keys of a mud motor")
             return {}
@@ -536,8 +536,8 @@ class Loader:
             self.problems.add(where, None, f"{error}: must have flow with displacement and stall_torque or pressure, or with a table "
                                            "of 2 .. 15 increasing speeds from 0 to no load, where the torque is 0")
             return {}
-        if table["programme"] == "0 rad/s":
-            table["programme"] = f"{speed!r} rad/s"
+        if table["time_function"] == "0 rad/s":
+            table["time_function"] = f"{speed!r} rad/s"
         return drive.describe()
 
     def own_name(self, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
@@ -551,22 +551,22 @@ class Loader:
             self.problems.add(path + ("name",), name, str(error))
 
     def _event(self, path: Path, name: str, table: dict[str, Any]) -> None:
-        """quantity and place are the channel, whose unit the level has."""
+        """quantity and place are the output, whose unit the level has."""
         known, before = fields.event_fields(), len(self.problems.found)
         quantity = self.word(known["quantity"], table.get("quantity"), -1)
-        values = self.read(path, table, known, ("name",), {"level": self.channel_unit(quantity, table.get("place"))}.get)
+        values = self.read(path, table, known, ("name",), {"level": self.output_unit(quantity, table.get("place"))}.get)
         if "quantity" not in table:
-            self.problems.add(path, None, "must have a quantity, that of a channel")
+            self.problems.add(path, None, "must have a quantity, that of a output")
         self.put(name, "event", None)
         if len(self.problems.found) > before:
             return
-        output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
+        out = Output(place=values.pop("place", Place()), quantity=values.pop("quantity"))
         values["name"] = name
-        self.put(name, "event", self.add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
+        self.put(name, "event", self.add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": out}))
 
-    def channel_unit(self, quantity: int, place: Any) -> str:
-        """The unit of a channel at a place as the file names it."""
-        return fields.unit_of_channel(quantity, self.setting_unit(place), self._component(place))
+    def output_unit(self, quantity: int, place: Any) -> str:
+        """The unit of a output at a place as the file names it."""
+        return fields.unit_of_output(quantity, self.setting_unit(place), self._component(place))
 
     def _component(self, place: Any) -> int | None:
         """The component of the drive that a place names."""
@@ -590,9 +590,9 @@ class Loader:
                 drive = (self.word(of_drive["kind"], one.get("kind"), 0), self.word(of_drive["component"], one.get("component"), 0))
         return fields.setting_units(self.word(known["target"], table.get("target"), 0), drive)
 
-    def _inline_programmes(self, kind: str, path: Path, table: dict[str, Any]) -> None:
-        """programme = "120 rpm" stands for a programme of that constant."""
-        keys = {"drive": ("programme", "excitation"), "bit": ("load",), "load": ("programme",)}.get(kind, ())
+    def _inline_time_functions(self, kind: str, path: Path, table: dict[str, Any]) -> None:
+        """time_function = "120 rpm" stands for a time function of that constant."""
+        keys = {"drive": ("time_function", "excitation"), "bit": ("load",), "load": ("time_function",)}.get(kind, ())
         unit = {"bit": "N", "load": "-"}.get(kind) or self.drive_unit(table)
         for key in keys:
             value = table.get(key)
@@ -601,12 +601,12 @@ class Loader:
                     constant = units.parse(value, unit)
                     self.problems.remark(path + (key,), value, units.remark(value, unit))
                 except units.UnitError as error:
-                    self.problems.add(path + (key,), value, f"{error}; or the name of a programme")
+                    self.problems.add(path + (key,), value, f"{error}; or the name of a time function")
                     del table[key]
                     continue
                 name = f"{key} of {'.'.join(map(str, path))}"
-                self.kinds[name], self.units[name], self.terms[name] = "programme", unit, [{"h0": constant}]
-                self.names[name] = self._add_programme(path + (key,), self.terms[name])
+                self.kinds[name], self.units[name], self.segments[name] = "time_function", unit, [{"h0": constant}]
+                self.names[name] = self._add_time_function(path + (key,), self.segments[name])
                 self.inline.add(name)
                 table[key] = name
 

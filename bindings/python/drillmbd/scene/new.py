@@ -24,17 +24,17 @@ diameter = "{hole}"
 mu_static = 0.35               # friction against the wall, an assumption: fit it to measured loads
 mu_dynamic = 0.30
 
-[[programme]]
+[[time_function]]
 name = "feed"
-term = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{feed}"}}
+segment = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{feed}"}}
 
-[[programme]]
+[[time_function]]
 name = "rotation"
-term = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{speed}"}}
+segment = {{kind = "step5", x0 = "0 s", x1 = "2 s", h1 = "{speed}"}}
 
-[[programme]]
+[[time_function]]
 name = "bit load"
-term = {{table = [["0 s", "0 N"], ["2 s", "0 N"], ["4 s", "{bit_load}"]]}}
+segment = {{table = [["0 s", "0 N"], ["2 s", "0 N"], ["4 s", "{bit_load}"]]}}
 
 [[string]]
 name = "rods"
@@ -57,12 +57,12 @@ diameter = "{hole}"
 [[drive]]
 name = "feed drive"
 component = "x"
-programme = "feed"
+time_function = "feed"
 
 [[drive]]
 name = "rotation drive"
 component = "rx"
-programme = "rotation"
+time_function = "rotation"
 
 {limits}
 
@@ -71,7 +71,7 @@ end = "8 s"
 step = "2 ms"
 static = true
 
-[output]
+[results]
 interval = "20 ms"
 
 # Speeds to avoid: eccentric pipes excite the string once a revolution; the amplitude in the middle of the string may be {clearance}.
@@ -108,7 +108,7 @@ high = 1.15
 
 [[variability.process]]
 name = "load of the rock"
-programme = "bit load"
+time_function = "bit load"
 distribution = "gamma"
 mean = 1
 deviation = "20 %"             # an assumption: records of the feed pressure know better

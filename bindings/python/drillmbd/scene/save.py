@@ -9,23 +9,23 @@ import re
 from typing import Any
 
 from .. import enums
-from .._structs import Channel, Id, Place
-from ..channels import Named
+from .._structs import Output, Id, Place
+from ..outputs import Named
 from ..model import Model
 from . import failure, fields, units, variability
-from .asked import LIMITS, OUTPUT, RUN
+from .settings import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, NAMED, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
 from .hole import FRICTION
 from .lines import Path
 from .source import Source, decorated
-from .terms import PerRevolution
+from .segments import PerRevolution
 
 DEFAULTS = "# defaults"
 #: Absent limits and delays are numbers of this size in the library; they are left out.
 NO_LIMIT = 1e30
-#: Fields of the terms of a programme by their kind.
-TERM_FIELDS = {enums.TERM_CONSTANT: ("kind", "h0"), enums.TERM_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.TERM_STEP5: ("kind", "x0", "x1", "h0", "h1")}
+#: Fields of the segments of a time function by their kind.
+SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.SEGMENT_STEP5: ("kind", "x0", "x1", "h0", "h1")}
 
 
 class CannotSave(ValueError):
@@ -88,7 +88,7 @@ class Writer:
         self.sections: list[dict[str, Any]] = []               # of the hole
         self.set_names: dict[int, str] = {}                    # given by Model.set_name
         self._sort()
-        self.inline = self._constants()                        # programme -> its value and unit, where a drive, bit or load states it
+        self.inline = self._constants()                        # time function -> its value and unit, where a drive, bit or load states it
 
     # ---- From calls to parts ----------------------------------------------------------------------------------------
     def _sort(self) -> None:
@@ -112,7 +112,7 @@ class Writer:
             elif kind in ("constraint", "force"):
                 raise CannotSave(f"a {kind} by a function of Python cannot be written to a file")
             else:
-                self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "programme" else arguments[0]))
+                self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "time_function" else arguments[0]))
         for kind, parts in self.parts.items():
             for number, (made, description) in enumerate(parts):
                 if made.index in self.set_names and isinstance(description, dict):
@@ -128,21 +128,21 @@ class Writer:
         self.pipes.setdefault(string.index, []).append((count, plain))
 
     def _units(self) -> dict[int, str]:
-        """The unit of every programme, by what uses it."""
+        """The unit of every time function, by what uses it."""
         found = {}
         for _, drive in self.parts.get("drive", []):
             unit = fields.drive_unit(drive.get("kind", 0), drive.get("component", 0))
-            found.update({drive[key].index: unit for key in ("programme", "excitation") if key in drive})
-        for kind, key, unit in (("bit", "load", "N"), ("load", "programme", "-")):
+            found.update({drive[key].index: unit for key in ("time_function", "excitation") if key in drive})
+        for kind, key, unit in (("bit", "load", "N"), ("load", "time_function", "-")):
             found.update({part[key].index: unit for _, part in self.parts.get(kind, []) if key in part})
         return found
 
     def _constants(self) -> dict[int, tuple[float, str]]:
-        """Programmes that the file gives as a value in the place of a name."""
+        """Time functions that the file gives as a value in the place of a name."""
         if self.scene is None:
             return {}
         known = self._units()
-        return {made.index: (float(terms[0].get("h0", 0.0)), known[made.index]) for made, terms in self.parts.get("programme", [])
+        return {made.index: (float(segments[0].get("h0", 0.0)), known[made.index]) for made, segments in self.parts.get("time_function", [])
                 if self.names[made.index] in self.scene.inline and made.index in known}
 
     # ---- From parts to lines ----------------------------------------------------------------------------------------
@@ -154,10 +154,10 @@ class Writer:
         if "hole" in self.single:
             self._head("[hole]", ("hole",))
             self._hole(self.single["hole"])
-        programme_units = self._units()
-        for made, terms in self.parts.get("programme", []):
+        time_function_units = self._units()
+        for made, segments in self.parts.get("time_function", []):
             if made.index not in self.inline:
-                self._programme(self.names[made.index], terms, programme_units.get(made.index))
+                self._time_function(self.names[made.index], segments, time_function_units.get(made.index))
         for made, description in self.parts.get("string", []):
             self._part_head("string", made, description)
             self._table("string", description)
@@ -242,31 +242,31 @@ class Writer:
             self._head("[[hole.section]]", ("hole", "section", number))
             self._table("section", section, special.get)
 
-    def _programme(self, name: str, terms: list[dict[str, Any]], unit: str | None) -> None:
-        path = self.source.paths.get(("programme", name)) if self.source else None
-        self._head("[[programme]]", path, name)
+    def _time_function(self, name: str, segments: list[dict[str, Any]], unit: str | None) -> None:
+        path = self.source.paths.get(("time_function", name)) if self.source else None
+        self._head("[[time_function]]", path, name)
         if unit is None:
-            unit = self.scene.programme_units.get(name, "-") if self.scene else "-"
+            unit = self.scene.time_function_units.get(name, "-") if self.scene else "-"
             self._key("unit", unit)
-        for number, term in enumerate(terms):
-            self._head("[[programme.term]]", None if path is None else path + ("term", number))
-            self._term(name, term, unit)
+        for number, segment in enumerate(segments):
+            self._head("[[time_function.segment]]", None if path is None else path + ("segment", number))
+            self._segment(name, segment, unit)
 
-    def _term(self, name: str, term: dict[str, Any], unit: str) -> None:
-        function = term.get("function")
+    def _segment(self, name: str, segment: dict[str, Any], unit: str) -> None:
+        function = segment.get("function")
         if isinstance(function, PerRevolution):
             for key, value in (("kind", "per-revolution"), ("of", function.of), ("share", function.share),
                                ("order", function.order)):
                 self._key(key, value)
             return
         if function is not None:
-            raise CannotSave(f"programme {name}: a function of Python cannot be written to a file; use a table")
-        if term.get("table"):
-            self._key("table", [[units.text(t, "s"), units.text(v, unit)] for t, v in term["table"]])
+            raise CannotSave(f"time function {name}: a function of Python cannot be written to a file; use a table")
+        if segment.get("table"):
+            self._key("table", [[units.text(t, "s"), units.text(v, unit)] for t, v in segment["table"]])
             return
-        used = TERM_FIELDS.get(term.get("kind", enums.TERM_CONSTANT), ())
-        unused = tuple(key for key in defaults_of("term", term) if used and key not in used)
-        self._table("term", term, lambda key: unit if key in ("h0", "h1") else None, unused)
+        used = SEGMENT_FIELDS.get(segment.get("kind", enums.SEGMENT_CONSTANT), ())
+        unused = tuple(key for key in defaults_of("segment", segment) if used and key not in used)
+        self._table("segment", segment, lambda key: unit if key in ("h0", "h1") else None, unused)
 
     def _part(self, kind: str, made: Id, description: dict[str, Any]) -> None:
         self._part_head(kind, made, description)
@@ -292,14 +292,14 @@ class Writer:
             self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
 
     def _event(self, description: dict[str, Any]) -> None:
-        output = description.get("output", Channel())
+        out = description.get("output", Output())
         known = fields.event_fields()
-        drive = next((one for made, one in self.parts.get("drive", []) if output.place.part == made), None)
-        unit = fields.unit_of_channel(output.quantity, self._setting_unit(output.place),
+        drive = next((one for made, one in self.parts.get("drive", []) if out.place.part == made), None)
+        unit = fields.unit_of_output(out.quantity, self._setting_unit(out.place),
                                       None if drive is None else drive.get("component", 0))
-        self._key("quantity", fields.write(known["quantity"], output.quantity))
-        if output.place.part:
-            self._key("place", self._place(output.place))
+        self._key("quantity", fields.write(known["quantity"], out.quantity))
+        if out.place.part:
+            self._key("place", self._place(out.place))
         for key, value in {**description, **defaults_of("event", description)}.items():
             if key in known:
                 self._key(key, self._plain(known[key], value, unit if key == "level" else None))
@@ -323,15 +323,15 @@ class Writer:
             return
         self._head("[sim]", ("sim",))
         self._table("sim", self.scene.sim)
-        for name, values, known in (("run", {"static": 0, **self.scene.run}, RUN), ("output", self.scene.output, OUTPUT),
+        for name, values, known in (("run", {"static": 0, **self.scene.run}, RUN), ("results", self.scene.results, OUTPUT),
                                     ("limits", self.scene.limits, LIMITS)):
             if values:
                 self._head(f"[{name}]", (name,))
                 order = self.source.order(self.at) if self.source else {}
                 for key, value in sorted(values.items(), key=lambda one: order.get(one[0], len(order))):
                     self._key(key, self._plain(known[key], value, None))
-        for number, (channel, place, quantity) in enumerate(self.scene.channels):
-            self._head("[[channel]]", ("channel", number), channel)
+        for number, (output, place, quantity) in enumerate(self.scene.outputs):
+            self._head("[[output]]", ("output", number), output)
             self._key("quantity", fields.word_of(Named(quantity)))
             if place is not None:
                 self._key("place", self._place(place))
@@ -358,20 +358,20 @@ class Writer:
 
     def _analysis(self, name: str, values: dict[str, Any]) -> None:
         self._head(f"[{name}]", (name,))
-        own = {key: value for key, value in values.items() if key not in ("input", "output") and not (name == "speeds" and key == "order")}
+        own = {key: value for key, value in values.items() if key not in ("excitation", "output") and not (name == "speeds" and key == "order")}
         self._table(name, own, self._factor_unit(values))
-        for number, one in enumerate(values.get("input", [])):
-            self._head(f"[[{name}.input]]", (name, "input", number))
-            self._input(one)
+        for number, one in enumerate(values.get("excitation", [])):
+            self._head(f"[[{name}.excitation]]", (name, "excitation", number))
+            self._excitation(one)
         if name == "speeds":
             for number, one in enumerate(values["order"]):
                 self._head("[[speeds.order]]", (name, "order", number))
                 self._key("order", one["order"])
-                self._input({"kind": enums.INPUT_ECCENTRICITY, **{key: value for key, value in one.items() if key != "order"}})
+                self._excitation({"kind": enums.EXCITATION_ECCENTRICITY, **{key: value for key, value in one.items() if key != "order"}})
         for number, one in enumerate(values.get("output", [])):
             self._head(f"[[{name}.output]]", (name, "output", number), one["name"])
             left_out: tuple[str, ...] = ()
-            if one.get("kind") == enums.OUTPUT_CHANNEL:
+            if one.get("kind") == enums.RESPONSE_OUTPUT:
                 self._key("quantity", fields.word_of(Named(one["component"])))
                 left_out = ("kind", "component")
             self._table("output", one, None, left_out)
@@ -387,15 +387,15 @@ class Writer:
             unit = fields.by_component("m, rad" if motion else "N, N m", drive.get("component", 0))
         return lambda key: unit if key in ("factor_max", "step") else None
 
-    def _input(self, values: dict[str, Any]) -> None:
-        unit = fields.input_unit(values.get("kind", int(enums.INPUT_FORCE)), values.get("component", 0))
-        if values.get("kind") == enums.INPUT_DRIVE:
+    def _excitation(self, values: dict[str, Any]) -> None:
+        unit = fields.excitation_unit(values.get("kind", int(enums.EXCITATION_FORCE)), values.get("component", 0))
+        if values.get("kind") == enums.EXCITATION_DRIVE:
             made = {one.index: description for one, description in self.parts.get("drive", [])}
             drive = made.get(values["place"].part.index, {})
             unit = fields.drive_unit(drive.get("kind", 0), drive.get("component", 0))
-        if values.get("kind") == enums.INPUT_SETTING:
+        if values.get("kind") == enums.EXCITATION_SETTING:
             unit = self._setting_unit(values["place"]) or unit
-        self._table("response input", values, lambda key: unit if key == "amplitude" else None)
+        self._table("response excitation", values, lambda key: unit if key == "amplitude" else None)
 
 
 def clean_name(text: str) -> str:

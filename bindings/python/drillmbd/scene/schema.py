@@ -6,9 +6,9 @@ from typing import Any
 
 from .. import enums
 from .._structs import Motor
-from ..channels import Named
+from ..outputs import Named
 from . import failure, hole, sub, variability
-from .asked import LIMITS, OUTPUT, RUN
+from .settings import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, event_fields, fields_of, words_of
 
@@ -49,8 +49,8 @@ def _many(one: dict[str, Any]) -> dict[str, Any]:
     return {"oneOf": [{"type": "array", "items": one}, one]}
 
 
-def _term() -> dict[str, Any]:
-    known = fields_of(DEFINITIONS["term"])
+def _segment() -> dict[str, Any]:
+    known = fields_of(DEFINITIONS["segment"])
     made = _object(known, table=_TABLE, of=_NAME, share={"type": ["number", "string"]}, order={"type": ["number", "string"]})
     made["properties"]["kind"]["enum"].append("per-revolution")
     made["properties"]["kind"]["enum"].remove("callback")
@@ -80,10 +80,10 @@ def schema() -> dict[str, Any]:
                         survey_file={"type": "string", "description": "CSV, text with blanks, LAS 2.0 or Excel, with heads: depth [m], "
                                      "inclination [deg] (from the downward vertical) or dip [deg] (from the horizontal, up positive), "
                                      "azimuth [deg] (clockwise from north)"}),
-        "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
+        "time_function": _many(_object({}, ("segment",), name=_NAME, unit=_NAME, segment=_many(_segment()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
-        "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS, rig={**_NAME, "description": "name of a catalogue, for torque, push and pull that are left out: drillmbd catalogue"}),
-        "channel": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
+        "run": _object(RUN), "results": _object(OUTPUT), "limits": _object(LIMITS, rig={**_NAME, "description": "name of a catalogue, for torque, push and pull that are left out: drillmbd catalogue"}),
+        "output": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
@@ -105,12 +105,12 @@ def schema() -> dict[str, Any]:
 
 
 def _asked(kind: str) -> dict[str, Any]:
-    output = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
+    out = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
     if kind == "response":
-        return {"input": _many(_object(fields_of(DEFINITIONS["response input"]))), "output": _many(_object(output, name=_NAME))}
+        return {"excitation": _many(_object(fields_of(DEFINITIONS["response excitation"]))), "output": _many(_object(out, name=_NAME))}
     if kind == "speeds":
-        order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["response input"])}
-        return {"order": _many(_object(order)), "output": _many(_object(output, ("limit",), name=_NAME, limit=_QUANTITY))}
+        order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["response excitation"])}
+        return {"order": _many(_object(order)), "output": _many(_object(out, ("limit",), name=_NAME, limit=_QUANTITY))}
     return {}
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._optional import need
 from . import units
-from .changes import path_of_key
+from .overrides import path_of_key
 from .failure import QUESTIONS
 from .fields import DEFINITIONS, Field, fields_of
 from .lines import Path
@@ -42,7 +42,7 @@ SETTINGS = {
     "replicates": Field("replicates", "integer", about="independent designs that the samples of latin-hypercube and sobol are "
                         "divided into, for the interval; default 10"),
     "confidence": Field("confidence", "quantity", "-", about="of intervals; default 0.95"),
-    "look": Field("look", "quantity", "s", about="between looks at the run; default: [output] interval, or each step")}
+    "look": Field("look", "quantity", "s", about="between looks at the run; default: [results] interval, or each step")}
 
 
 @dataclass(frozen=True)
@@ -88,9 +88,9 @@ class RandomField:
 
 @dataclass(frozen=True)
 class RandomProcess:
-    """A programme that varies in time, by a factor or by what is added to it."""
+    """A time function that varies in time, by a factor or by what is added to it."""
     name: str
-    programme: str
+    time_function: str
     unit: str
     marginal: Marginal
     kernel: str
@@ -146,10 +146,10 @@ def unit_of_key(loader: Loader, path: Path) -> str | None:
     """The unit of a single number at a path of the scene; None where there is none."""
     table = next((part for part in reversed(path[:-1]) if isinstance(part, str)), "")
     key = path[-1]
-    if table == "term" and path[0] == "programme" and key in ("h0", "h1"):
+    if table == "segment" and path[0] == "time_function" and key in ("h0", "h1"):
         number = path[1] if len(path) > 1 and isinstance(path[1], int) else 0
-        found = loader.parts("programme")
-        return loader.units.get(loader.name("programme", number, found[number][1])) if number < len(found) else None
+        found = loader.parts("time_function")
+        return loader.units.get(loader.name("time_function", number, found[number][1])) if number < len(found) else None
     known = fields_of(DEFINITIONS[table]).get(str(key)) if table in DEFINITIONS else None
     if known is None or known.kind != "quantity" or known.count:
         return None
@@ -401,22 +401,22 @@ class Reader:
 
     def _process(self, path: Path, table: dict[str, Any], name: str) -> RandomProcess | None:
         known = {"correlation_time": Field("correlation_time", "quantity", "s"), "spacing": Field("spacing", "quantity", "s")}
-        values = self._common(path, table, known, ("programme", "kernel", "how"))
+        values = self._common(path, table, known, ("time_function", "kernel", "how"))
         kernel, length = self._kernel(path, table, "correlation_time", values)
         how = self._word(path, table, "how", PROCESS, "factor")
         spacing = values.get("spacing", length / 5.0)
         if not spacing > 0.0:
             self.problems.add(path + ("spacing",) if "spacing" in table else path, table.get("spacing"), "must have a spacing > 0 s")
-        programme = table.get("programme")
-        if not isinstance(programme, str) or self.loader.kinds.get(programme) != "programme":
-            known_names = [one for one, kind in self.loader.kinds.items() if kind == "programme"]
-            self.problems.add(path + ("programme",), programme, "must name a programme" + meant(str(programme), known_names))
+        time_function = table.get("time_function")
+        if not isinstance(time_function, str) or self.loader.kinds.get(time_function) != "time_function":
+            known_names = [one for one, kind in self.loader.kinds.items() if kind == "time_function"]
+            self.problems.add(path + ("time_function",), time_function, "must name a time function" + meant(str(time_function), known_names))
             return None
-        unit = "-" if how == "factor" else self.loader.units.get(programme, "-")
+        unit = "-" if how == "factor" else self.loader.units.get(time_function, "-")
         if spacing > 0.0 and self.loader.content.get("run"):
             self._points(path, spacing)
         made = self.marginal(path, table, unit)
-        return None if made is None else RandomProcess(name, programme, unit, made, kernel, length, spacing, how)
+        return None if made is None else RandomProcess(name, time_function, unit, made, kernel, length, spacing, how)
 
     def _points(self, path: Path, spacing: float) -> None:
         try:
@@ -486,7 +486,7 @@ def tables_of(found: Variability) -> list[tuple[str, dict[str, Any]]]:
     for process in found.processes:
         time = {"correlation_time": units.text(process.length, "s")} if process.length else {}
         tables.append(("[[variability.process]]", {
-            "name": process.name, "programme": process.programme, "how": process.how, "kernel": process.kernel, **time,
+            "name": process.name, "time_function": process.time_function, "how": process.how, "kernel": process.kernel, **time,
             "spacing": units.text(process.spacing, "s"), **_written(process.marginal, process.unit)}))
     tables += [("[[variability.correlation]]", {"between": [a, b], "rank": rank}) for a, b, rank in found.correlations]
     return tables
@@ -503,7 +503,7 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
                                     relative=relative, **common)),
                  field=many(table({"modes": Field("modes", "integer")}, ("distribution",), key=name, keys={"type": "array", "items": name,
                                   "minItems": 1}, kernel=words(KERNELS), **{"from": quantity, "to": quantity}, correlation_length=quantity, spacing=quantity, relative=relative, **common)),
-                 process=many(table({}, ("programme", "distribution"), programme=name, kernel=words(KERNELS), how=words(PROCESS),
+                 process=many(table({}, ("time_function", "distribution"), time_function=name, kernel=words(KERNELS), how=words(PROCESS),
                                     correlation_time=quantity, spacing=quantity, **common)),
                  correlation=many(table({}, ("between", "rank"), rank={"type": ["number", "string"]},
                                         between={"type": "array", "items": name, "minItems": 2, "maxItems": 2})))

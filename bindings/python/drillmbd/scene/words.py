@@ -35,7 +35,7 @@ def trivial(scene: Scene) -> list[str]:
     found: list[str] = []
     pipes = [DEFINITIONS["pipes"](**{key: value for key, value in one.items() if key != "string"}) for _, one in calls.get("add_pipes", [])]
     if pipes and not scene.model.inputs() and not any(one.get("kind") for one, in calls.get("add_drive", []) if one.get("component") == enums.RX) and not any(
-            one.get("component") == enums.RX and _ever(calls, one.get("programme")) for one, in calls.get("add_drive", [])):
+            one.get("component") == enums.RX and _ever(calls, one.get("time_function")) for one, in calls.get("add_drive", [])):
         found.append(phrase("no rotation: torque, whirl and critical speeds are not excited"))
     if pipes and not any(one.eccentricity or one.eccentricity_spread for one in pipes):
         found.append(phrase("no eccentricity of the pipes: rotation excites no lateral vibration; set eccentricity in [[string.pipes]]"))
@@ -134,22 +134,22 @@ def _operation(calls: dict[str, list[tuple[Any, ...]]]) -> list[str]:
 
 def _speeds(calls: dict[str, list[tuple[Any, ...]]]) -> list[tuple[int, float]]:
     """Component and largest speed of the drives that prescribe a motion."""
-    return [(one.get("component", int(enums.X)), _largest(calls, one["programme"])) for one, in calls.get("add_drive", [])
-            if "programme" in one and one.get("kind", int(enums.DRIVE_MOTION)) != enums.DRIVE_LOAD]
+    return [(one.get("component", int(enums.X)), _largest(calls, one["time_function"])) for one, in calls.get("add_drive", [])
+            if "time_function" in one and one.get("kind", int(enums.DRIVE_MOTION)) != enums.DRIVE_LOAD]
 
 
 def _bit_load(calls: dict[str, list[tuple[Any, ...]]], bit: dict[str, Any]) -> float:
     return _largest(calls, bit["load"]) if "load" in bit else 0.0
 
 
-def _ever(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> bool:
-    """Whether a programme has a value other than 0 at any time."""
-    terms = calls["add_programme"][programme.index & 0xFFFFFF] if programme else ()
-    return any("function" in one or one.get("h0") or (one.get("h1") and one.get("kind", enums.TERM_CONSTANT) != enums.TERM_CONSTANT)
-               or any(value for _, value in one.get("table", ())) for one in terms)
+def _ever(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> bool:
+    """Whether a time function has a value other than 0 at any time."""
+    segments = calls["add_time_function"][time_function.index & 0xFFFFFF] if time_function else ()
+    return any("function" in one or one.get("h0") or (one.get("h1") and one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT)
+               or any(value for _, value in one.get("table", ())) for one in segments)
 
 
-def _largest(calls: dict[str, list[tuple[Any, ...]]], programme: Any) -> float:
-    """The largest magnitude of a programme; of one with a function of Python that of the rest."""
-    terms = calls["add_programme"][programme.index & 0xFFFFFF]
-    return largest_of([one for one in terms if one.get("function") is None and one.get("kind") != enums.TERM_CALLBACK]) or 0.0
+def _largest(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> float:
+    """The largest magnitude of a time function; of one with a function of Python that of the rest."""
+    segments = calls["add_time_function"][time_function.index & 0xFFFFFF]
+    return largest_of([one for one in segments if one.get("function") is None and one.get("kind") != enums.SEGMENT_CALLBACK]) or 0.0

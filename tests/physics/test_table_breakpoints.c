@@ -1,5 +1,5 @@
-/* Corners of speed tables against closed forms: the work of a motion drive is the kinetic energy it makes, however
- * steps fall on the corners and however short the ramps are; time is the number of steps times their length. */
+/* Breakpoints of speed tables against closed forms: the work of a motion drive is the kinetic energy it makes, however
+ * steps fall on the breakpoints and however short the ramps are; time is the number of steps times their length. */
 #include <float.h>
 #include <stdio.h>
 
@@ -24,11 +24,11 @@ static const table tables[] = {
      {0.0, 0.123456, 0.123999, 0.5004, 0.5007, 0.50071},
      {3.0, 3.0, 8.0, 8.0, -2.0, 4.0},
      1.0},
-    {"two corners in a sliver", 4, {0.0, 0.4999999999, 0.5000000001, 0.6}, {0.0, 0.0, 7.0, 7.0}, 1.0},
-    {"corner just before a step", 4, {0.0, 0.4999999999, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
-    {"corner just after a step", 4, {0.0, 0.5000000001, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
-    {"corner an ulp before a step", 3, {0.0, 0.5 - DBL_EPSILON / 4.0, 0.8}, {0.0, 4.0, 4.0}, 1.0},
-    {"corner an ulp after a step", 3, {0.0, 0.5 + DBL_EPSILON / 2.0, 0.8}, {0.0, 4.0, 4.0}, 1.0},
+    {"two breakpoints in a sliver", 4, {0.0, 0.4999999999, 0.5000000001, 0.6}, {0.0, 0.0, 7.0, 7.0}, 1.0},
+    {"breakpoint just before a step", 4, {0.0, 0.4999999999, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
+    {"breakpoint just after a step", 4, {0.0, 0.5000000001, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
+    {"breakpoint an ulp before a step", 3, {0.0, 0.5 - DBL_EPSILON / 4.0, 0.8}, {0.0, 4.0, 4.0}, 1.0},
+    {"breakpoint an ulp after a step", 3, {0.0, 0.5 + DBL_EPSILON / 2.0, 0.8}, {0.0, 4.0, 4.0}, 1.0},
 };
 
 enum { TABLES = sizeof tables / sizeof tables[0] };
@@ -46,12 +46,12 @@ static double table_at(const table *t, double time)
 
 static dmb_id add_table(rig *s, const table *t)
 {
-    dmb_term term = dmb_term_default();
-    term.kind = DMB_TERM_TABLE;
+    dmb_segment term = dmb_segment_default();
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = t->time;
     term.table_value = t->value;
     term.table_count = t->count;
-    return add_programme(s, &term, 1);
+    return add_time_function(s, &term, 1);
 }
 
 static dmb_drive_state drive_of(const rig *s, dmb_id drive)
@@ -74,17 +74,17 @@ static void run(const rig *s, int how, double h, double end)
 /* ---- Rigid parts: the work is exactly the kinetic energy --------------------------------------------------------- */
 
 /* The drive on a body of mass 2 kg and inertia INERTIA, along or about x, itself or by a joint. */
-static dmb_id add_driven_body(rig *s, int32_t component, int on_joint, dmb_id programme)
+static dmb_id add_driven_body(rig *s, int32_t component, int on_joint, dmb_id time_function)
 {
     dmb_body_def body = dmb_body_def_default();
     body.mass = 2.0;
     for (int i = 0; i < 3; i++) body.inertia[i] = INERTIA;
     if (!on_joint) body.free_mask = DMB_FREE_CYLINDRICAL;
     const dmb_id id = add_body(s, &body);
-    if (!on_joint) return add_simple_drive(s, DMB_DRIVE_MOTION, id, component, programme);
+    if (!on_joint) return add_simple_drive(s, DMB_DRIVE_MOTION, id, component, time_function);
     const dmb_place ground = {{0, 0}, 0, 0, 0.0};
     dmb_joint_def def = joint_between(DMB_JOINT_CYLINDRICAL, ground, dmb_station(id, 0, 0.0));
-    return add_simple_drive(s, DMB_DRIVE_MOTION, add_joint(s, &def), component, programme);
+    return add_simple_drive(s, DMB_DRIVE_MOTION, add_joint(s, &def), component, time_function);
 }
 
 static void check_work(const table *t, int32_t component, int on_joint, int how, double h)
@@ -93,8 +93,8 @@ static void check_work(const table *t, int32_t component, int on_joint, int how,
     char what[160];
     const double inertia = component == DMB_X ? 2.0 : INERTIA;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id programme = add_table(&s, t);
-    const dmb_id drive = add_driven_body(&s, component, on_joint, programme);
+    const dmb_id time_function = add_table(&s, t);
+    const dmb_id drive = add_driven_body(&s, component, on_joint, time_function);
     (void)rig_start(&s, NULL);
     run(&s, how, h, t->end);
     const double v0 = table_at(t, 0.0), v1 = table_at(t, t->end), want = 0.5 * inertia * (v1 * v1 - v0 * v0);
@@ -184,7 +184,7 @@ static void work_on_strings_is_energy_and_dissipation(void **state)
 
 /* ---- Steps that are not divided ---------------------------------------------------------------------------------- */
 
-/* Bounded work: a corner inside a step divides the work, not the step. */
+/* Bounded work: a breakpoint inside a step divides the work, not the step. */
 static void bounded_steps_divide_the_work(void **state)
 {
     const table t = {"bounded", 4, {0.0, 0.5047, 0.8123, 1.0}, {5.0, 5.0, 15.0, 15.0}, 1.0};
@@ -195,8 +195,8 @@ static void bounded_steps_divide_the_work(void **state)
         dmb_sim_options options = dmb_sim_options_default();
         options.bounded_work = 1;
         rig_open(&s, 0.0, 0.0, 0.0);
-        const dmb_id programme = add_table(&s, &t);
-        const dmb_id drive = add_driven_body(&s, DMB_RX, 0, programme);
+        const dmb_id time_function = add_table(&s, &t);
+        const dmb_id drive = add_driven_body(&s, DMB_RX, 0, time_function);
         (void)rig_start(&s, &options);
         run(&s, STEPS, k ? 1e-3 : 1e-2, 1.0);
         error[k] = drive_of(&s, drive).work / (0.5 * INERTIA * 200.0) - 1.0;

@@ -7,21 +7,22 @@
 #include "model/model.h"
 #include "model/section.h"
 
-static const dmb_ring_def *def_of(const dmb_mesh *mesh, uint32_t ring)
+static const dmb_stabiliser_def *def_of(const dmb_mesh *mesh, uint32_t ring)
 {
-    return DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
+    return DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, ring);
 }
 
 static dmb_check check_of(const dmb_mesh *mesh, uint32_t ring, dmb_message *text)
 {
-    return dmb_check_of(&mesh->model->message, dmb_model_part_text(mesh->model, DMB_PART_RING, ring, text), DMB_NONE);
+    return dmb_check_of(&mesh->model->message, dmb_model_part_text(mesh->model, DMB_PART_STABILISER, ring, text),
+                        DMB_NONE);
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
 static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
 {
-    const dmb_ring_def *def = def_of(mesh, i);
+    const dmb_stabiliser_def *def = def_of(mesh, i);
     dmb_message text;
     dmb_check check = check_of(mesh, i, &text);
     if (mesh->strings.count == 0 && mesh->model->strings.count == 0) {
@@ -34,8 +35,8 @@ static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
     if (run == NULL) {
         const uint32_t pipes = DMB_LIST_AT(const dmb_string_plan, mesh->model->strings, string)->pipes;
         dmb_message_set(check.message,
-                        "%s: pipe = %u, must be < %u, the pipes of string %u; add pipes or move the ring", check.part,
-                        def->pipe, pipes, string);
+                        "%s: pipe = %u, must be < %u, the pipes of string %u; add pipes or move the stabiliser",
+                        check.part, def->pipe, pipes, string);
         return DMB_ERR_VALUE;
     }
     const bool in_joint = def->fraction * run->def.length > dmb_pipe_body_length(&run->def);
@@ -153,7 +154,7 @@ static void place_reamers(dmb_mesh *mesh, uint32_t first)
     const dmb_model *model = mesh->model;
     for (uint32_t i = 0; i < model->bits.count; i++) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
-        const uint32_t ring = dmb_model_part_index(model, bit->ring, DMB_PART_RING);
+        const uint32_t ring = dmb_model_part_index(model, bit->stabiliser, DMB_PART_STABILISER);
         if (ring == DMB_NONE) continue;
         const dmb_body_map *on = DMB_VECTOR_AT(const dmb_body_map, &mesh->bodies, first + ring);
         dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, model->bodies.count + i);
@@ -171,7 +172,7 @@ int32_t dmb_mesh_rings(dmb_mesh *mesh)
     int32_t status = dmb_vector_append(&mesh->bodies, &model->allocator, NULL, model->rings.count);
     for (size_t i = 0; i < mesh->ring_order.count && status >= 0; i++) {
         const dmb_mesh_ring *ring = DMB_VECTOR_AT(const dmb_mesh_ring, &mesh->ring_order, i);
-        const dmb_ring_def *def = def_of(mesh, ring->ring);
+        const dmb_stabiliser_def *def = def_of(mesh, ring->ring);
         const uint32_t pipe = dmb_mesh_string_at(mesh, ring->string)->first_pipe + ring->pipe;
         const dmb_mesh_place place = node_near(mesh, dmb_mesh_pipe_at(mesh, pipe), ring->along);
         dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, first + ring->ring);

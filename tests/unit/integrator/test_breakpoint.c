@@ -1,23 +1,23 @@
-/* Lengths of steps against the lengths asked for, bit by bit: where no corner cuts them, however long the run, and in
- * full again behind a corner that did. */
+/* Lengths of steps against the lengths asked for, bit by bit: where no breakpoint cuts them, however long the run, and
+ * in full again behind a breakpoint that did. */
 #include "rig.h"
 
 #include "sim/sim.h"
 
-/* A free body, pushed by a table with a corner at `corner` [s]. */
-static void open_scene(rig *s, double corner)
+/* A free body, pushed by a table with a breakpoint at `breakpoint` [s]. */
+static void open_scene(rig *s, double breakpoint)
 {
-    const double time[3] = {0.0, corner, 1e6}, value[3] = {0.0, 1.0, 1.0};
+    const double time[3] = {0.0, breakpoint, 1e6}, value[3] = {0.0, 1.0, 1.0};
     dmb_body_def body = dmb_body_def_default();
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     rig_open(s, 0.0, 0.0, 0.0);
     body.free_mask = 1 << DMB_X;
     const dmb_id id = add_body(s, &body);
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;
     term.table_value = value;
     term.table_count = 3;
-    (void)add_simple_drive(s, DMB_DRIVE_LOAD, id, DMB_X, add_programme(s, &term, 1));
+    (void)add_simple_drive(s, DMB_DRIVE_LOAD, id, DMB_X, add_time_function(s, &term, 1));
     (void)rig_start(s, NULL);
 }
 
@@ -35,8 +35,8 @@ static void equal_steps_are_equal(void **state)
     rig_close(&s);
 }
 
-/* 0.01 s over a corner at 0.305 s: the step that it cuts ends there, the one after it is what is left of 0.01 s. */
-static void steps_are_whole_again_behind_a_corner(void **state)
+/* 0.01 s over a breakpoint at 0.305 s: the step that it cuts ends there, the one after it is what is left of 0.01 s. */
+static void steps_are_whole_again_behind_a_breakpoint(void **state)
 {
     rig s;
     (void)state;
@@ -44,7 +44,7 @@ static void steps_are_whole_again_behind_a_corner(void **state)
     for (int i = 0; i < 100; i++) {
         must(&s, dmb_sim_step(s.sim, 0.01, NULL));
         if (i == 30)
-            check_close("what is left behind the corner", s.sim->clock->step, 0.005, 1e-15);
+            check_close("what is left behind the breakpoint", s.sim->clock->step, 0.005, 1e-15);
         else
             assert_true(s.sim->clock->step == 0.01);
     }
@@ -56,7 +56,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_steps_are_equal),
-        cmocka_unit_test(steps_are_whole_again_behind_a_corner),
+        cmocka_unit_test(steps_are_whole_again_behind_a_breakpoint),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

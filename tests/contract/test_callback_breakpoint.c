@@ -1,18 +1,18 @@
-/* Behind a step that ends where the rate of a programme jumps, accelerations are made anew, for which functions of the
- * caller's are asked. One that fails there fails the call: a step leaves the sim as it was, its kept factors included,
- * and an advance leaves it before the step that ends there, so that the next call makes the accelerations anew and goes
- * on with the bits of a run in which nothing has failed. */
+/* Behind a step that ends where the rate of a time function jumps, accelerations are made anew, for which functions of
+ * the caller's are asked. One that fails there fails the call: a step leaves the sim as it was, its kept factors
+ * included, and an advance leaves it before the step that ends there, so that the next call makes the accelerations
+ * anew and goes on with the bits of a run in which nothing has failed. */
 #include <string.h>
 
 #include "rig.h"
 #include "sim/sim.h"
 
-static const double corner_time = 2.4e-3; /* [s] */
+static const double breakpoint_time = 2.4e-3; /* [s] */
 
 typedef struct subject {
     rig r;
     size_t asked, failing; /* questions so far; number of the one that fails, from 1, or 0 */
-    int bends;             /* 1: the motion programme is a function of the caller's too */
+    int bends;             /* 1: the motion time function is a function of the caller's too */
 } subject;
 
 static int32_t answer(subject *c)
@@ -20,10 +20,10 @@ static int32_t answer(subject *c)
     return ++c->asked == c->failing;
 }
 
-/* Speed that rises from the corner on. */
+/* Speed that rises from the breakpoint on. */
 static int32_t bent(void *context, double time, double out[3])
 {
-    const double beyond = time - corner_time, rise = 40.0;
+    const double beyond = time - breakpoint_time, rise = 40.0;
     out[0] = beyond < 0.0 ? 0.0 : rise * beyond;
     out[1] = beyond < 0.0 ? 0.0 : rise;
     out[2] = beyond < 0.0 ? 0.0 : 0.5 * rise * beyond * beyond;
@@ -39,16 +39,16 @@ static int32_t hold(void *context, double time, uint32_t count, const double (*p
     return answer(context);
 }
 
-static dmb_id bent_programme(subject *c)
+static dmb_id bent_time_function(subject *c)
 {
     static const double times[] = {0.0, 2.4e-3, 1.0}, values[] = {0.0, 0.0, 40.0};
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     if (c->bends) return add_callback(&c->r, bent, c);
-    term.kind = DMB_TERM_TABLE;
+    term.kind = DMB_SEGMENT_TABLE;
     term.table_time = times;
     term.table_value = values;
     term.table_count = 3;
-    return add_programme(&c->r, &term, 1);
+    return add_time_function(&c->r, &term, 1);
 }
 
 static void add_event(subject *c, dmb_id string)
@@ -56,12 +56,12 @@ static void add_event(subject *c, dmb_id string)
     dmb_event_def event = dmb_event_def_default();
     strcpy(event.name, "never");
     event.output.place = dmb_station(string, 2, 1.0);
-    event.output.quantity = DMB_CHANNEL_POSITION_X;
+    event.output.quantity = DMB_OUTPUT_POSITION_X;
     event.level = 1e6;
     must_model(&c->r, dmb_model_add_event(c->r.model, &event, NULL));
 }
 
-/* Pipes on the low side of a hole, turned at the rig from the corner on. */
+/* Pipes on the low side of a hole, turned at the rig from the breakpoint on. */
 static void open_subject(subject *c, int bends)
 {
     const dmb_wall_def hole = s1_hole();
@@ -73,7 +73,7 @@ static void open_subject(subject *c, int bends)
     rig_open(&c->r, 0.0, 0.0, -9.81);
     (void)add_wall(&c->r, &hole);
     const dmb_id string = add_pipes(&c->r, &pipe, 3);
-    (void)add_simple_drive(&c->r, DMB_DRIVE_MOTION, string, DMB_RX, bent_programme(c));
+    (void)add_simple_drive(&c->r, DMB_DRIVE_MOTION, string, DMB_RX, bent_time_function(c));
     force.place[0] = dmb_station(string, 2, 1.0);
     force.callback = hold;
     force.callback_context = c;
@@ -87,7 +87,7 @@ static void open_subject(subject *c, int bends)
 
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
-/* Its second substep begins at the corner. */
+/* Its second substep begins at the breakpoint. */
 static int32_t step_over(subject *c)
 {
     return dmb_sim_step(c->r.sim, 8e-4, NULL);
@@ -130,7 +130,7 @@ static motion motion_of(const subject *c)
 }
 
 /* It fails with its message; a step changes nothing. Returns whether it stopped before the step that ends on the
- * corner, rather than within it. */
+ * breakpoint, rather than within it. */
 static void fails(subject *c, int32_t (*call)(subject *c), int goes)
 {
     const uint64_t before = rig_hash(&c->r);

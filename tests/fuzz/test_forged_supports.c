@@ -1,5 +1,5 @@
-/* Poses of what guides hold, forged in a snapshot: refused for each component that is not free, taken for each that is,
- * for every set of free components; and states in which guides have moved, after a state transfer, are taken. */
+/* Poses of what supports hold, forged in a snapshot: refused for each component that is not free, taken for each that
+ * is, for every set of free components; and states in which supports have moved, after a state transfer, are taken. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -75,7 +75,7 @@ static void shift(const subject *s, int c, double by)
     for (size_t i = 0; i < 4; i++) put(s, "quaternion", i, moved[i]);
 }
 
-static void bodies_stay_on_their_guides(void **state)
+static void bodies_stay_on_their_supports(void **state)
 {
     (void)state;
     for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
@@ -136,10 +136,11 @@ static void strings_stay_where_they_are_held(void **state)
     close_subject(&s);
 }
 
-/* ---- Guides that have moved -------------------------------------------------------------------------------------- */
+/* ---- Supports that have moved --------------------------------------------------------------------------------------
+ */
 
-/* A transfer leaves a body where it is in the world, and its guide grips it there. */
-static void carried_guides_are_taken(void **state)
+/* A transfer leaves a body where it is in the world, and its support grips it there. */
+static void carried_supports_are_taken(void **state)
 {
     (void)state;
     subject from = open_body(DMB_FREE_X, 0.0), s = open_body(DMB_FREE_X, 0.25);
@@ -202,8 +203,8 @@ static void carried_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_stay_on_their_guides), cmocka_unit_test(strings_stay_where_they_are_held),
-        cmocka_unit_test(carried_guides_are_taken),    cmocka_unit_test(carried_back),
+        cmocka_unit_test(bodies_stay_on_their_supports), cmocka_unit_test(strings_stay_where_they_are_held),
+        cmocka_unit_test(carried_supports_are_taken),    cmocka_unit_test(carried_back),
         cmocka_unit_test(carried_without_a_ledger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

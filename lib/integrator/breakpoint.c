@@ -1,8 +1,8 @@
 /* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at 1000
- * s, and sums that reach a corner reach that corner. A step that no corner cuts has the length that was asked for, to
- * the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time excite what a
- * change of step excites. */
-#include "integrator/corner.h"
+ * s, and sums that reach a breakpoint reach that breakpoint. A step that no breakpoint cuts has the length that was
+ * asked for, to the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time
+ * excite what a change of step excites. */
+#include "integrator/breakpoint.h"
 
 #include <float.h>
 #include <math.h>
@@ -11,40 +11,43 @@
 
 #define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
 #define DMB_DELAYED_SLIVER 1e-9 /* [-] the same where commands are delayed */
-#define DMB_CORNER_ROUNDING 4.0 /* [ulp] between the sum of steps as the caller rounds them and the corner it means */
+#define DMB_BREAKPOINT_ROUNDING \
+    4.0 /* [ulp] between the sum of steps as the caller rounds them and the breakpoint it means */
 
-/* [s] Smallest corner later than t of a programme; INFINITY if none. */
-static double corner_of(const dmb_scene *scene, uint32_t programme, double t)
+/* [s] Smallest breakpoint later than t of a time function; INFINITY if none. */
+static double breakpoint_of(const dmb_scene *scene, uint32_t time_function, double t)
 {
-    return programme == DMB_NONE ? (double)INFINITY : dmb_programme_next_corner(scene->programmes + programme, t);
+    return time_function == DMB_NONE ? (double)INFINITY
+                                     : dmb_time_function_next_breakpoint(scene->time_functions + time_function, t);
 }
 
-/* [s] Smallest corner later than t of any programme in use; INFINITY if none. */
-static double next_corner(const dmb_sim *sim, double t)
+/* [s] Smallest breakpoint later than t of any time function in use; INFINITY if none. */
+static double next_breakpoint(const dmb_sim *sim, double t)
 {
     const dmb_scene *scene = sim->scene;
     double next = (double)INFINITY;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         if (!isnan(sim->drive_input[i])) continue;
-        next = fmin(next, corner_of(scene, scene->drives[i].programme, t));
-        next = fmin(next, corner_of(scene, scene->drives[i].excitation, t));
+        next = fmin(next, breakpoint_of(scene, scene->drives[i].time_function, t));
+        next = fmin(next, breakpoint_of(scene, scene->drives[i].excitation, t));
     }
-    if (scene->delay_count) next = fmin(next, dmb_actuators_next_corner(sim, t));
-    for (uint32_t i = 0; i < scene->load_count; i++) next = fmin(next, corner_of(scene, scene->loads[i].programme, t));
-    for (uint32_t i = 0; i < scene->bit_count; i++) next = fmin(next, corner_of(scene, scene->bits[i].load, t));
+    if (scene->delay_count) next = fmin(next, dmb_actuators_next_breakpoint(sim, t));
+    for (uint32_t i = 0; i < scene->load_count; i++)
+        next = fmin(next, breakpoint_of(scene, scene->loads[i].time_function, t));
+    for (uint32_t i = 0; i < scene->bit_count; i++) next = fmin(next, breakpoint_of(scene, scene->bits[i].load, t));
     return next;
 }
 
-/* [s] The first corner that no step has met. */
-static double corner_ahead(const dmb_sim *sim)
+/* [s] The first breakpoint that no step has met. */
+static double breakpoint_ahead(const dmb_sim *sim)
 {
-    return next_corner(sim, fmax(sim->clock->time, sim->clock->corner));
+    return next_breakpoint(sim, fmax(sim->clock->time, sim->clock->breakpoint));
 }
 
 /* True where only the rounding of sums of steps lies between them. */
 static int is_same_time(double a, double b)
 {
-    return fabs(a - b) <= DMB_CORNER_ROUNDING * DBL_EPSILON * fabs(b);
+    return fabs(a - b) <= DMB_BREAKPOINT_ROUNDING * DBL_EPSILON * fabs(b);
 }
 
 /* [s] from the present time */
@@ -82,46 +85,46 @@ dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time)
     return end;
 }
 
-dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *goal, double h)
+dmb_step_end dmb_step_end_before_breakpoint(const dmb_sim *sim, const dmb_step_end *goal, double h)
 {
     const double left = length_left(sim, goal), sliver = sliver_of(sim) * fmin(left, h);
-    const double corner = corner_ahead(sim), distance = length_to(sim, corner);
+    const double breakpoint = breakpoint_ahead(sim), distance = length_to(sim, breakpoint);
     dmb_step_end end = *goal;
     end.step = left;
     end.arrives = 1;
     if (distance > left + sliver) return end;
-    const int alone = distance >= left - sliver && length_to(sim, next_corner(sim, corner)) > left + sliver;
-    if (alone || is_same_time(goal->time, corner)) {
-        end.corner = corner;
+    const int alone = distance >= left - sliver && length_to(sim, next_breakpoint(sim, breakpoint)) > left + sliver;
+    if (alone || is_same_time(goal->time, breakpoint)) {
+        end.breakpoint = breakpoint;
         return end;
     }
     if (distance > left) return end;
-    end = dmb_step_end_at(sim, corner);
-    end.corner = corner;
+    end = dmb_step_end_at(sim, breakpoint);
+    end.breakpoint = breakpoint;
     return end;
 }
 
-dmb_step_end dmb_step_end_over_corners(const dmb_sim *sim, const dmb_step_end *goal)
+dmb_step_end dmb_step_end_over_breakpoints(const dmb_sim *sim, const dmb_step_end *goal)
 {
     const double left = length_left(sim, goal), sliver = sliver_of(sim) * left;
-    const double first = corner_ahead(sim), second = next_corner(sim, first);
+    const double first = breakpoint_ahead(sim), second = next_breakpoint(sim, first);
     const double to_first = length_to(sim, first), to_second = length_to(sim, second);
     dmb_step_end end = *goal;
     end.step = left;
     end.arrives = 1;
     if (to_second <= left + sliver) return end;
     if (fabs(to_first - left) <= sliver)
-        end.corner = first;
+        end.breakpoint = first;
     else if (to_first < left)
         end.inside = first;
     return end;
 }
 
-dmb_step_end dmb_step_end_on_corner(dmb_step_end end)
+dmb_step_end dmb_step_end_on_breakpoint(dmb_step_end end)
 {
-    if (!(end.corner > 0.0) || !is_same_time(end.time, end.corner)) return end;
-    end.rest += end.time - end.corner;
-    end.step -= end.time - end.corner;
-    end.time = end.corner;
+    if (!(end.breakpoint > 0.0) || !is_same_time(end.time, end.breakpoint)) return end;
+    end.rest += end.time - end.breakpoint;
+    end.step -= end.time - end.breakpoint;
+    end.time = end.breakpoint;
     return end;
 }

@@ -1,4 +1,4 @@
-/* Channels as outputs of linear analyses: each is what an output of another kind says. */
+/* Outputs as outputs of linear analyses: each is what an output of another kind says. */
 #include <math.h>
 
 #include "analysis/response/response.h"
@@ -6,7 +6,7 @@
 
 typedef struct meaning {
     const dmb_sim *sim;
-    dmb_output *out;
+    dmb_response_output *out;
     uint32_t *bit;
     const char **why;
 } meaning;
@@ -32,12 +32,12 @@ static int32_t not_linear(const meaning *m)
                   "or run a stepped sine");
 }
 
-static int32_t at_string(const meaning *m, const dmb_output *channel, int at_far_end)
+static int32_t at_string(const meaning *m, const dmb_response_output *output, int at_far_end)
 {
-    const dmb_channel asked = {channel->place, channel->component, 0};
+    const dmb_output asked = {output->place, output->component, 0};
     dmb_id string;
     uint32_t index;
-    if (dmb_channel_string(m->sim, &asked, &string, &index) < 0)
+    if (dmb_output_string(m->sim, &asked, &string, &index) < 0)
         return refuse(m, DMB_ERR_ID, "place.part names no string of this model, nor {0, 0} for the first");
     const uint32_t last = m->sim->scene->strings[index].pipe_count - 1;
     m->out->place = at_far_end ? dmb_station(string, last, 1.0) : dmb_station(string, 0, 0.0);
@@ -45,13 +45,13 @@ static int32_t at_string(const meaning *m, const dmb_output *channel, int at_far
 }
 
 /* The one bit on the string: the answer is that of a single bit. */
-static int32_t at_bit(const meaning *m, const dmb_output *channel)
+static int32_t at_bit(const meaning *m, const dmb_response_output *output)
 {
-    const dmb_channel asked = {channel->place, channel->component, 0};
+    const dmb_output asked = {output->place, output->component, 0};
     const dmb_scene *scene = m->sim->scene;
     uint32_t index, count = 0;
     dmb_id string;
-    if (dmb_channel_string(m->sim, &asked, &string, &index) < 0)
+    if (dmb_output_string(m->sim, &asked, &string, &index) < 0)
         return refuse(m, DMB_ERR_ID, "place.part names no string of this model, nor {0, 0} for the first");
     for (uint32_t k = 0; k < scene->bit_count; k++) {
         if (scene->bits[k].reamer) continue;
@@ -61,37 +61,37 @@ static int32_t at_bit(const meaning *m, const dmb_output *channel)
         count++;
     }
     return count == 1 ? DMB_OK
-                      : refuse(m, DMB_ERR_UNSUPPORTED, "the string must have one bit; name it by a bit channel");
+                      : refuse(m, DMB_ERR_UNSUPPORTED, "the string must have one bit; name it by a bit output");
 }
 
-static int32_t of_driller(const meaning *m, const dmb_output *channel)
+static int32_t of_driller(const meaning *m, const dmb_response_output *output)
 {
-    const int32_t q = channel->component, far = q == DMB_CHANNEL_BIT_SPEED;
-    const int32_t on_bit = q == DMB_CHANNEL_WEIGHT_ON_BIT || q == DMB_CHANNEL_TORQUE_ON_BIT;
-    const int32_t status = on_bit ? at_bit(m, channel) : at_string(m, channel, far);
+    const int32_t q = output->component, far = q == DMB_OUTPUT_BIT_SPEED;
+    const int32_t on_bit = q == DMB_OUTPUT_WEIGHT_ON_BIT || q == DMB_OUTPUT_TORQUE_ON_BIT;
+    const int32_t status = on_bit ? at_bit(m, output) : at_string(m, output, far);
     if (status < 0) return status;
-    if (q != DMB_CHANNEL_WEIGHT_ON_BIT) *m->bit = DMB_NONE;
+    if (q != DMB_OUTPUT_WEIGHT_ON_BIT) *m->bit = DMB_NONE;
     switch (q) {
-    case DMB_CHANNEL_HOOK_LOAD:
-    case DMB_CHANNEL_ROTATION_TORQUE: return DMB_OK; /* itself: a smooth answer about the rig end */
-    case DMB_CHANNEL_WEIGHT_ON_BIT: return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
-    case DMB_CHANNEL_TORQUE_ON_BIT: return means(m, DMB_OUTPUT_BIT, DMB_RX, DMB_FRAME_BODY);
-    case DMB_CHANNEL_BIT_SPEED:
-    case DMB_CHANNEL_ROTARY_SPEED: return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, DMB_FRAME_BODY);
-    case DMB_CHANNEL_FEED_SPEED: return means(m, DMB_OUTPUT_VELOCITY, DMB_X, DMB_FRAME_BODY);
+    case DMB_OUTPUT_HOOK_LOAD:
+    case DMB_OUTPUT_ROTATION_TORQUE: return DMB_OK; /* itself: a smooth answer about the rig end */
+    case DMB_OUTPUT_WEIGHT_ON_BIT: return means(m, DMB_RESPONSE_BIT, DMB_X, DMB_FRAME_BODY);
+    case DMB_OUTPUT_TORQUE_ON_BIT: return means(m, DMB_RESPONSE_BIT, DMB_RX, DMB_FRAME_BODY);
+    case DMB_OUTPUT_BIT_SPEED:
+    case DMB_OUTPUT_ROTARY_SPEED: return means(m, DMB_RESPONSE_VELOCITY, DMB_RX, DMB_FRAME_BODY);
+    case DMB_OUTPUT_FEED_SPEED: return means(m, DMB_RESPONSE_VELOCITY, DMB_X, DMB_FRAME_BODY);
     default: return not_linear(m);
     }
 }
 
 static int32_t of_bit(const meaning *m, int32_t q)
 {
-    if (q == DMB_CHANNEL_BIT_TORQUE) return means(m, DMB_OUTPUT_BIT, DMB_RX, DMB_FRAME_BODY);
-    if (q == DMB_CHANNEL_BIT_ROCK_WEIGHT) return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
-    if (q != DMB_CHANNEL_BIT_WEIGHT) return not_linear(m);
+    if (q == DMB_OUTPUT_BIT_TORQUE) return means(m, DMB_RESPONSE_BIT, DMB_RX, DMB_FRAME_BODY);
+    if (q == DMB_OUTPUT_BIT_ROCK_WEIGHT) return means(m, DMB_RESPONSE_BIT, DMB_X, DMB_FRAME_BODY);
+    if (q != DMB_OUTPUT_BIT_WEIGHT) return not_linear(m);
     const uint32_t k = dmb_model_part_index(m->sim->model, m->out->place.part, DMB_PART_BIT);
     if (k >= m->sim->scene->bit_count) return refuse(m, DMB_ERR_ID, "place.part names no bit of this model");
     *m->bit = k;
-    return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
+    return means(m, DMB_RESPONSE_BIT, DMB_X, DMB_FRAME_BODY);
 }
 
 /* The speed of a drive is that of the coordinate of its joint, or of its row of the node. */
@@ -100,20 +100,21 @@ static int32_t of_drive(const meaning *m, int32_t q)
     const uint32_t i = dmb_model_part_index(m->sim->model, m->out->place.part, DMB_PART_DRIVE);
     if (i >= m->sim->scene->drive_count) return refuse(m, DMB_ERR_ID, "place.part names no drive of this model");
     const dmb_scene_drive *drive = m->sim->scene->drives + i;
-    const int32_t is_speed = q == DMB_CHANNEL_DRIVE_SPEED, is_position = q == DMB_CHANNEL_DRIVE_POSITION;
-    if (q == DMB_CHANNEL_DRIVE_FORCE) return means(m, DMB_OUTPUT_DRIVE, DMB_X, DMB_FRAME_BODY);
+    const int32_t is_speed = q == DMB_OUTPUT_DRIVE_SPEED, is_position = q == DMB_OUTPUT_DRIVE_POSITION;
+    if (q == DMB_OUTPUT_DRIVE_FORCE) return means(m, DMB_RESPONSE_DRIVE, DMB_X, DMB_FRAME_BODY);
     if (!is_speed && !is_position) return not_linear(m);
     if (drive->joint == DMB_NONE)
         return refuse(m, DMB_ERR_UNSUPPORTED, "ask for body_velocity or displacement at the rig end instead");
     m->out->place.part = dmb_model_id(m->sim->model, DMB_PART_JOINT, drive->joint);
-    return means(m, is_speed ? DMB_OUTPUT_JOINT_SPEED : DMB_OUTPUT_JOINT_POSITION, drive->component, DMB_FRAME_WORLD);
+    return means(m, is_speed ? DMB_RESPONSE_JOINT_SPEED : DMB_RESPONSE_JOINT_POSITION, drive->component,
+                 DMB_FRAME_WORLD);
 }
 
 static int32_t of_site(const meaning *m, int32_t q)
 {
-    if (q == DMB_CHANNEL_SITE_NORMAL_FORCE) return means(m, DMB_OUTPUT_CONTACT, DMB_Z, DMB_FRAME_WORLD);
-    if (q == DMB_CHANNEL_SITE_FRICTION_AXIAL) return means(m, DMB_OUTPUT_CONTACT, DMB_X, DMB_FRAME_WORLD);
-    if (q == DMB_CHANNEL_SITE_FRICTION_AROUND) return means(m, DMB_OUTPUT_CONTACT, DMB_Y, DMB_FRAME_WORLD);
+    if (q == DMB_OUTPUT_CONTACT_NORMAL_FORCE) return means(m, DMB_RESPONSE_CONTACT, DMB_Z, DMB_FRAME_WORLD);
+    if (q == DMB_OUTPUT_CONTACT_FRICTION_AXIAL) return means(m, DMB_RESPONSE_CONTACT, DMB_X, DMB_FRAME_WORLD);
+    if (q == DMB_OUTPUT_CONTACT_FRICTION_AROUND) return means(m, DMB_RESPONSE_CONTACT, DMB_Y, DMB_FRAME_WORLD);
     return not_linear(m);
 }
 
@@ -121,12 +122,12 @@ static int32_t of_joint(const meaning *m, int32_t q)
 {
     const int32_t c = q % 10;
     switch (q - c) {
-    case DMB_CHANNEL_JOINT_POSITION: return means(m, DMB_OUTPUT_JOINT_POSITION, c, DMB_FRAME_WORLD);
-    case DMB_CHANNEL_JOINT_SPEED: return means(m, DMB_OUTPUT_JOINT_SPEED, c, DMB_FRAME_WORLD);
-    case DMB_CHANNEL_JOINT_ACCELERATION: return means(m, DMB_OUTPUT_JOINT_ACCELERATION, c, DMB_FRAME_WORLD);
-    case DMB_CHANNEL_JOINT_REACTION: return means(m, DMB_OUTPUT_JOINT_REACTION, c, DMB_FRAME_WORLD);
-    case DMB_CHANNEL_JOINT_REACTION_BODY: return means(m, DMB_OUTPUT_JOINT_REACTION, c, DMB_FRAME_BODY);
-    case DMB_CHANNEL_JOINT_ACTION: return means(m, DMB_OUTPUT_JOINT_ACTION, c, DMB_FRAME_WORLD);
+    case DMB_OUTPUT_JOINT_POSITION: return means(m, DMB_RESPONSE_JOINT_POSITION, c, DMB_FRAME_WORLD);
+    case DMB_OUTPUT_JOINT_SPEED: return means(m, DMB_RESPONSE_JOINT_SPEED, c, DMB_FRAME_WORLD);
+    case DMB_OUTPUT_JOINT_ACCELERATION: return means(m, DMB_RESPONSE_JOINT_ACCELERATION, c, DMB_FRAME_WORLD);
+    case DMB_OUTPUT_JOINT_REACTION: return means(m, DMB_RESPONSE_JOINT_REACTION, c, DMB_FRAME_WORLD);
+    case DMB_OUTPUT_JOINT_REACTION_BODY: return means(m, DMB_RESPONSE_JOINT_REACTION, c, DMB_FRAME_BODY);
+    case DMB_OUTPUT_JOINT_ACTION: return means(m, DMB_RESPONSE_JOINT_ACTION, c, DMB_FRAME_WORLD);
     default: return not_linear(m);
     }
 }
@@ -134,10 +135,10 @@ static int32_t of_joint(const meaning *m, int32_t q)
 static int32_t of_section(const meaning *m, int32_t q)
 {
     const int32_t c = q % 10;
-    if (q == DMB_CHANNEL_AXIAL_FORCE) return means(m, DMB_OUTPUT_SECTION_FORCE, DMB_X, DMB_FRAME_BODY);
-    if (q == DMB_CHANNEL_TORQUE) return means(m, DMB_OUTPUT_SECTION_FORCE, DMB_RX, DMB_FRAME_BODY);
-    if (q - c == DMB_CHANNEL_SECTION_FORCE) return means(m, DMB_OUTPUT_SECTION_FORCE, c, DMB_FRAME_BODY);
-    if (q - c == DMB_CHANNEL_SECTION_STRAIN) return means(m, DMB_OUTPUT_SECTION_STRAIN, c, DMB_FRAME_BODY);
+    if (q == DMB_OUTPUT_AXIAL_FORCE) return means(m, DMB_RESPONSE_SECTION_FORCE, DMB_X, DMB_FRAME_BODY);
+    if (q == DMB_OUTPUT_TORQUE) return means(m, DMB_RESPONSE_SECTION_FORCE, DMB_RX, DMB_FRAME_BODY);
+    if (q - c == DMB_OUTPUT_SECTION_FORCE) return means(m, DMB_RESPONSE_SECTION_FORCE, c, DMB_FRAME_BODY);
+    if (q - c == DMB_OUTPUT_SECTION_STRAIN) return means(m, DMB_RESPONSE_SECTION_STRAIN, c, DMB_FRAME_BODY);
     return not_linear(m);
 }
 
@@ -159,8 +160,8 @@ static int32_t moves(const meaning *m, int from)
 static int32_t is_steady(const meaning *m, int32_t q)
 {
     const int32_t c = q % 10;
-    if (q == DMB_CHANNEL_ROTATION || q == DMB_CHANNEL_SPIN) return 1;
-    if (q < DMB_CHANNEL_BODY_VELOCITY) return !moves(m, 3);
+    if (q == DMB_OUTPUT_ROTATION || q == DMB_OUTPUT_SPIN) return 1;
+    if (q < DMB_OUTPUT_BODY_VELOCITY) return !moves(m, 3);
     return c == DMB_X || c == DMB_RX || !moves(m, 0);
 }
 
@@ -168,28 +169,29 @@ static int32_t of_place(const meaning *m, int32_t q)
 {
     const int32_t c = q % 10, world = DMB_FRAME_WORLD, body = DMB_FRAME_BODY;
     if (!is_steady(m, q))
-        return refuse(m, DMB_ERR_UNSUPPORTED,
-                      "the place moves in the state and its axes with it; ask for DMB_OUTPUT_VELOCITY and the like, in "
-                      "the axes of the linear system");
-    if (q == DMB_CHANNEL_ROTATION) return means(m, DMB_OUTPUT_DISPLACEMENT, DMB_RX, body);
-    if (q == DMB_CHANNEL_SPIN) return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, body);
-    if (q <= DMB_CHANNEL_DISPLACEMENT_Z) return means(m, DMB_OUTPUT_DISPLACEMENT, q, world);
-    if (q <= DMB_CHANNEL_VELOCITY_Z) return means(m, DMB_OUTPUT_VELOCITY, q - DMB_CHANNEL_VELOCITY_X, world);
-    if (q <= DMB_CHANNEL_POSITION_Z) return means(m, DMB_OUTPUT_DISPLACEMENT, q - DMB_CHANNEL_POSITION_X, world);
-    if (q - c == DMB_CHANNEL_WORLD_VELOCITY) return means(m, DMB_OUTPUT_VELOCITY, c, world);
-    if (q - c == DMB_CHANNEL_WORLD_ACCELERATION) return means(m, DMB_OUTPUT_ACCELERATION, c, world);
-    if (q - c == DMB_CHANNEL_BODY_VELOCITY) return means(m, DMB_OUTPUT_VELOCITY, c, body);
-    return means(m, DMB_OUTPUT_ACCELERATION, c, body);
+        return refuse(
+            m, DMB_ERR_UNSUPPORTED,
+            "the place moves in the state and its axes with it; ask for DMB_RESPONSE_VELOCITY and the like, in "
+            "the axes of the linear system");
+    if (q == DMB_OUTPUT_ROTATION) return means(m, DMB_RESPONSE_DISPLACEMENT, DMB_RX, body);
+    if (q == DMB_OUTPUT_SPIN) return means(m, DMB_RESPONSE_VELOCITY, DMB_RX, body);
+    if (q <= DMB_OUTPUT_DISPLACEMENT_Z) return means(m, DMB_RESPONSE_DISPLACEMENT, q, world);
+    if (q <= DMB_OUTPUT_VELOCITY_Z) return means(m, DMB_RESPONSE_VELOCITY, q - DMB_OUTPUT_VELOCITY_X, world);
+    if (q <= DMB_OUTPUT_POSITION_Z) return means(m, DMB_RESPONSE_DISPLACEMENT, q - DMB_OUTPUT_POSITION_X, world);
+    if (q - c == DMB_OUTPUT_WORLD_VELOCITY) return means(m, DMB_RESPONSE_VELOCITY, c, world);
+    if (q - c == DMB_OUTPUT_WORLD_ACCELERATION) return means(m, DMB_RESPONSE_ACCELERATION, c, world);
+    if (q - c == DMB_OUTPUT_BODY_VELOCITY) return means(m, DMB_RESPONSE_VELOCITY, c, body);
+    return means(m, DMB_RESPONSE_ACCELERATION, c, body);
 }
 
 /* Of a profile what has components. */
 static int32_t of_profile(const meaning *m, int32_t quantity)
 {
     if (quantity >= DMB_PROFILE_X && quantity <= DMB_PROFILE_Z)
-        return of_place(m, DMB_CHANNEL_POSITION_X + quantity - DMB_PROFILE_X);
+        return of_place(m, DMB_OUTPUT_POSITION_X + quantity - DMB_PROFILE_X);
     if (quantity >= DMB_PROFILE_DISPLACEMENT_X && quantity <= DMB_PROFILE_DISPLACEMENT_Z)
         return of_place(m, quantity - DMB_PROFILE_DISPLACEMENT_X);
-    const int32_t force = DMB_OUTPUT_SECTION_FORCE, body = DMB_FRAME_BODY;
+    const int32_t force = DMB_RESPONSE_SECTION_FORCE, body = DMB_FRAME_BODY;
     switch (quantity) {
     case DMB_PROFILE_EFFECTIVE_FORCE: return means(m, force, DMB_X, body);
     case DMB_PROFILE_TORQUE: return means(m, force, DMB_RX, body);
@@ -197,46 +199,46 @@ static int32_t of_profile(const meaning *m, int32_t quantity)
     case DMB_PROFILE_SHEAR_Z: return means(m, force, DMB_Z, body);
     case DMB_PROFILE_MOMENT_Y: return means(m, force, DMB_RY, body);
     case DMB_PROFILE_MOMENT_Z: return means(m, force, DMB_RZ, body);
-    case DMB_PROFILE_VELOCITY_AXIAL: return means(m, DMB_OUTPUT_VELOCITY, DMB_X, body);
-    case DMB_PROFILE_SPIN: return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, body);
-    case DMB_PROFILE_ACCELERATION_AXIAL: return means(m, DMB_OUTPUT_ACCELERATION, DMB_X, body);
-    case DMB_PROFILE_ROTATION: return means(m, DMB_OUTPUT_DISPLACEMENT, DMB_RX, body);
+    case DMB_PROFILE_VELOCITY_AXIAL: return means(m, DMB_RESPONSE_VELOCITY, DMB_X, body);
+    case DMB_PROFILE_SPIN: return means(m, DMB_RESPONSE_VELOCITY, DMB_RX, body);
+    case DMB_PROFILE_ACCELERATION_AXIAL: return means(m, DMB_RESPONSE_ACCELERATION, DMB_X, body);
+    case DMB_PROFILE_ROTATION: return means(m, DMB_RESPONSE_DISPLACEMENT, DMB_RX, body);
     default: return not_linear(m);
     }
 }
 
-int32_t dmb_output_of_channel(const dmb_sim *sim, const dmb_output *channel, dmb_output *out, uint32_t *bit,
-                              const char **why)
+int32_t dmb_response_output_of(const dmb_sim *sim, const dmb_response_output *output, dmb_response_output *out,
+                               uint32_t *bit, const char **why)
 {
     const meaning m = {sim, out, bit, why};
-    const int32_t q = channel->component;
-    const dmb_channel_entry *entry = dmb_channel_name_of(q);
-    *out = *channel;
+    const int32_t q = output->component;
+    const dmb_output_entry *entry = dmb_output_name_of(q);
+    *out = *output;
     *bit = DMB_NONE;
     switch (entry != NULL ? entry->place : DMB_AT_WINDOW) {
     case DMB_AT_PLACE: return of_place(&m, q);
     case DMB_AT_SECTION: return of_section(&m, q);
-    case DMB_AT_PIPE: return of_profile(&m, q - DMB_CHANNEL_PROFILE);
+    case DMB_AT_PIPE: return of_profile(&m, q - DMB_OUTPUT_PROFILE);
     case DMB_AT_PART:
-        return q >= DMB_CHANNEL_REACTION ? means(&m, DMB_OUTPUT_REACTION, q - DMB_CHANNEL_REACTION, DMB_FRAME_BODY)
-                                         : not_linear(&m);
-    case DMB_AT_STRING: return of_driller(&m, channel);
+        return q >= DMB_OUTPUT_REACTION ? means(&m, DMB_RESPONSE_REACTION, q - DMB_OUTPUT_REACTION, DMB_FRAME_BODY)
+                                        : not_linear(&m);
+    case DMB_AT_STRING: return of_driller(&m, output);
     case DMB_AT_BIT: return of_bit(&m, q);
     case DMB_AT_DRIVE: return of_drive(&m, q);
     case DMB_AT_JOINT: return of_joint(&m, q);
-    case DMB_AT_CONSTRAINT: return means(&m, DMB_OUTPUT_MULTIPLIER, q - DMB_CHANNEL_MULTIPLIER, DMB_FRAME_WORLD);
-    case DMB_AT_SITE: return of_site(&m, q);
+    case DMB_AT_CONSTRAINT: return means(&m, DMB_RESPONSE_MULTIPLIER, q - DMB_OUTPUT_MULTIPLIER, DMB_FRAME_WORLD);
+    case DMB_AT_CONTACT: return of_site(&m, q);
     default: return not_linear(&m);
     }
 }
 
 /* ---- Values of the answer ---------------------------------------------------------------------------------------- */
 
-/* The value of an output for a motion x e^(i w t): its functional, the forces of guides and constraints that it takes,
- * and what a drive adds that is itself the input. */
+/* The value of an output for a motion x e^(i w t): its functional, the forces of supports and constraints that it
+ * takes, and what a drive adds that is itself the input. */
 
 /* (i w)^rate sum (pose + i w speed - w^2 acceleration) d */
-static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dmb_response_output *output,
+static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dmb_linear_output *output,
                                         dmb_complex_array x)
 {
     const dmb_functional *f = &output->functional;
@@ -257,7 +259,7 @@ static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dm
 }
 
 /* Reaction in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
-static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_response_output *output, uint32_t held,
+static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_linear_output *output, uint32_t held,
                                       dmb_complex_array x, dmb_complex_array f)
 {
     const dmb_scene *scene = &s->linear->scene;
@@ -275,8 +277,9 @@ static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_
     return sum;
 }
 
-dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, const dmb_response_output *output,
-                                             const dmb_excitation *input, dmb_complex_array x, dmb_complex_array f)
+dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, const dmb_linear_output *output,
+                                             const dmb_linear_excitation *input, dmb_complex_array x,
+                                             dmb_complex_array f)
 {
     dmb_complex_number value = of_functional(s, output, x);
     if (output->cluster != DMB_NONE) dmb_dynamic_multipliers(s, output->cluster, x, f, s->links.multiplier);
@@ -284,10 +287,10 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, con
         value.re += output->multiplier_weight[k] * s->links.multiplier.re[output->multiplier + k];
         value.im += output->multiplier_weight[k] * s->links.multiplier.im[output->multiplier + k];
     }
-    for (uint32_t k = 0; k < output->guide_count; k++) {
-        const dmb_complex_number left = of_held_row(s, output, output->guide[k], x, f);
-        value.re += output->guide_weight[k] * left.re;
-        value.im += output->guide_weight[k] * left.im;
+    for (uint32_t k = 0; k < output->support_count; k++) {
+        const dmb_complex_number left = of_held_row(s, output, output->support[k], x, f);
+        value.re += output->support_weight[k] * left.re;
+        value.im += output->support_weight[k] * left.im;
     }
     if (output->bit != DMB_NONE && output->bit == input->bit) value.re += 1.0;
     if (output->drive == DMB_NONE || output->drive != input->drive) return value;

@@ -30,7 +30,7 @@ _FORMULA = re.compile(r"[=+\-@\t\r\n]")  # the first character of a cell that a 
 _AMOUNT = re.compile(r"[-+][0-9.]+(?:[eE][-+]?[0-9]+)?(?: ?[A-Za-z%][A-Za-z0-9/^ %]*)?")
 
 
-class Output:
+class CommandOutput:
     """The folder of the answer and the lines on the terminal."""
 
     def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool, units: Units = SI,
@@ -127,12 +127,12 @@ def no_formula(cell: Any) -> Any:
     return f"'{cell}" if isinstance(cell, str) and _FORMULA.match(cell) and not _AMOUNT.fullmatch(cell) else cell
 
 
-def note_bounces(sim: Any, output: Output) -> None:
+def note_bounces(sim: Any, out: CommandOutput) -> None:
     """One note for a run in which contacts opened before ten steps had passed."""
     bounces = sim.statistics().bounces
-    output.summary["run"]["bounces"] = bounces
+    out.summary["run"]["bounces"] = bounces
     if bounces:
-        output.note_text(
+        out.note_text(
             phrase("run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
                    " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
                    " the step and compare", bounces=bounces))
@@ -165,10 +165,10 @@ def file_name(name: str) -> str:
 
 # ---- Options ----------------------------------------------------------------------------------------------------------
 def units_of(options: Any, scene: Scene) -> Units:
-    """The units of the output, of the command line or of the scene. Raises UnknownUnit for channels without an equivalent."""
-    units = Units(options.units or NAMES[scene.output.get("units", 0)])
+    """The units of the output, of the command line or of the scene. Raises UnknownUnit for outputs without an equivalent."""
+    units = Units(options.units or NAMES[scene.results.get("units", 0)])
     if options.command in ("run", "report"):
-        for unit in scene.channel_units:
+        for unit in scene.output_units:
             units.unit(unit)
     return units
 
@@ -198,24 +198,24 @@ def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
     return {name: sim.string_fatigue(scene.names[name], pipes, **scene.effective("fatigue")) for name, pipes in scene.pipes.items()}
 
 
-def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str, FatigueResult]:
+def tell_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> dict[str, FatigueResult]:
     """The worst pipe of each string."""
     worst = {}
     for name, one in counters.items():
         found, index = one.results, one.worst
         worst[name] = found[index]
-        output.summary.setdefault("fatigue", {})[name] = {
+        out.summary.setdefault("fatigue", {})[name] = {
             "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
             "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
-        output.say(phrase("{string}: damage {damage:.3g} in {time:.4g} s at pipe {pipe}, largest range {range}", string=name, damage=found[index].damage,
-                          time=found[index].time, pipe=one.pipes[index], range=output.units.text(found[index].largest_range / 1e6, "MPa")))
+        out.say(phrase("{string}: damage {damage:.3g} in {time:.4g} s at pipe {pipe}, largest range {range}", string=name, damage=found[index].damage,
+                          time=found[index].time, pipe=one.pipes[index], range=out.units.text(found[index].largest_range / 1e6, "MPa")))
         clipped = sum(result.clipped for result in found)
         if clipped:
-            output.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too little", string=name,
+            out.note_text(phrase("fatigue of {string}: {clipped} stresses were beyond stress_range and count too little", string=name,
                                     clipped=clipped))
         heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
-        output.table(f"fatigue_{file_name(name)}.csv", heads, (
+        out.table(f"fatigue_{file_name(name)}.csv", heads, (
             [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
             for pipe, one in zip(one.pipes, found)))
-        output.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run", output.units))
+        out.picture(f"fatigue_{file_name(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run", out.units))
     return worst

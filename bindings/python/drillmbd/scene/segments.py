@@ -1,4 +1,4 @@
-"""A speed that swings once (or `order` times) a revolution of another programme, as by a worn gear in the head: with w the
+"""A speed that swings once (or `order` times) a revolution of another time function, as by a worn gear in the head: with w the
 rate of the other and theta its integral from 0,
     value  share w sin(order theta),
     rate   share (w' sin(order theta) + order w^2 cos(order theta)),
@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..enums import TERM_CONSTANT, TERM_HARMONIC, TERM_STEP
+from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_STEP
 
-_KNOWN = (TERM_CONSTANT, TERM_STEP, TERM_HARMONIC)
+_KNOWN = (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC)
 
 
 def _step(t: float, begin: float, end: float) -> tuple[float, float, float]:
@@ -26,14 +26,14 @@ def _step(t: float, begin: float, end: float) -> tuple[float, float, float]:
     return 0.0, 1.0, 0.5 * length + (t - end)
 
 
-def _term(t: float, term: dict[str, Any]) -> tuple[float, float, float]:
-    kind, h0, h1 = term.get("kind", TERM_CONSTANT), term.get("h0", 0.0), term.get("h1", 0.0)
-    if kind == TERM_STEP:
-        rate, value, integral = _step(t, term.get("x0", 0.0), term.get("x1", 1.0))
+def _segment(t: float, segment: dict[str, Any]) -> tuple[float, float, float]:
+    kind, h0, h1 = segment.get("kind", SEGMENT_CONSTANT), segment.get("h0", 0.0), segment.get("h1", 0.0)
+    if kind == SEGMENT_STEP:
+        rate, value, integral = _step(t, segment.get("x0", 0.0), segment.get("x1", 1.0))
         height = h1 - h0
         return height * rate, h0 + height * value, h0 * t + height * integral
-    if kind == TERM_HARMONIC:
-        omega, phase = term.get("omega", 0.0), term.get("phase", 0.0)
+    if kind == SEGMENT_HARMONIC:
+        omega, phase = segment.get("omega", 0.0), segment.get("phase", 0.0)
         swing = (math.cos(phase) - math.cos(omega * t + phase)) / omega if omega else math.sin(phase) * t
         return (h1 * omega * math.cos(omega * t + phase), h0 + h1 * math.sin(omega * t + phase), h0 * t + h1 * swing)
     return 0.0, h0, h0 * t
@@ -41,22 +41,22 @@ def _term(t: float, term: dict[str, Any]) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class PerRevolution:
-    """The function of a term of kind "per-revolution"."""
-    of: str                  #: name of the other programme
+    """The function of a segment of kind "per-revolution"."""
+    of: str                  #: name of the other time function
     share: float             #: [-] of its rate
     order: float = 1.0       #: [-] swings a revolution
-    terms: tuple[dict[str, Any], ...] = field(default=(), hash=False)  #: of the other programme
+    segments: tuple[dict[str, Any], ...] = field(default=(), hash=False)  #: of the other time function
 
     @staticmethod
-    def knows(terms: Any) -> bool:
-        """Whether the other programme is of kinds that this follows: constants, steps and harmonics."""
-        return all(term.get("kind", TERM_CONSTANT) in _KNOWN and not term.get("table") and not term.get("function")
-                   for term in terms)
+    def knows(segments: Any) -> bool:
+        """Whether the other time function is of kinds that this follows: constants, steps and harmonics."""
+        return all(segment.get("kind", SEGMENT_CONSTANT) in _KNOWN and not segment.get("table") and not segment.get("function")
+                   for segment in segments)
 
     def __call__(self, time: float) -> tuple[float, float, float]:
         rate = value = integral = 0.0
-        for term in self.terms:
-            more = _term(time, term)
+        for segment in self.segments:
+            more = _segment(time, segment)
             rate, value, integral = rate + more[0], value + more[1], integral + more[2]
         sine, cosine = math.sin(self.order * integral), math.cos(self.order * integral)
         return (self.share * value * sine, self.share * (rate * sine + self.order * value * value * cosine),

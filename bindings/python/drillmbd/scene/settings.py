@@ -1,4 +1,4 @@
-"""Questions of a scene file: options of the run, its channels, the analyses."""
+"""Questions of a scene file: options of the run, its outputs, the analyses."""
 from __future__ import annotations
 
 import math
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
-from ..channels import Named
+from ..outputs import Named
 from ..unit_choice import UnitSystem
 from . import fields, units
 from .content import ANALYSES, Scene
@@ -46,52 +46,52 @@ class Asked:
     def settings(self, scene: Scene) -> None:
         scene.sim = self.loader.read(("sim",), self.loader.table(("sim",)), fields_of(DEFINITIONS["sim"]))
         scene.run = self.loader.read(("run",), self.loader.table(("run",)), RUN)
-        scene.output = self.loader.read(("output",), self.loader.table(("output",)), OUTPUT)
+        scene.results = self.loader.read(("results",), self.loader.table(("results",)), OUTPUT)
         scene.limits = self.loader.read(("limits",), self.loader.table(("limits",)), LIMITS, ("rig",))
         for key, value in scene.limits.items():
             if not value > 0.0:
                 self.loader.problems.add(("limits", key), self.loader.written(("limits", key)), "must be > 0")
-        for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.output),
-                           ("vtk_interval", scene.output)):
+        for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.results),
+                           ("vtk_interval", scene.results)):
             if key in table and not table[key] > 0.0:
-                section = "run" if table is scene.run else "output"
+                section = "run" if table is scene.run else "results"
                 self.loader.problems.add((section, key), self.loader.written((section, key)), "must be > 0 s")
-        for number, (path, table) in enumerate(self.loader.parts("channel")):
-            self._channel(scene, path, number, table)
+        for number, (path, table) in enumerate(self.loader.parts("output")):
+            self._output(scene, path, number, table)
         for kind in ANALYSES:
             if kind in self.loader.content:
                 scene.analyses[kind] = self._analysis(kind)
 
-    def _channel(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
+    def _output(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
         known = {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place")}
         values = self.loader.read(path, table, known, ("name",))
-        name = table.get("name", f"channel-{number}")
+        name = table.get("name", f"output-{number}")
         if not isinstance(name, str):
             self.loader.problems.add(path + ("name",), name, "must be a text")
         if "quantity" not in table:
             self.loader.problems.add(path, None, "must have a quantity")
         if "quantity" in values and ("place" in values or "place" not in table):
-            scene.channels.append((str(name), values.get("place"), values["quantity"]))
-            scene.channel_units.append(self.loader.channel_unit(values["quantity"], table.get("place")))
+            scene.outputs.append((str(name), values.get("place"), values["quantity"]))
+            scene.output_units.append(self.loader.output_unit(values["quantity"], table.get("place")))
 
     def _analysis(self, kind: str) -> dict[str, Any]:
         table = self.loader.table((kind,))
-        extra = {"response": ("input", "output"), "speeds": ("order", "output")}.get(kind, ())
+        extra = {"response": ("excitation", "output"), "speeds": ("order", "output")}.get(kind, ())
         unit = self._factor_unit(table) if kind == "buckling" else None
         values = self.loader.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
                            lambda name: unit if name in ("factor_max", "step") else None)
         if kind == "fatigue":
             self._curve(table, values)
         if kind == "response":
-            values["input"] = [self._input(path, one) for path, one in self.loader.tables(table, (kind,), "input")]
+            values["excitation"] = [self._excitation(path, one) for path, one in self.loader.tables(table, (kind,), "excitation")]
         if kind == "speeds":
             order = {"order": fields_of(DEFINITIONS["order"])["order"]}
-            values["order"] = [{**self._input(path, one, ("order",)),
+            values["order"] = [{**self._excitation(path, one, ("order",)),
                                 "order": self.loader.read(path, {k: v for k, v in one.items() if k == "order"}, order
                                                    ).get("order", 1.0)}
                                for path, one in self.loader.tables(table, (kind,), "order")]
         if extra:
-            values["output"] = [self._output(path, one, kind == "speeds")
+            values["output"] = [self._response_output(path, one, kind == "speeds")
                                 for path, one in self.loader.tables(table, (kind,), "output")]
             for key in extra:
                 if not values[key]:
@@ -120,31 +120,31 @@ class Asked:
                 return fields.by_component("m, rad" if kind == enums.DRIVE_MOTION else "N, N m", component)
         return "-"
 
-    def _input(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
-        known = fields_of(DEFINITIONS["response input"])
-        eccentric = int(enums.INPUT_ECCENTRICITY) if extra else int(enums.INPUT_FORCE)
+    def _excitation(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
+        known = fields_of(DEFINITIONS["response excitation"])
+        eccentric = int(enums.EXCITATION_ECCENTRICITY) if extra else int(enums.EXCITATION_FORCE)
         kind = self.loader.word(known["kind"], table.get("kind"), eccentric)
         component = self.loader.word(known["component"], table.get("component"), 0)
-        unit = fields.input_unit(kind, component)
-        if kind == enums.INPUT_DRIVE:
+        unit = fields.excitation_unit(kind, component)
+        if kind == enums.EXCITATION_DRIVE:
             place = table.get("place")
             name = place.get("part") if isinstance(place, dict) else place
             unit = next((self.loader.drive_unit(drive) for number, (_, drive) in enumerate(self.loader.parts("drive"))
                          if self.loader.name("drive", number, drive) == name), unit)
-        if kind == enums.INPUT_SETTING:
+        if kind == enums.EXCITATION_SETTING:
             unit = self.loader.setting_unit(table.get("place")) or unit
         return self.loader.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
 
-    def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
+    def _response_output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
         known = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
         values = self.loader.read(path, table, known, ("name", "limit") if limited else ("name",))
-        if values.get("kind") == enums.OUTPUT_CHANNEL and "quantity" not in values:
-            self.loader.problems.add(path + ("kind",), table.get("kind"), "must be left out; give the channel's quantity")
+        if values.get("kind") == enums.RESPONSE_OUTPUT and "quantity" not in values:
+            self.loader.problems.add(path + ("kind",), table.get("kind"), "must be left out; give the output's quantity")
         if "quantity" in values:
-            values["kind"], values["component"] = enums.OUTPUT_CHANNEL, values.pop("quantity")
-        unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
-        if values.get("kind") == enums.OUTPUT_CHANNEL and values.get("component") is not None:
-            unit = self.loader.channel_unit(values["component"], table.get("place"))
+            values["kind"], values["component"] = enums.RESPONSE_OUTPUT, values.pop("quantity")
+        unit = fields.response_unit(values.get("kind", 0), values.get("component", 0))
+        if values.get("kind") == enums.RESPONSE_OUTPUT and values.get("component") is not None:
+            unit = self.loader.output_unit(values["component"], table.get("place"))
         values["name"] = str(table.get("name", f"output-{path[-1]}"))
         if limited:
             try:

@@ -1,6 +1,6 @@
-/* Programmes out of bytes: terms of all kinds, tables of any times and values, callbacks that give any numbers or fail.
- * Description, compile, sim and steps end with a known status; a step that fails changes nothing; after one that works
- * target, speed and time are finite, and so they are after a restore of the state. */
+/* Time functions out of bytes: terms of all kinds, tables of any times and values, callbacks that give any numbers or
+ * fail. Description, compile, sim and steps end with a known status; a step that fails changes nothing; after one that
+ * works target, speed and time are finite, and so they are after a restore of the state. */
 #include "fuzz_frame.h"
 
 enum { TERMS = 3, TABLE = 24, STEPS = 6 };
@@ -41,7 +41,7 @@ static int32_t call_back(void *context, double time, double out[3])
     return 0;
 }
 
-static void draw_table(subject *c, uint32_t i, dmb_term *term)
+static void draw_table(subject *c, uint32_t i, dmb_segment *term)
 {
     byte_source *s = &c->source;
     double time = draw_number(s, -0.01, 0.01);
@@ -55,10 +55,10 @@ static void draw_table(subject *c, uint32_t i, dmb_term *term)
     term->table_value = c->values[i];
 }
 
-static dmb_term draw_any_term(subject *c, uint32_t i)
+static dmb_segment draw_any_segment(subject *c, uint32_t i)
 {
     byte_source *s = &c->source;
-    dmb_term term = dmb_term_default();
+    dmb_segment term = dmb_segment_default();
     term.kind = (int32_t)draw_below(s, 8) - 1;
     term.provides = (int32_t)draw_below(s, 5);
     double *const fields[] = {&term.x0, &term.x1, &term.h0, &term.h1, &term.omega, &term.phase};
@@ -86,7 +86,7 @@ static void add_input(subject *c)
     (void)dmb_model_clear_refused(c->model);
 }
 
-/* On its way from the programme to there, back to it as drawn, or refused. */
+/* On its way from the time function to there, back to it as drawn, or refused. */
 static void set_input(subject *c, dmb_sim *sim)
 {
     const uint64_t before = hash_of(sim);
@@ -101,12 +101,12 @@ static int describe(subject *c)
     byte_source *s = &c->source;
     dmb_body_def body = dmb_body_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term terms[TERMS];
+    dmb_segment terms[TERMS];
     const uint32_t count = 1 + draw_below(s, TERMS);
     for (int i = 0; i < 4; i++) c->callback.values[i] = any_number(s, 1.0);
     c->callback.fails_at = draw_chance(s, 30) ? 1 + draw_byte(s) : 0;
-    for (uint32_t i = 0; i < count; i++) terms[i] = draw_any_term(c, i);
-    int32_t status = dmb_model_add_programme(c->model, terms, count, &drive.programme);
+    for (uint32_t i = 0; i < count; i++) terms[i] = draw_any_segment(c, i);
+    int32_t status = dmb_model_add_time_function(c->model, terms, count, &drive.time_function);
     known(status);
     if (status < 0) return 0;
     MUST(dmb_model_add_body(c->model, &body, &drive.part) == DMB_OK);
@@ -114,7 +114,7 @@ static int describe(subject *c)
     drive.component = draw_chance(s, 128) ? DMB_X : DMB_RX;
     drive.gain = 1.0;
     if (draw_chance(s, 60)) drive.delay = drive.kind == DMB_DRIVE_MOTION ? 0.0 : 1e-3;
-    if (c->more & 1) drive.excitation = drive.programme;
+    if (c->more & 1) drive.excitation = drive.time_function;
     status = dmb_model_add_drive(c->model, &drive, &c->drive);
     known(status);
     if (status < 0) return 0;

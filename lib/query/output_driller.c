@@ -1,4 +1,4 @@
-/* Channels that a driller reads. The section at the rig end carries what the rig holds: by its force on the near side,
+/* Outputs that a driller reads. The section at the rig end carries what the rig holds: by its force on the near side,
  * tension > 0, the hook load is that force, and the torque that the rig puts in is the opposite of the section's. */
 #include "force/bit_rock.h"
 #include "query/query.h"
@@ -12,9 +12,9 @@ typedef struct asked_string {
     const dmb_string_map *map;
 } asked_string;
 
-int32_t dmb_channel_string(const dmb_sim *sim, const dmb_channel *channel, dmb_id *string, uint32_t *index)
+int32_t dmb_output_string(const dmb_sim *sim, const dmb_output *output, dmb_id *string, uint32_t *index)
 {
-    *string = channel->place.part;
+    *string = output->place.part;
     if (string->index == 0 && string->generation == 0) *string = dmb_model_id(sim->model, DMB_PART_STRING, 0);
     *index = dmb_model_part_index(sim->model, *string, DMB_PART_STRING);
     return *index < sim->scene->string_count ? DMB_OK : DMB_ERR_ID;
@@ -115,11 +115,11 @@ static int32_t value_of_bits(const asked_string *s, int32_t quantity, double *va
     bits_of_string bits = {0};
     const int32_t status = ask_bits(s, &bits);
     if (status < 0) return status;
-    if (quantity == DMB_CHANNEL_WEIGHT_ON_BIT) *value = bits.weight;
-    if (quantity == DMB_CHANNEL_TORQUE_ON_BIT) *value = bits.torque;
-    if (quantity == DMB_CHANNEL_RATE_OF_PENETRATION)
+    if (quantity == DMB_OUTPUT_WEIGHT_ON_BIT) *value = bits.weight;
+    if (quantity == DMB_OUTPUT_TORQUE_ON_BIT) *value = bits.torque;
+    if (quantity == DMB_OUTPUT_RATE_OF_PENETRATION)
         *value = bits.rocks > 0 && !bits.on_bottom ? 0.0 : dmb_bit_speed_of(s->sim, bits.first);
-    if (quantity != DMB_CHANNEL_OFF_BOTTOM) return DMB_OK;
+    if (quantity != DMB_OUTPUT_OFF_BOTTOM) return DMB_OK;
     if (bits.rocks == 0) return DMB_ERR_UNSUPPORTED;
     *value = bits.on_bottom ? 0.0 : 1.0;
     return DMB_OK;
@@ -127,7 +127,7 @@ static int32_t value_of_bits(const asked_string *s, int32_t quantity, double *va
 
 /* ---- The rig ----------------------------------------------------------------------------------------------------- */
 
-/* Guide and motion drives by the reaction, drives with a force of their own by that; along the string's x axis. */
+/* Support and motion drives by the reaction, drives with a force of their own by that; along the string's x axis. */
 static int32_t force_of_rig(const asked_string *s, int32_t component, double sign, double *value)
 {
     const dmb_scene *scene = s->sim->scene;
@@ -145,27 +145,27 @@ static int32_t force_of_rig(const asked_string *s, int32_t component, double sig
     return DMB_OK;
 }
 
-int32_t dmb_driller_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
+int32_t dmb_driller_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     asked_string s = {.sim = sim};
     uint32_t index;
-    const int32_t status = dmb_channel_string(sim, channel, &s.id, &index);
+    const int32_t status = dmb_output_string(sim, output, &s.id, &index);
     if (status < 0) return status;
     s.map = sim->scene->strings + index;
-    switch (channel->quantity) {
-    case DMB_CHANNEL_HOOK_LOAD: return section_of_rig_end(&s, DMB_X, 1.0, value);
-    case DMB_CHANNEL_ROTATION_TORQUE: return section_of_rig_end(&s, DMB_RX, -1.0, value);
-    case DMB_CHANNEL_WEIGHT_ON_BIT:
-    case DMB_CHANNEL_TORQUE_ON_BIT:
-    case DMB_CHANNEL_RATE_OF_PENETRATION:
-    case DMB_CHANNEL_OFF_BOTTOM: return value_of_bits(&s, channel->quantity, value);
-    case DMB_CHANNEL_BIT_SPEED: return body_velocity(&s, far_end(&s), DMB_RX, value);
-    case DMB_CHANNEL_BIT_DEPTH: return depth_of_far_end(&s, value);
-    case DMB_CHANNEL_ROTARY_SPEED: return body_velocity(&s, rig_end(&s), DMB_RX, value);
-    case DMB_CHANNEL_FEED_SPEED: return body_velocity(&s, rig_end(&s), DMB_X, value);
-    case DMB_CHANNEL_STRETCH: *value = sum_of_strain(&s, 0); return DMB_OK;
-    case DMB_CHANNEL_WIND_UP: *value = signed_value(-1.0, sum_of_strain(&s, 3)); return DMB_OK;
-    case DMB_CHANNEL_RIG_FORCE: return force_of_rig(&s, DMB_X, -1.0, value);
-    default: return force_of_rig(&s, DMB_RX, 1.0, value); /* DMB_CHANNEL_RIG_TORQUE */
+    switch (output->quantity) {
+    case DMB_OUTPUT_HOOK_LOAD: return section_of_rig_end(&s, DMB_X, 1.0, value);
+    case DMB_OUTPUT_ROTATION_TORQUE: return section_of_rig_end(&s, DMB_RX, -1.0, value);
+    case DMB_OUTPUT_WEIGHT_ON_BIT:
+    case DMB_OUTPUT_TORQUE_ON_BIT:
+    case DMB_OUTPUT_RATE_OF_PENETRATION:
+    case DMB_OUTPUT_OFF_BOTTOM: return value_of_bits(&s, output->quantity, value);
+    case DMB_OUTPUT_BIT_SPEED: return body_velocity(&s, far_end(&s), DMB_RX, value);
+    case DMB_OUTPUT_BIT_DEPTH: return depth_of_far_end(&s, value);
+    case DMB_OUTPUT_ROTARY_SPEED: return body_velocity(&s, rig_end(&s), DMB_RX, value);
+    case DMB_OUTPUT_FEED_SPEED: return body_velocity(&s, rig_end(&s), DMB_X, value);
+    case DMB_OUTPUT_STRETCH: *value = sum_of_strain(&s, 0); return DMB_OK;
+    case DMB_OUTPUT_WIND_UP: *value = signed_value(-1.0, sum_of_strain(&s, 3)); return DMB_OK;
+    case DMB_OUTPUT_RIG_FORCE: return force_of_rig(&s, DMB_X, -1.0, value);
+    default: return force_of_rig(&s, DMB_RX, 1.0, value); /* DMB_OUTPUT_RIG_TORQUE */
     }
 }

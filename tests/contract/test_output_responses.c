@@ -1,5 +1,5 @@
-/* Every channel as the output of a frequency response at frequency 0, against the difference of what the channel reads
- * in two states of equilibrium with a little more and a little less of the force that shakes. Channels without a linear
+/* Every output as the output of a frequency response at frequency 0, against the difference of what the output reads
+ * in two states of equilibrium with a little more and a little less of the force that shakes. Outputs without a linear
  * answer say so. */
 #include <string.h>
 
@@ -36,7 +36,7 @@ static void add_mechanism(scene *s)
     drive.part = s->joint;
     drive.component = DMB_RX;
     drive.gain = 3.0;
-    drive.programme = add_constant(&s->r, 0.0);
+    drive.time_function = add_constant(&s->r, 0.0);
     s->drive = add_drive(&s->r, &drive);
     tie.place_a = dmb_station(s->string, 0, 0.6);
     tie.place_b = dmb_station(s->body, 0, 0.0);
@@ -76,7 +76,7 @@ static void open_scene(scene *s, double load)
     (void)find_equilibrium(&s->r, &options);
 }
 
-/* The place that a channel of that kind is read at; 0: this scene has none. */
+/* The place that a output of that kind is read at; 0: this scene has none. */
 static int place_of(const scene *s, int32_t kind, dmb_place *place)
 {
     const dmb_id none = {0, 0};
@@ -91,7 +91,7 @@ static int place_of(const scene *s, int32_t kind, dmb_place *place)
     case DMB_AT_DRIVE: *place = dmb_station(s->drive, 0, 0.0); return 1;
     case DMB_AT_JOINT:
     case DMB_AT_CONSTRAINT: *place = dmb_station(s->joint, 0, 0.0); return 1;
-    case DMB_AT_SITE: place->pipe = 4; return 1;
+    case DMB_AT_CONTACT: place->pipe = 4; return 1;
     case DMB_AT_SCENE: return 1;
     default: return 0;
     }
@@ -103,16 +103,16 @@ static int32_t transfer(scene *s, int32_t quantity, dmb_place place, double valu
     static const double shares[4] = {1.0, 2.0, -3.0, 0.5};
     static const int32_t components[4] = {DMB_X, DMB_Y, DMB_Z, DMB_RX};
     dmb_response_options options = dmb_response_options_default();
-    dmb_input inputs[4];
-    dmb_output output = dmb_output_default();
+    dmb_excitation inputs[4];
+    dmb_response_output output = dmb_response_output_default();
     dmb_response *found = NULL;
     for (int i = 0; i < 4; i++) {
-        inputs[i] = dmb_input_default();
+        inputs[i] = dmb_excitation_default();
         inputs[i].place = dmb_station(s->string, 0, 0.8);
         inputs[i].component = components[i];
         inputs[i].amplitude = shares[i];
     }
-    output.kind = DMB_OUTPUT_CHANNEL;
+    output.kind = DMB_RESPONSE_OUTPUT;
     output.component = quantity;
     output.place = place;
     options.points = 1;
@@ -125,48 +125,48 @@ static int32_t transfer(scene *s, int32_t quantity, dmb_place place, double valu
 
 static int compare(scene at[3], int32_t quantity)
 {
-    dmb_channel channel = {.quantity = quantity};
+    dmb_output reading = {.quantity = quantity};
     double got[2] = {0.0, 0.0}, read[3];
-    if (!place_of(&at[1], dmb_channel_name_of(quantity)->place, &channel.place)) return 0;
-    const int32_t status = transfer(&at[1], quantity, channel.place, got);
+    if (!place_of(&at[1], dmb_output_name_of(quantity)->place, &reading.place)) return 0;
+    const int32_t status = transfer(&at[1], quantity, reading.place, got);
     if (status == DMB_ERR_UNSUPPORTED || status == DMB_ERR_VALUE) {
         if (strstr(dmb_sim_message(at[1].r.sim), "output 0: ") == NULL) fail_msg("%s", dmb_sim_message(at[1].r.sim));
         return 0;
     }
     for (int i = 0; i < 3; i++) {
-        (void)place_of(&at[i], dmb_channel_name_of(quantity)->place, &channel.place);
-        const int32_t asked = dmb_query_channel(at[i].r.sim, &channel, &read[i]);
+        (void)place_of(&at[i], dmb_output_name_of(quantity)->place, &reading.place);
+        const int32_t asked = dmb_query_output(at[i].r.sim, &reading, &read[i]);
         if (asked < 0 || status < 0)
-            fail_msg("%s: %s, %s: %s", dmb_channel_name(quantity, NULL), dmb_status_name(asked),
-                     dmb_status_name(status), dmb_sim_message(at[1].r.sim));
+            fail_msg("%s: %s, %s: %s", dmb_output_name(quantity, NULL), dmb_status_name(asked), dmb_status_name(status),
+                     dmb_sim_message(at[1].r.sim));
     }
     /* Turns of a bent beam differ by the square of its slope from those about the body's axis. */
     const double wanted = (read[2] - read[0]) / (2.0 * SHAKEN);
     const double curved = fabs(read[2] - 2.0 * read[1] + read[0]) / SHAKEN; /* what a difference cannot tell */
     const double bound = 1e-3 * fabs(wanted) + curved + 1e-9 * (1.0 + fabs(read[1]));
     if (!(fabs(got[0] - wanted) <= bound) || got[1] != 0.0)
-        fail_msg("%s: %.9g + %.3gi, difference %.9g, bound %.3g", dmb_channel_name(quantity, NULL), got[0], got[1],
+        fail_msg("%s: %.9g + %.3gi, difference %.9g, bound %.3g", dmb_output_name(quantity, NULL), got[0], got[1],
                  wanted, bound);
     return wanted != 0.0;
 }
 
-static void every_channel(void **state)
+static void every_output(void **state)
 {
     (void)state;
     scene at[3];
     int compared = 0, moving = 0;
     for (int i = 0; i < 3; i++) open_scene(&at[i], 40.0 + (i - 1) * SHAKEN);
-    for (int32_t q = dmb_channel_next(-1); q >= 0; q = dmb_channel_next(q)) {
+    for (int32_t q = dmb_output_next(-1); q >= 0; q = dmb_output_next(q)) {
         compared++;
         moving += compare(at, q);
     }
-    print_message("    %d channels, %d of them with an answer that is not 0\n", compared, moving);
+    print_message("    %d outputs, %d of them with an answer that is not 0\n", compared, moving);
     assert_true(moving > 40);
     for (int i = 0; i < 3; i++) rig_close(&at[i].r);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_channel)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_output)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

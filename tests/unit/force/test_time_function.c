@@ -1,12 +1,12 @@
-/* Programmes: values, rates, integrals and corners against closed forms, differences and quadrature. Equations:
+/* Time functions: values, rates, integrals and breakpoints against closed forms, differences and quadrature. Equations:
  * eq:drive.step. */
-#include "force/programme.h"
+#include "force/time_function.h"
 
 #include "force_test.h"
 
-static dmb_term make(int32_t kind, double x0, double x1, double h0, double h1)
+static dmb_segment make(int32_t kind, double x0, double x1, double h0, double h1)
 {
-    dmb_term term;
+    dmb_segment term;
 
     memset(&term, 0, sizeof term);
     term.struct_size = (uint32_t)sizeof term;
@@ -18,9 +18,9 @@ static dmb_term make(int32_t kind, double x0, double x1, double h0, double h1)
     return term;
 }
 
-static dmb_term harmonic(double h0, double h1, double omega, double phase)
+static dmb_segment harmonic(double h0, double h1, double omega, double phase)
 {
-    dmb_term term = make(DMB_TERM_HARMONIC, 0, 1, h0, h1);
+    dmb_segment term = make(DMB_SEGMENT_HARMONIC, 0, 1, h0, h1);
 
     term.omega = omega;
     term.phase = phase;
@@ -30,9 +30,9 @@ static dmb_term harmonic(double h0, double h1, double omega, double phase)
 static const double knot_time[5] = {-1.0, 0.5, 0.75, 3.0, 7.5};
 static const double knot_value[5] = {2.0, -1.0, 4.0, 4.0, 0.25};
 
-static dmb_term table(uint32_t count)
+static dmb_segment table(uint32_t count)
 {
-    dmb_term term = make(DMB_TERM_TABLE, 0, 1, 0, 0);
+    dmb_segment term = make(DMB_SEGMENT_TABLE, 0, 1, 0, 0);
 
     term.table_time = knot_time;
     term.table_value = knot_value;
@@ -40,9 +40,9 @@ static dmb_term table(uint32_t count)
     return term;
 }
 
-static dmb_term callback(dmb_programme_fn fn, int32_t provides, void *context)
+static dmb_segment callback(dmb_time_fn fn, int32_t provides, void *context)
 {
-    dmb_term term = make(DMB_TERM_CALLBACK, 0, 1, 0, 0);
+    dmb_segment term = make(DMB_SEGMENT_CALLBACK, 0, 1, 0, 0);
 
     term.callback = fn;
     term.provides = provides;
@@ -50,38 +50,38 @@ static dmb_term callback(dmb_programme_fn fn, int32_t provides, void *context)
     return term;
 }
 
-static double value_at(const dmb_programme *p, double t)
+static double value_at(const dmb_time_function *p, double t)
 {
     double value = (double)NAN;
 
-    assert_int_equal(dmb_programme_value(p, t, &value, NULL), DMB_OK);
+    assert_int_equal(dmb_time_function_value(p, t, &value, NULL), DMB_OK);
     return value;
 }
 
-static double rate_at(const dmb_programme *p, double t)
+static double rate_at(const dmb_time_function *p, double t)
 {
     double value, rate = (double)NAN;
 
-    assert_int_equal(dmb_programme_value(p, t, &value, &rate), DMB_OK);
+    assert_int_equal(dmb_time_function_value(p, t, &value, &rate), DMB_OK);
     return rate;
 }
 
-static double integral_of(const dmb_programme *p, double t0, double t1)
+static double integral_of(const dmb_time_function *p, double t0, double t1)
 {
     double integral = (double)NAN;
 
-    assert_int_equal(dmb_programme_integral(p, t0, t1, &integral), DMB_OK);
+    assert_int_equal(dmb_time_function_integral(p, t0, t1, &integral), DMB_OK);
     return integral;
 }
 
-/* Composite Simpson rule, corner to corner. */
-static double quadrature(const dmb_programme *p, double t0, double t1)
+/* Composite Simpson rule, breakpoint to breakpoint. */
+static double quadrature(const dmb_time_function *p, double t0, double t1)
 {
     double sum = 0.0;
 
     while (t0 < t1) {
-        const double end = fmin(t1, dmb_programme_next_corner(p, t0));
-        const double inside = end - 1e-13 * fabs(end); /* the value left of the corner */
+        const double end = fmin(t1, dmb_time_function_next_breakpoint(p, t0));
+        const double inside = end - 1e-13 * fabs(end); /* the value left of the breakpoint */
         const int n = 4000;
         const double h = (inside - t0) / n;
         for (int i = 0; i < n; ++i)
@@ -94,9 +94,9 @@ static double quadrature(const dmb_programme *p, double t0, double t1)
 
 static void step_values(void **state)
 {
-    const dmb_term cubic = make(DMB_TERM_STEP, 2.0, 6.0, 1.0, 5.0);
-    const dmb_term quintic = make(DMB_TERM_STEP5, 2.0, 6.0, 1.0, 5.0);
-    const dmb_programme p3 = {&cubic, 1}, p5 = {&quintic, 1};
+    const dmb_segment cubic = make(DMB_SEGMENT_STEP, 2.0, 6.0, 1.0, 5.0);
+    const dmb_segment quintic = make(DMB_SEGMENT_STEP5, 2.0, 6.0, 1.0, 5.0);
+    const dmb_time_function p3 = {&cubic, 1}, p5 = {&quintic, 1};
     (void)state;
 
     assert_true(value_at(&p3, -1e30) == 1.0 && value_at(&p3, 2.0) == 1.0);
@@ -113,10 +113,10 @@ static void step_values(void **state)
 /* The feed of the reference system: advances 10 mm/s from 1 to 19 s, withdraws from 22 to 40 s. */
 static void six_stage_feed(void **state)
 {
-    const dmb_term term[3] = {make(DMB_TERM_STEP, 0, 1, 0, -0.01), make(DMB_TERM_STEP, 19, 20, 0, 0.01),
-                              make(DMB_TERM_STEP, 21, 22, 0, 0.01)};
-    const dmb_programme feed = {term, 3};
-    const double corner[6] = {0, 1, 19, 20, 21, 22};
+    const dmb_segment term[3] = {make(DMB_SEGMENT_STEP, 0, 1, 0, -0.01), make(DMB_SEGMENT_STEP, 19, 20, 0, 0.01),
+                                 make(DMB_SEGMENT_STEP, 21, 22, 0, 0.01)};
+    const dmb_time_function feed = {term, 3};
+    const double breakpoint[6] = {0, 1, 19, 20, 21, 22};
     double t = -5.0;
     (void)state;
 
@@ -126,25 +126,25 @@ static void six_stage_feed(void **state)
     CHECK_CLOSE(integral_of(&feed, 0.0, 20.0), -0.01 * (0.5 + 18.0 + 0.5), 1e-15);
     CHECK_CLOSE(integral_of(&feed, 0.0, 40.0), -0.19 + 0.01 * 18.5, 1e-15);
     for (int i = 0; i < 6; ++i) {
-        t = dmb_programme_next_corner(&feed, t);
-        assert_true(t == corner[i]);
+        t = dmb_time_function_next_breakpoint(&feed, t);
+        assert_true(t == breakpoint[i]);
     }
-    assert_true(isinf(dmb_programme_next_corner(&feed, t)));
+    assert_true(isinf(dmb_time_function_next_breakpoint(&feed, t)));
 }
 
 static void rates_against_differences(void **state)
 {
     uint64_t seed = 12345;
-    dmb_term term[5] = {make(DMB_TERM_CONSTANT, 0, 1, 3.5, 9), make(DMB_TERM_STEP, 0.2, 5, -2, 3),
-                        make(DMB_TERM_STEP5, -1, 4.5, 7, -1), harmonic(0.5, 2, 3.7, 0.4), table(5)};
+    dmb_segment term[5] = {make(DMB_SEGMENT_CONSTANT, 0, 1, 3.5, 9), make(DMB_SEGMENT_STEP, 0.2, 5, -2, 3),
+                           make(DMB_SEGMENT_STEP5, -1, 4.5, 7, -1), harmonic(0.5, 2, 3.7, 0.4), table(5)};
     (void)state;
 
     for (uint32_t k = 0; k < 5; ++k) {
-        const dmb_programme p = {&term[k], 1};
+        const dmb_time_function p = {&term[k], 1};
         for (int i = 0; i < 200; ++i) {
             const double t = draw(&seed, -2, 9);
             const double h = 1e-5;
-            if (dmb_programme_next_corner(&p, t - 2 * h) <= t + 2 * h) continue;
+            if (dmb_time_function_next_breakpoint(&p, t - 2 * h) <= t + 2 * h) continue;
             CHECK_CLOSE(rate_at(&p, t), (value_at(&p, t + h) - value_at(&p, t - h)) / (2 * h), 5e-9);
         }
     }
@@ -153,17 +153,17 @@ static void rates_against_differences(void **state)
 static void integrals_against_quadrature(void **state)
 {
     uint64_t seed = 777;
-    dmb_term term[6] = {make(DMB_TERM_CONSTANT, 0, 1, 3.5, 9),
-                        make(DMB_TERM_STEP, 0.2, 5, -2, 3),
-                        make(DMB_TERM_STEP5, -1, 4.5, 7, -1),
-                        harmonic(0.5, 2, 3.7, 0.4),
-                        table(5),
-                        table(1)};
-    const dmb_programme all = {term, 6};
+    dmb_segment term[6] = {make(DMB_SEGMENT_CONSTANT, 0, 1, 3.5, 9),
+                           make(DMB_SEGMENT_STEP, 0.2, 5, -2, 3),
+                           make(DMB_SEGMENT_STEP5, -1, 4.5, 7, -1),
+                           harmonic(0.5, 2, 3.7, 0.4),
+                           table(5),
+                           table(1)};
+    const dmb_time_function all = {term, 6};
     (void)state;
 
     for (uint32_t k = 0; k < 6; ++k) {
-        const dmb_programme p = {&term[k], 1};
+        const dmb_time_function p = {&term[k], 1};
         for (int i = 0; i < 12; ++i) {
             const double a = draw(&seed, -3, 9), b = draw(&seed, a, 10);
             CHECK_CLOSE(integral_of(&p, a, b), quadrature(&p, a, b), 1e-10);
@@ -178,9 +178,9 @@ static void integrals_against_quadrature(void **state)
 /* Closed forms: integral of STEP h0 s + rise width (D^3 - D^4/2) */
 static void step_antiderivative(void **state)
 {
-    const dmb_term cubic = make(DMB_TERM_STEP, 1.0, 4.0, 0.5, 2.5);
-    const dmb_term quintic = make(DMB_TERM_STEP5, 1.0, 4.0, 0.5, 2.5);
-    const dmb_programme p3 = {&cubic, 1}, p5 = {&quintic, 1};
+    const dmb_segment cubic = make(DMB_SEGMENT_STEP, 1.0, 4.0, 0.5, 2.5);
+    const dmb_segment quintic = make(DMB_SEGMENT_STEP5, 1.0, 4.0, 0.5, 2.5);
+    const dmb_time_function p3 = {&cubic, 1}, p5 = {&quintic, 1};
     (void)state;
 
     for (double t = 1.0; t <= 4.0; t += 0.125) {
@@ -194,9 +194,9 @@ static void step_antiderivative(void **state)
 static void small_intervals_far_out(void **state)
 {
     const double t0 = 86400.0, t1 = t0 + 1e-3, h = t1 - t0;
-    const dmb_term term[3] = {make(DMB_TERM_STEP, 0, 1, 0, 0.3), harmonic(0, 2, 12.5, 0.25),
-                              make(DMB_TERM_STEP, 0, 172800, 0, 1)};
-    const dmb_programme step = {&term[0], 1}, wave = {&term[1], 1}, slow = {&term[2], 1};
+    const dmb_segment term[3] = {make(DMB_SEGMENT_STEP, 0, 1, 0, 0.3), harmonic(0, 2, 12.5, 0.25),
+                                 make(DMB_SEGMENT_STEP, 0, 172800, 0, 1)};
+    const dmb_time_function step = {&term[0], 1}, wave = {&term[1], 1}, slow = {&term[2], 1};
     const long double middle = 12.5L * ((long double)t0 + 0.5L * (long double)h) + 0.25L;
     const long double half = 0.5L * 12.5L * (long double)h;
     (void)state;
@@ -206,15 +206,15 @@ static void small_intervals_far_out(void **state)
     const double simpson = h / 6 * (value_at(&wave, t0) + 4 * value_at(&wave, t0 + 0.5 * h) + value_at(&wave, t1));
     CHECK_RELATIVE(integral_of(&wave, t0, t1), simpson, 1e-9);
     CHECK_RELATIVE(integral_of(&slow, t0, t1), 0.5 * h * (1.0 + 0.75 * 1e-3 / 86400.0), 1e-12);
-    const dmb_term still = harmonic(0, 2, 0, PI / 6);
-    const dmb_programme zero = {&still, 1};
+    const dmb_segment still = harmonic(0, 2, 0, PI / 6);
+    const dmb_time_function zero = {&still, 1};
     CHECK_RELATIVE(integral_of(&zero, t0, t1), h, 1e-15);
 }
 
-static void table_values_and_corners(void **state)
+static void table_values_and_breakpoints(void **state)
 {
-    const dmb_term full = table(5), single = table(1);
-    const dmb_programme p = {&full, 1}, one = {&single, 1};
+    const dmb_segment full = table(5), single = table(1);
+    const dmb_time_function p = {&full, 1}, one = {&single, 1};
     double t = -10.0;
     (void)state;
 
@@ -225,28 +225,29 @@ static void table_values_and_corners(void **state)
     assert_true(rate_at(&p, 7.5) == 0.0 && rate_at(&p, -1.5) == 0.0 && rate_at(&one, -1.0) == 0.0);
     for (int i = 0; i < 5; ++i) {
         assert_true(value_at(&p, knot_time[i]) == knot_value[i]);
-        t = dmb_programme_next_corner(&p, t);
+        t = dmb_time_function_next_breakpoint(&p, t);
         assert_true(t == knot_time[i]);
     }
-    assert_true(isinf(dmb_programme_next_corner(&p, t)));
-    assert_true(dmb_programme_next_corner(&p, 0.6) == 0.75);
+    assert_true(isinf(dmb_time_function_next_breakpoint(&p, t)));
+    assert_true(dmb_time_function_next_breakpoint(&p, 0.6) == 0.75);
 }
 
-static void corners_of_a_sum(void **state)
+static void breakpoints_of_a_sum(void **state)
 {
-    const dmb_term term[4] = {make(DMB_TERM_STEP, 1, 5, 0, 1), table(5), make(DMB_TERM_STEP5, 0.25, 0.6, 0, 1),
-                              harmonic(1, 1, 1, 1)};
-    const dmb_programme p = {term, 4}, quiet = {&term[3], 1}, empty = {NULL, 0};
+    const dmb_segment term[4] = {make(DMB_SEGMENT_STEP, 1, 5, 0, 1), table(5), make(DMB_SEGMENT_STEP5, 0.25, 0.6, 0, 1),
+                                 harmonic(1, 1, 1, 1)};
+    const dmb_time_function p = {term, 4}, quiet = {&term[3], 1}, empty = {NULL, 0};
     const double expected[9] = {-1, 0.25, 0.5, 0.6, 0.75, 1, 3, 5, 7.5};
     double t = -(double)INFINITY;
     (void)state;
 
     for (int i = 0; i < 9; ++i) {
-        t = dmb_programme_next_corner(&p, t);
+        t = dmb_time_function_next_breakpoint(&p, t);
         assert_true(t == expected[i]);
     }
-    assert_true(isinf(dmb_programme_next_corner(&p, t)));
-    assert_true(isinf(dmb_programme_next_corner(&quiet, 0)) && isinf(dmb_programme_next_corner(&empty, 0)));
+    assert_true(isinf(dmb_time_function_next_breakpoint(&p, t)));
+    assert_true(isinf(dmb_time_function_next_breakpoint(&quiet, 0)) &&
+                isinf(dmb_time_function_next_breakpoint(&empty, 0)));
     assert_true(value_at(&empty, 1) == 0.0 && integral_of(&empty, 0, 1) == 0.0);
 }
 
@@ -295,9 +296,9 @@ static int32_t writes_nothing(void *context, double t, double out[3])
 static void callbacks_agree(void **state)
 {
     struct wave w = {0, 0, 0};
-    const dmb_term rich = callback(wave_fn, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, &w);
-    const dmb_term poor = callback(value_only, 0, NULL);
-    const dmb_programme a = {&rich, 1}, b = {&poor, 1};
+    const dmb_segment rich = callback(wave_fn, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, &w);
+    const dmb_segment poor = callback(value_only, 0, NULL);
+    const dmb_time_function a = {&rich, 1}, b = {&poor, 1};
     (void)state;
 
     for (double t = 0.0; t < 5.0; t += 0.37) {
@@ -312,21 +313,21 @@ static void callbacks_agree(void **state)
     assert_int_equal(w.calls, 1);
 }
 
-static void expect_failure(const dmb_term *term, int32_t expected)
+static void expect_failure(const dmb_segment *term, int32_t expected)
 {
-    const dmb_programme p = {term, 1};
+    const dmb_time_function p = {term, 1};
     double value = 11, rate = 12, integral = 13;
 
-    assert_int_equal(dmb_programme_value(&p, 1.0, &value, &rate), expected);
-    assert_int_equal(dmb_programme_integral(&p, 1.0, 2.0, &integral), expected);
+    assert_int_equal(dmb_time_function_value(&p, 1.0, &value, &rate), expected);
+    assert_int_equal(dmb_time_function_integral(&p, 1.0, 2.0, &integral), expected);
     assert_true(value == 11 && rate == 12 && integral == 13);
 }
 
 static void callbacks_that_fail(void **state)
 {
-    const dmb_term no = callback(refuses, 0, NULL), silent = callback(writes_nothing, 0, NULL);
-    const dmb_term none = callback(NULL, 0, NULL);
-    const dmb_term short_of = callback(value_only, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, NULL);
+    const dmb_segment no = callback(refuses, 0, NULL), silent = callback(writes_nothing, 0, NULL);
+    const dmb_segment none = callback(NULL, 0, NULL);
+    const dmb_segment short_of = callback(value_only, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, NULL);
     const double bad[3] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     (void)state;
 
@@ -337,44 +338,46 @@ static void callbacks_that_fail(void **state)
     for (int i = 0; i < 3; ++i)
         for (int at = 1; at <= 3; ++at) {
             struct wave w = {0, at, bad[i]};
-            const dmb_term term = callback(wave_fn, 0, &w);
-            const dmb_programme p = {&term, 1};
+            const dmb_segment term = callback(wave_fn, 0, &w);
+            const dmb_time_function p = {&term, 1};
             double value = 11, rate = 12, integral = 13;
-            assert_int_equal(dmb_programme_value(&p, 1.0, &value, &rate), DMB_ERR_CALLBACK);
+            assert_int_equal(dmb_time_function_value(&p, 1.0, &value, &rate), DMB_ERR_CALLBACK);
             w.calls = 0;
-            assert_int_equal(dmb_programme_integral(&p, 1.0, 2.0, &integral), DMB_ERR_CALLBACK);
+            assert_int_equal(dmb_time_function_integral(&p, 1.0, 2.0, &integral), DMB_ERR_CALLBACK);
             assert_true(value == 11 && rate == 12 && integral == 13);
         }
 }
 
 static void nonsense_times(void **state)
 {
-    const dmb_term term[2] = {make(DMB_TERM_STEP, 0, 1, 0, 1), table(5)};
-    const dmb_programme p = {term, 2};
-    const dmb_term huge[2] = {make(DMB_TERM_CONSTANT, 0, 1, 1e308, 0), make(DMB_TERM_CONSTANT, 0, 1, 1e308, 0)};
-    const dmb_programme overflow = {huge, 2};
+    const dmb_segment term[2] = {make(DMB_SEGMENT_STEP, 0, 1, 0, 1), table(5)};
+    const dmb_time_function p = {term, 2};
+    const dmb_segment huge[2] = {make(DMB_SEGMENT_CONSTANT, 0, 1, 1e308, 0),
+                                 make(DMB_SEGMENT_CONSTANT, 0, 1, 1e308, 0)};
+    const dmb_time_function overflow = {huge, 2};
     double out = 11, rate = 12;
     (void)state;
 
-    assert_int_equal(dmb_programme_value(&p, (double)NAN, &out, &rate), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_value(&p, (double)INFINITY, &out, &rate), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_integral(&p, 0, (double)NAN, &out), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_value(&overflow, 0, &out, &rate), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_integral(&overflow, 0, 1, &out), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_integral(&p, (double)NAN, 0, &out), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_rate_before(&p, (double)NAN, &rate), DMB_ERR_NOT_FINITE);
-    const dmb_term steep[2] = {make(DMB_TERM_HARMONIC, 0, 1, 0, 1e308), make(DMB_TERM_HARMONIC, 0, 1, 0, 1e308)};
-    dmb_term fast[2] = {steep[0], steep[1]};
+    assert_int_equal(dmb_time_function_value(&p, (double)NAN, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_value(&p, (double)INFINITY, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_integral(&p, 0, (double)NAN, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_value(&overflow, 0, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_integral(&overflow, 0, 1, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_integral(&p, (double)NAN, 0, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_rate_before(&p, (double)NAN, &rate), DMB_ERR_NOT_FINITE);
+    const dmb_segment steep[2] = {make(DMB_SEGMENT_HARMONIC, 0, 1, 0, 1e308),
+                                  make(DMB_SEGMENT_HARMONIC, 0, 1, 0, 1e308)};
+    dmb_segment fast[2] = {steep[0], steep[1]};
     fast[0].omega = fast[1].omega = 1.5; /* each finite, their sum is not */
-    const dmb_programme rates = {fast, 2};
-    assert_int_equal(dmb_programme_value(&rates, 0, &out, &rate), DMB_ERR_NOT_FINITE);
-    assert_int_equal(dmb_programme_rate_before(&rates, 0, &rate), DMB_ERR_NOT_FINITE);
-    const dmb_term failing = callback(refuses, 0, NULL);
-    const dmb_programme broken = {&failing, 1};
-    assert_int_equal(dmb_programme_rate_before(&broken, 1.0, &rate), DMB_ERR_CALLBACK);
+    const dmb_time_function rates = {fast, 2};
+    assert_int_equal(dmb_time_function_value(&rates, 0, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_time_function_rate_before(&rates, 0, &rate), DMB_ERR_NOT_FINITE);
+    const dmb_segment failing = callback(refuses, 0, NULL);
+    const dmb_time_function broken = {&failing, 1};
+    assert_int_equal(dmb_time_function_rate_before(&broken, 1.0, &rate), DMB_ERR_CALLBACK);
     assert_true(out == 11 && rate == 12);
-    assert_true(isinf(dmb_programme_next_corner(&p, (double)NAN)) ||
-                dmb_programme_next_corner(&p, (double)NAN) == -1.0);
+    assert_true(isinf(dmb_time_function_next_breakpoint(&p, (double)NAN)) ||
+                dmb_time_function_next_breakpoint(&p, (double)NAN) == -1.0);
 }
 
 int main(void)
@@ -386,8 +389,8 @@ int main(void)
         cmocka_unit_test(integrals_against_quadrature),
         cmocka_unit_test(step_antiderivative),
         cmocka_unit_test(small_intervals_far_out),
-        cmocka_unit_test(table_values_and_corners),
-        cmocka_unit_test(corners_of_a_sum),
+        cmocka_unit_test(table_values_and_breakpoints),
+        cmocka_unit_test(breakpoints_of_a_sum),
         cmocka_unit_test(callbacks_agree),
         cmocka_unit_test(callbacks_that_fail),
         cmocka_unit_test(nonsense_times),

@@ -1,4 +1,4 @@
-/* Every channel against the query that it mirrors, in a string that drills on a wall with a jointed body behind it;
+/* Every output against the query that it mirrors, in a string that drills on a wall with a jointed body behind it;
  * names and numbers; recorders of windows and profiles; refusals. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static void add_spring_and_input(scene *r)
 /* Eight pipes of S1 that drill, and a pendulum with a spring on a joint. */
 static scene make(void)
 {
-    const dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_STEP, .x1 = 0.02, .h1 = 0.1};
+    const dmb_segment ramp = {.struct_size = sizeof ramp, .kind = DMB_SEGMENT_STEP, .x1 = 0.02, .h1 = 0.1};
     dmb_wall_def wall = s1_hole();
     dmb_pipe_def pipe = s1_pipe();
     dmb_bit_def bit = dmb_bit_def_default();
@@ -50,7 +50,7 @@ static scene make(void)
     bit.bottom = 1e-3;
     bit.rock_law = DMB_ROCK_RATE;
     must_model(&r.s, dmb_model_add_bit(r.s.model, &bit, &r.bit));
-    r.feed = add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_X, add_programme(&r.s, &ramp, 1));
+    r.feed = add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_X, add_time_function(&r.s, &ramp, 1));
     r.torque = add_simple_drive(&r.s, DMB_DRIVE_LOAD, r.string, DMB_RX, add_constant(&r.s, 400.0));
     body.mass = 3.0;
     for (int i = 0; i < 3; i++) body.inertia[i] = 0.1;
@@ -88,8 +88,8 @@ static void destroy(scene *r)
 static dmb_place place_for(const scene *r, int32_t q)
 {
     const dmb_place along = dmb_station(r->string, 2, 0.25), none = dmb_station((dmb_id){0, 0}, 0, 0.0);
-    if (q == DMB_CHANNEL_BIT_WEIGHT || (q >= 120 && q < 127)) return dmb_station(r->bit, 0, 0.0);
-    if (q == DMB_CHANNEL_DRIVE_FORCE || q == DMB_CHANNEL_DRIVE_SPEED) return dmb_station(r->feed, 0, 0.0);
+    if (q == DMB_OUTPUT_BIT_WEIGHT || (q >= 120 && q < 127)) return dmb_station(r->bit, 0, 0.0);
+    if (q == DMB_OUTPUT_DRIVE_FORCE || q == DMB_OUTPUT_DRIVE_SPEED) return dmb_station(r->feed, 0, 0.0);
     if (q >= 127 && q < 130) return dmb_station(r->stuck, 0, 0.0);
     if (q >= 130 && q < 140) return dmb_station(r->torque, 0, 0.0);
     if (q >= 140 && q < 150) return dmb_station((dmb_id){0, 0}, 5, 0.0);
@@ -112,12 +112,12 @@ static double of_place(const scene *r, int32_t q)
     if (q < 3) return pose.displacement[q];
     if (q < 6) return world.velocity[q - 3];
     if (q < 9) return pose.position[q - 6];
-    if (q == DMB_CHANNEL_ROTATION) return rotation_at(&r->s, place);
-    if (q == DMB_CHANNEL_SPIN) return body.velocity[3];
-    if (q == DMB_CHANNEL_AXIAL_FORCE) return section.force[0];
-    if (q == DMB_CHANNEL_TORQUE) return section.force[3];
-    if (q == DMB_CHANNEL_BENDING_MOMENT) return hypot(section.force[4], section.force[5]);
-    if (q == DMB_CHANNEL_KINETIC_ENERGY) return kinetic;
+    if (q == DMB_OUTPUT_ROTATION) return rotation_at(&r->s, place);
+    if (q == DMB_OUTPUT_SPIN) return body.velocity[3];
+    if (q == DMB_OUTPUT_AXIAL_FORCE) return section.force[0];
+    if (q == DMB_OUTPUT_TORQUE) return section.force[3];
+    if (q == DMB_OUTPUT_BENDING_MOMENT) return hypot(section.force[4], section.force[5]);
+    if (q == DMB_OUTPUT_KINETIC_ENERGY) return kinetic;
     if (q >= 450) return body.acceleration[q - 450];
     if (q >= 440) return body.velocity[q - 440];
     if (q >= 430) return world.acceleration[q - 430];
@@ -129,7 +129,7 @@ static double of_contact(const scene *r, int32_t q)
 {
     dmb_contact c = dmb_contact_default();
     dmb_contact_total t = contacts_of(&r->s);
-    for (uint32_t i = 0; q == DMB_CHANNEL_NORMAL_FORCE; i++) {
+    for (uint32_t i = 0; q == DMB_OUTPUT_NORMAL_FORCE; i++) {
         must(&r->s, dmb_query_contact(r->s.sim, i, &c));
         if (c.part.index == r->string.index && c.pipe == 2) return c.normal_force;
     }
@@ -152,7 +152,7 @@ static double of_whole(const scene *r, int32_t q)
     const double statistics[10] = {(double)s.steps,   (double)s.rejected, (double)s.iterations, (double)s.limited_steps,
                                    s.most_iterations, s.largest_residual, (double)s.switches,   s.dependent,
                                    s.redundant,       s.violation};
-    if (q == DMB_CHANNEL_ENERGY_ERROR) return e.error;
+    if (q == DMB_OUTPUT_ENERGY_ERROR) return e.error;
     if (q < 180) return energies[q - 160];
     return q < 200 ? momenta[q - 180] : statistics[q - 200];
 }
@@ -188,13 +188,13 @@ static double of_part(const scene *r, int32_t q)
     must(&r->s, dmb_query_drive(r->s.sim, r->torque, &t));
     const double bit[7] = {b.advance, b.bottom, b.depth_of_cut, b.weight, b.torque, b.load, b.on_bottom};
     const double drive[6] = {t.target, t.position, t.power, t.work, t.command, t.made};
-    if (q == DMB_CHANNEL_DRIVE_FORCE) return f.force;
-    if (q == DMB_CHANNEL_DRIVE_SPEED) return f.speed;
-    if (q == DMB_CHANNEL_BIT_WEIGHT) return b.weight + b.load;
+    if (q == DMB_OUTPUT_DRIVE_FORCE) return f.force;
+    if (q == DMB_OUTPUT_DRIVE_SPEED) return f.speed;
+    if (q == DMB_OUTPUT_BIT_WEIGHT) return b.weight + b.load;
     if (q >= 127 && q < 130) {
         dmb_stuck_state held = dmb_stuck_state_default();
         must(&r->s, dmb_query_stuck(r->s.sim, r->stuck, &held));
-        return q == DMB_CHANNEL_STUCK ? held.stuck : held.force[q == DMB_CHANNEL_STUCK_FORCE ? 0 : 3];
+        return q == DMB_OUTPUT_STUCK ? held.stuck : held.force[q == DMB_OUTPUT_STUCK_FORCE ? 0 : 3];
     }
     return q < 130 ? bit[q - 120] : drive[q - 130];
 }
@@ -225,21 +225,21 @@ static double of_driller(const scene *r, int32_t q)
     for (uint32_t p = 0; p < 8; p++) { /* one element a pipe: its mean strain times its length */
         dmb_section middle = dmb_section_default();
         must(&r->s, dmb_query_section(r->s.sim, dmb_station(r->string, p, 0.5), &middle));
-        sum += 1.5 * (q == DMB_CHANNEL_STRETCH ? middle.strain[0] : -middle.strain[3]);
+        sum += 1.5 * (q == DMB_OUTPUT_STRETCH ? middle.strain[0] : -middle.strain[3]);
     }
     switch (q) {
-    case DMB_CHANNEL_HOOK_LOAD: return section.force[0];
-    case DMB_CHANNEL_ROTATION_TORQUE: return -section.force[3];
-    case DMB_CHANNEL_WEIGHT_ON_BIT: return b.weight + b.load;
-    case DMB_CHANNEL_TORQUE_ON_BIT: return b.torque;
-    case DMB_CHANNEL_RATE_OF_PENETRATION: return b.on_bottom ? speed : 0.0;
-    case DMB_CHANNEL_BIT_SPEED: return motion_at(&r->s, far_end, DMB_FRAME_BODY).velocity[3];
-    case DMB_CHANNEL_BIT_DEPTH: return pose_at(&r->s, far_end).depth;
-    case DMB_CHANNEL_ROTARY_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[3];
-    case DMB_CHANNEL_FEED_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[0];
-    case DMB_CHANNEL_OFF_BOTTOM: return !b.on_bottom;
-    case DMB_CHANNEL_RIG_FORCE: return -f.force;
-    case DMB_CHANNEL_RIG_TORQUE: return t.force;
+    case DMB_OUTPUT_HOOK_LOAD: return section.force[0];
+    case DMB_OUTPUT_ROTATION_TORQUE: return -section.force[3];
+    case DMB_OUTPUT_WEIGHT_ON_BIT: return b.weight + b.load;
+    case DMB_OUTPUT_TORQUE_ON_BIT: return b.torque;
+    case DMB_OUTPUT_RATE_OF_PENETRATION: return b.on_bottom ? speed : 0.0;
+    case DMB_OUTPUT_BIT_SPEED: return motion_at(&r->s, far_end, DMB_FRAME_BODY).velocity[3];
+    case DMB_OUTPUT_BIT_DEPTH: return pose_at(&r->s, far_end).depth;
+    case DMB_OUTPUT_ROTARY_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[3];
+    case DMB_OUTPUT_FEED_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[0];
+    case DMB_OUTPUT_OFF_BOTTOM: return !b.on_bottom;
+    case DMB_OUTPUT_RIG_FORCE: return -f.force;
+    case DMB_OUTPUT_RIG_TORQUE: return t.force;
     default: return sum;
     }
 }
@@ -263,15 +263,15 @@ static double expected(const scene *r, int32_t q)
     if (q >= 400) return of_place(r, q);
     if (q >= 300) return of_joint(r, q);
     if (q >= 220) return of_spring_or_input(r, q);
-    if (q >= 160 || q == DMB_CHANNEL_ENERGY_ERROR) return of_whole(r, q);
-    if (q >= 140 || q == DMB_CHANNEL_NORMAL_FORCE) return of_contact(r, q);
-    if (q >= 120 || (q >= DMB_CHANNEL_DRIVE_FORCE && q <= DMB_CHANNEL_BIT_WEIGHT)) return of_part(r, q);
+    if (q >= 160 || q == DMB_OUTPUT_ENERGY_ERROR) return of_whole(r, q);
+    if (q >= 140 || q == DMB_OUTPUT_NORMAL_FORCE) return of_contact(r, q);
+    if (q >= 120 || (q >= DMB_OUTPUT_DRIVE_FORCE && q <= DMB_OUTPUT_BIT_WEIGHT)) return of_part(r, q);
     return q >= 100 ? of_driller(r, q) : of_place(r, q);
 }
 
 static int is_last_row(int32_t q)
 {
-    return q >= DMB_CHANNEL_MULTIPLIER + 4 && q < DMB_CHANNEL_REACTION; /* a cylindrical joint has four */
+    return q >= DMB_OUTPUT_MULTIPLIER + 4 && q < DMB_OUTPUT_REACTION; /* a cylindrical joint has four */
 }
 
 static void each_is_its_query(void **state)
@@ -279,20 +279,20 @@ static void each_is_its_query(void **state)
     (void)state;
     scene r = make();
     int count = 0, nonzero = 0;
-    for (int32_t q = dmb_channel_next(-1); q >= 0 && q < DMB_CHANNEL_WINDOW_MINIMUM; q = dmb_channel_next(q)) {
-        const dmb_channel channel = {place_for(&r, q), q, 0};
+    for (int32_t q = dmb_output_next(-1); q >= 0 && q < DMB_OUTPUT_WINDOW_MINIMUM; q = dmb_output_next(q)) {
+        const dmb_output output = {place_for(&r, q), q, 0};
         double got = -1e99;
-        const int32_t status = dmb_query_channel(r.s.sim, &channel, &got);
+        const int32_t status = dmb_query_output(r.s.sim, &output, &got);
         assert_int_equal(status, is_last_row(q) ? DMB_ERR_VALUE : DMB_OK);
         if (status < 0) continue;
         const double want = expected(&r, q);
-        const int summed = q == DMB_CHANNEL_STRETCH || q == DMB_CHANNEL_WIND_UP || q == DMB_CHANNEL_RATE_OF_PENETRATION;
+        const int summed = q == DMB_OUTPUT_STRETCH || q == DMB_OUTPUT_WIND_UP || q == DMB_OUTPUT_RATE_OF_PENETRATION;
         if (!(fabs(got - want) <= (summed ? 1e-12 * fabs(want) : 0.0)) && !(isnan(got) && isnan(want)))
-            fail_msg("%s: %.17g, wanted %.17g", dmb_channel_name(q, NULL), got, want);
+            fail_msg("%s: %.17g, wanted %.17g", dmb_output_name(q, NULL), got, want);
         count++;
         nonzero += got != 0.0;
     }
-    tell("channels", count);
+    tell("outputs", count);
     tell("    of them not 0", nonzero);
     assert_int_equal(count, 228);
     assert_true(nonzero > 150);
@@ -306,43 +306,43 @@ static void names_are_numbers(void **state)
     (void)state;
     const char *unit;
     int32_t last = -1, back;
-    for (int32_t q = dmb_channel_next(-1); q >= 0; q = dmb_channel_next(q)) {
-        const char *name = dmb_channel_name(q, &unit);
+    for (int32_t q = dmb_output_next(-1); q >= 0; q = dmb_output_next(q)) {
+        const char *name = dmb_output_name(q, &unit);
         assert_true(q > last);
         assert_non_null(name);
         assert_true(unit[0] != '\0' && strchr(name, ' ') == NULL);
-        assert_int_equal(dmb_channel_quantity(name, &back), DMB_OK);
+        assert_int_equal(dmb_output_quantity(name, &back), DMB_OK);
         assert_int_equal(back, q);
         last = q;
     }
     for (int32_t q = 0; q < DMB_PROFILE_COUNT; q++) {
-        const char *wanted, *name = dmb_channel_name(DMB_CHANNEL_PROFILE + q, &unit);
+        const char *wanted, *name = dmb_output_name(DMB_OUTPUT_PROFILE + q, &unit);
         char text[64];
         snprintf(text, sizeof text, "profile_%s", dmb_profile_name(q, &wanted));
         assert_string_equal(name, text);
         assert_string_equal(unit, wanted);
     }
-    assert_string_equal(dmb_channel_name(DMB_CHANNEL_BIT_SPEED, &unit), "bit_speed");
+    assert_string_equal(dmb_output_name(DMB_OUTPUT_BIT_SPEED, &unit), "bit_speed");
     assert_string_equal(unit, "rad/s");
-    assert_string_equal(dmb_channel_name(DMB_CHANNEL_JOINT_ACTION + DMB_RY, NULL), "joint_action_ry");
-    assert_null(dmb_channel_name(DMB_CHANNEL_COUNT, &unit));
+    assert_string_equal(dmb_output_name(DMB_OUTPUT_JOINT_ACTION + DMB_RY, NULL), "joint_action_ry");
+    assert_null(dmb_output_name(DMB_OUTPUT_COUNT, &unit));
     assert_null(unit);
-    assert_null(dmb_channel_name(INT32_MAX, NULL));
-    assert_null(dmb_channel_name(INT32_MIN, NULL));
-    assert_int_equal(dmb_channel_next(INT32_MAX), -1);
-    assert_int_equal(dmb_channel_quantity("hook", &back), DMB_ERR_VALUE);
-    assert_int_equal(dmb_channel_quantity(NULL, &back), DMB_ERR_NULL);
+    assert_null(dmb_output_name(INT32_MAX, NULL));
+    assert_null(dmb_output_name(INT32_MIN, NULL));
+    assert_int_equal(dmb_output_next(INT32_MAX), -1);
+    assert_int_equal(dmb_output_quantity("hook", &back), DMB_ERR_VALUE);
+    assert_int_equal(dmb_output_quantity(NULL, &back), DMB_ERR_NULL);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void refused(scene *r, int32_t status, int32_t quantity, dmb_place place, const char *says)
 {
-    const dmb_channel channel = {place, quantity, 0};
+    const dmb_output output = {place, quantity, 0};
     double value = 7.0;
-    assert_int_equal(dmb_query_channel(r->s.sim, &channel, &value), status);
+    assert_int_equal(dmb_query_output(r->s.sim, &output, &value), status);
     assert_true(value == 7.0);
-    assert_int_equal(dmb_channel_check(r->s.sim, &channel, 1), status);
+    assert_int_equal(dmb_output_check(r->s.sim, &output, 1), status);
     if (strstr(dmb_sim_message(r->s.sim), says) == NULL) fail_msg("says: %s", dmb_sim_message(r->s.sim));
 }
 
@@ -351,38 +351,37 @@ static void what_is_not_there(void **state)
     (void)state;
     scene r = make();
     const dmb_place body = dmb_station(r.body, 0, 0.0), nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
-    const dmb_channel fine = {dmb_station(r.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD, 0};
-    refused(&r, DMB_ERR_VALUE, 99, nothing, "channel 0: quantity = 99, must be one");
+    const dmb_output fine = {dmb_station(r.string, 0, 0.0), DMB_OUTPUT_HOOK_LOAD, 0};
+    refused(&r, DMB_ERR_VALUE, 99, nothing, "output 0: quantity = 99, must be one");
     refused(&r, DMB_ERR_VALUE, -1, nothing, "quantity = -1");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_HOOK_LOAD, body, "hook_load");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_BIT_ADVANCE, body, "must be a bit");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_DRIVE_WORK, body, "must be a drive");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_JOINT_ACTION, body, "must be a joint");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_STUCK_TORQUE, body, "must be a stuck place");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.body, 1, 0.0),
-            "a pipe of a string, a body or");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_KINETIC_ENERGY, dmb_station(r.string, 8, 0.0), "kinetic_energy at pipe 8");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_NORMAL_FORCE, dmb_station(r.bit, 1, 0.0), "normal_force at pipe 1");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_REACTION, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_MULTIPLIER, body, "with that row");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_WORLD_ACCELERATION, dmb_station(r.joint, 0, 0.0), "on a string, body or bit");
-    refused(&r, DMB_ERR_NOT_FINITE, DMB_CHANNEL_ROTATION, dmb_station(r.body, 0, (double)NAN), "body or bit");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_POSITION_X, dmb_station(r.body, 0, 0.5), "fraction 0.5");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_SPIN, dmb_station(r.body, 1, 0.0), "spin at pipe 1");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_SPRING_FORCE, body, "must be a spring");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_INPUT_PRESENT, nothing, "must be an input");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_MULTIPLIER + 5, dmb_station(r.joint, 0, 0.0), "with that row");
-    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_SECTION_FORCE, body, "flexible");
-    refused(&r, DMB_ERR_ID, DMB_CHANNEL_PROFILE, body, "pipe of a string");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 8, 0.0), "pipe 8");
-    refused(&r, DMB_ERR_NOT_FINITE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 1, (double)NAN), "pipe of a string");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 1, -1.0), "pipe of a string");
-    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_SITE_GAP, dmb_station(nothing.part, 1000, 0.0), "contact site");
-    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_STICK_SLIP_INDEX, nothing, "number of a window");
-    assert_int_equal(dmb_query_channel(r.s.sim, NULL, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_channel_check(r.s.sim, NULL, 1), DMB_ERR_NULL);
-    assert_int_equal(dmb_channel_check(r.s.sim, &fine, 1), DMB_OK);
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_HOOK_LOAD, body, "hook_load");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_BIT_ADVANCE, body, "must be a bit");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_DRIVE_WORK, body, "must be a drive");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_JOINT_ACTION, body, "must be a joint");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_STUCK_TORQUE, body, "must be a stuck place");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_KINETIC_ENERGY, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_KINETIC_ENERGY, dmb_station(r.body, 1, 0.0), "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_KINETIC_ENERGY, dmb_station(r.string, 8, 0.0), "kinetic_energy at pipe 8");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_NORMAL_FORCE, dmb_station(r.bit, 1, 0.0), "normal_force at pipe 1");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_REACTION, dmb_station(r.joint, 0, 0.0), "a pipe of a string, a body or");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_MULTIPLIER, body, "with that row");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_WORLD_ACCELERATION, dmb_station(r.joint, 0, 0.0), "on a string, body or bit");
+    refused(&r, DMB_ERR_NOT_FINITE, DMB_OUTPUT_ROTATION, dmb_station(r.body, 0, (double)NAN), "body or bit");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_POSITION_X, dmb_station(r.body, 0, 0.5), "fraction 0.5");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_SPIN, dmb_station(r.body, 1, 0.0), "spin at pipe 1");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_SPRING_FORCE, body, "must be a spring");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_INPUT_PRESENT, nothing, "must be an input");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_MULTIPLIER + 5, dmb_station(r.joint, 0, 0.0), "with that row");
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_OUTPUT_SECTION_FORCE, body, "flexible");
+    refused(&r, DMB_ERR_ID, DMB_OUTPUT_PROFILE, body, "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_PROFILE, dmb_station(r.string, 8, 0.0), "pipe 8");
+    refused(&r, DMB_ERR_NOT_FINITE, DMB_OUTPUT_PROFILE, dmb_station(r.string, 1, (double)NAN), "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_PROFILE, dmb_station(r.string, 1, -1.0), "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_OUTPUT_CONTACT_GAP, dmb_station(nothing.part, 1000, 0.0), "contact point");
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_OUTPUT_STICK_SLIP_INDEX, nothing, "number of a window");
+    assert_int_equal(dmb_query_output(r.s.sim, NULL, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_output_check(r.s.sim, NULL, 1), DMB_ERR_NULL);
+    assert_int_equal(dmb_output_check(r.s.sim, &fine, 1), DMB_OK);
     destroy(&r);
 }
 
@@ -396,12 +395,12 @@ static void without_the_ledger(void **state)
     options.energy_ledger = 0;
     assert_true(dmb_sim_create(r.s.model, &options, &r.s.sim) >= 0);
     const dmb_place nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
-    for (int32_t q = DMB_CHANNEL_ENERGY_KINETIC; q <= DMB_CHANNEL_ENERGY_UNEXPLAINED; q++)
+    for (int32_t q = DMB_OUTPUT_ENERGY_KINETIC; q <= DMB_OUTPUT_ENERGY_UNEXPLAINED; q++)
         refused(&r, DMB_ERR_UNSUPPORTED, q, nothing, "switch on what it is read from in the options of the sim");
-    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_ENERGY_ERROR, nothing, "energy_error");
-    const dmb_channel mass = {nothing, DMB_CHANNEL_MASS, 0};
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_OUTPUT_ENERGY_ERROR, nothing, "energy_error");
+    const dmb_output mass = {nothing, DMB_OUTPUT_MASS, 0};
     double value = 0.0;
-    must(&r.s, dmb_query_channel(r.s.sim, &mass, &value));
+    must(&r.s, dmb_query_output(r.s.sim, &mass, &value));
     check_relative("mass without the ledger [kg]", value, momentum_of(&r.s).mass, 0.0);
     destroy(&r);
 }
@@ -424,11 +423,11 @@ static void in_tables(void **state)
 {
     (void)state;
     scene r = make();
-    const dmb_channel watched = {dmb_station((dmb_id){0, 0}, 0, 0.0), DMB_CHANNEL_BIT_SPEED, 0};
-    const dmb_channel asked[4] = {{watched.place, DMB_CHANNEL_STICK_SLIP_INDEX, 0},
-                                  {watched.place, DMB_CHANNEL_BIT_SPEED, 0},
-                                  {dmb_station((dmb_id){0, 0}, 3, 0.0), DMB_CHANNEL_SITE_GAP, 0},
-                                  {dmb_station(r.joint, 0, 0.0), DMB_CHANNEL_JOINT_SPEED + DMB_RX, 0}};
+    const dmb_output watched = {dmb_station((dmb_id){0, 0}, 0, 0.0), DMB_OUTPUT_BIT_SPEED, 0};
+    const dmb_output asked[4] = {{watched.place, DMB_OUTPUT_STICK_SLIP_INDEX, 0},
+                                 {watched.place, DMB_OUTPUT_BIT_SPEED, 0},
+                                 {dmb_station((dmb_id){0, 0}, 3, 0.0), DMB_OUTPUT_CONTACT_GAP, 0},
+                                 {dmb_station(r.joint, 0, 0.0), DMB_OUTPUT_JOINT_SPEED + DMB_RX, 0}};
     const int32_t quantities[2] = {DMB_PROFILE_DISTANCE, DMB_PROFILE_TORQUE};
     double table[5][20], profiles[3][1 + 7 * 2];
     dmb_window *window = NULL;
@@ -437,8 +436,8 @@ static void in_tables(void **state)
     dmb_profile profile = dmb_profile_default();
     dmb_profile_recorder rows = dmb_profile_recorder_default();
     must(&r.s, dmb_window_create(r.s.sim, NULL, &watched, 1, &window));
-    recorder.channels = asked;
-    recorder.channel_count = 4;
+    recorder.outputs = asked;
+    recorder.output_count = 4;
     recorder.table = &table[0][0];
     recorder.capacity = 5;
     assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_ERR_UNSUPPORTED);
@@ -465,8 +464,8 @@ static void in_tables(void **state)
     assert_true(((double *)table)[5 * 4 + 1] == result.index && result.samples == 5);
     check_close("row of a profile 2 ms later", profiles[1][0] - profiles[0][0], 2e-3, 1e-12);
     check_close("distance of the last station", profiles[2][1 + 6 * 2], 12.0, 0.0);
-    const char *text = written(dmb_recorder_write_csv(&recorder, "channels_out.csv"), "channels_out.csv");
-    assert_non_null(strstr(text, "time [s],stick_slip_index watch 0 [-],bit_speed [rad/s],site_gap site 3 [m],"
+    const char *text = written(dmb_recorder_write_csv(&recorder, "outputs_out.csv"), "outputs_out.csv");
+    assert_non_null(strstr(text, "time [s],stick_slip_index watch 0 [-],bit_speed [rad/s],contact_gap site 3 [m],"
                                  "joint_speed_rx joint 0 [rad/s]\n"));
     text = written(dmb_profile_recorder_write_csv(&rows, "profiles_out.csv"), "profiles_out.csv");
     assert_non_null(strstr(text, "time [s],station,distance [m],torque [N m]\n"));

@@ -1,0 +1,65 @@
+"""Outputs by their names: numbers that a recorder, a window or a response is asked for."""
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+from ctypes import byref, c_char_p, c_int32
+from enum import IntEnum
+from typing import Any
+
+from ._library import lib as _lib
+from ._values import refuse_value, shown, whole
+from .enums import OUTPUT_WINDOW_MINIMUM, ERR_VALUE, Quantity, Reading
+from .errors import WrongValue
+
+
+def output_numbers() -> Iterator[int]:
+    """The numbers of all outputs, ascending."""
+    number = _lib.dmb_output_next(-1)
+    while number >= 0:
+        yield int(number)
+        number = _lib.dmb_output_next(number)
+
+
+def output_name(quantity: int) -> str:
+    """Name of a output, as "bit_speed"."""
+    found = _lib.dmb_output_name(int(quantity), None)
+    if found is None:
+        refuse_value("output", "quantity", quantity, "be the number of a output, OUTPUT_...")
+    return str(found.decode())
+
+
+def output_unit(quantity: int) -> str:
+    """Unit of a output, as "rad/s"."""
+    unit = c_char_p()
+    if _lib.dmb_output_name(int(quantity), byref(unit)) is None:
+        refuse_value("output", "quantity", quantity, "be the number of a output, OUTPUT_...")
+    return (unit.value or b"").decode()
+
+
+def output_quantity(name: str | int) -> int:
+    """The number of a output by its name, as "bit_speed"; a number stays what it is."""
+    if not isinstance(name, str):
+        number_given = whole(name, "output", "quantity", 0, 2 ** 31 - 1)
+        output_name(number_given)
+        return number_given
+    number = c_int32()
+    if _lib.dmb_output_quantity(name.encode(), byref(number)) < 0:
+        close = difflib.get_close_matches(name, output_names(), 1)
+        raise WrongValue(ERR_VALUE, f"output: quantity = {shown(name)}, must be one of drillmbd.output_names()"
+                         + (f"; '{close[0]}'?" if close else ""))
+    return number.value
+
+
+def output_names() -> list[str]:
+    """The names of all outputs."""
+    return [output_name(number) for number in output_numbers()]
+
+
+for _member in (*Quantity, *Reading):  # what the headers have no sentence of
+    if _member.__doc__ == type(_member).__doc__ and _lib.dmb_output_name(int(_member), None):
+        _member.__doc__ = f"[{output_unit(_member)}] the output {output_name(_member)}"
+
+#: All outputs but those of windows, as an enumeration: what a scene file may ask for.
+Named: Any = IntEnum("Named", {output_name(number).upper(): number for number in output_numbers()  # type: ignore[misc]
+                               if number < OUTPUT_WINDOW_MINIMUM})
