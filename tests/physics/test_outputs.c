@@ -465,7 +465,7 @@ static void in_tables(void **state)
     check_close("row of a profile 2 ms later", profiles[1][0] - profiles[0][0], 2e-3, 1e-12);
     check_close("distance of the last station", profiles[2][1 + 6 * 2], 12.0, 0.0);
     const char *text = written(dmb_recorder_write_csv(&recorder, "outputs_out.csv"), "outputs_out.csv");
-    assert_non_null(strstr(text, "time [s],stick_slip_index watch 0 [-],bit_speed [rad/s],contact_gap site 3 [m],"
+    assert_non_null(strstr(text, "time [s],stick_slip_index watch 0 [-],bit_speed [rad/s],contact_gap contact 3 [m],"
                                  "joint_speed_rx joint 0 [rad/s]\n"));
     text = written(dmb_profile_recorder_write_csv(&rows, "profiles_out.csv"), "profiles_out.csv");
     assert_non_null(strstr(text, "time [s],station,distance [m],torque [N m]\n"));

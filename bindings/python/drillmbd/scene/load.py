@@ -179,7 +179,7 @@ class Loader:
             if not isinstance(name, str) or not name:
                 self.problems.add(path + ("name",), name, "must be a text that is not empty")
             elif name in self.kinds:
-                self.problems.add(path + ("name",), name, f"names a {self.kinds[name].replace("_", " ")} already; every name once")
+                self.problems.add(path + ("name",), name, f"names a {self.kinds[name].replace('_', ' ')} already; every name once")
             else:
                 self.kinds[name] = kind
                 self.paths[kind, name] = path
@@ -259,10 +259,10 @@ class Loader:
         if not isinstance(value, str) or value not in self.kinds:
             wanted = next((part for part in reversed(path) if isinstance(part, str)), "part")
             kinds = NAMES_OF.get(wanted, PARTS)
-            self.problems.add(path, value, f"names no {kinds[0].replace("_", " ") if len(kinds) == 1 else 'part'}"
+            self.problems.add(path, value, f"names no {kinds[0].replace('_', ' ') if len(kinds) == 1 else 'part'}"
                               + meant(str(value), [name for name, kind in self.kinds.items() if kind in kinds]))
         elif not self.problems.found:
-            self.problems.add(path, value, f"names a {self.kinds[value].replace("_", " ")} that is made after this; time functions come first, "
+            self.problems.add(path, value, f"names a {self.kinds[value].replace('_', ' ')} that is made after this; time functions come first, "
                                            "then strings, subs, bodies, bits, rings, joints, couplings, drives, loads, springs, "
                                            "stuck places, inputs")
         return None
