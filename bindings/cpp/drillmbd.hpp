@@ -893,6 +893,11 @@ public:
     {
         return dmb_sim_step(handle_, duration, report);
     }
+    DRILLMBD_NODISCARD std::int32_t try_steps(double duration, std::uint32_t count, std::uint32_t *done = nullptr,
+                                              dmb_step_report *report = nullptr) noexcept
+    {
+        return dmb_sim_steps(handle_, duration, count, done, report);
+    }
     DRILLMBD_NODISCARD std::int32_t try_advance(double to, dmb_step_report *report = nullptr) noexcept
     {
         return dmb_sim_advance(handle_, to, report);
@@ -978,6 +983,11 @@ public:
     }
 
     std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
+    std::int32_t steps(double duration, std::uint32_t count, std::uint32_t *finished = nullptr,
+                       dmb_step_report *report = nullptr)
+    {
+        return done(try_steps(duration, count, finished, report));
+    }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
     // Bit i of `events` of the answer: event number i is told.
     dmb_event_report advance_to_event(double to, dmb_step_report *report = nullptr)

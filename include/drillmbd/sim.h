@@ -44,12 +44,9 @@ typedef struct dmb_sim_options {
     dmb_log_fn log;                 /* NULL: silent */
     void *log_context;
     double spectral_radius;       /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
-    double newton_tolerance;      /* [-] 0 (default): the iterations of a step follow its own error, of which they leave
-                                     a few hundredths at most (estimated from predictor and corrector), and a residual
-                                     that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual
-                                     over the norm of the forces that balance in it, whatever the step's error; 1e-8 was
-                                     the default before. The force that rounding of the poses makes in a stiff pipe
-                                     counts as zero; factors of an earlier step aim at a fifth of the residual */
+    double newton_tolerance;      /* [-] 0 (default): iterations leave a few hundredths of the step's own error at most,
+                                     and a residual below 1e-7 of the forces' work (lib/theory/integration.md).
+                                     1e-14 .. 1e-1: they end at this residual over the norm of the balancing forces */
     double tolerance_translation; /* [m] local error allowed in a step of dmb_sim_advance, > 0; default 1e-6 */
     double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
     double step_min;           /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9 */
@@ -97,14 +94,12 @@ DMB_API double dmb_sim_time(const dmb_sim *sim);
 /* [-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be
  * foreseen. Returns 0, or nonzero to end the call. */
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
-/* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread
- * of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is
- * one interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
- * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with
- * DMB_NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or
- * a signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out.
- * NULL: nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors:
- * DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
+/* From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the
+ * thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK
+ * is one interval. Nonzero ends the call with DMB_ERR_CANCELLED and nothing changed (dmb_sim_steps and
+ * dmb_analysis_stepped_sine: in the last accepted state); dmb_sim_advance ends with DMB_NOTE_CANCELLED in its last
+ * accepted state. A signal handler or another thread sets a flag that the function reads. NULL (default): no callback.
+ * Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
 
 typedef struct dmb_step_report {
@@ -126,6 +121,10 @@ DMB_SIZED_STRUCT(dmb_step_report)
  * _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert
  * 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
+/* `count` calls of dmb_sim_step with the same duration in one, with the same bits. *done (may be NULL): [-] accepted
+ * calls. The report has the sums and maxima of them all. The status is the largest note of a step, with its message, or
+ * the error that ended the calls; the state is then that after *done of them. */
+DMB_API int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report);
 /* Advances to `time` [s] with steps chosen to hold the tolerances of the local error of each step, bounded_work or not.
  * The errors of the steps add up over a run, to some thousand times the tolerance in 10 s; repeat the run with a tenth
  * of the tolerances to estimate the error at its end.

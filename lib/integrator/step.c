@@ -261,6 +261,67 @@ int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
     return status < 0 ? status : dmb_sim_leave(sim, step(sim, duration, report));
 }
 
+/* ---- Equal steps in one call ------------------------------------------------------------------------------------- */
+
+/* The work of one step added to that of all; a failing step adds what it tried. */
+static void add_report(dmb_step_report *sum, const dmb_step_report *one)
+{
+    sum->steps += one->steps;
+    sum->iterations += one->iterations;
+    sum->rejected += one->rejected;
+    if (one->steps == 0) return;
+    if (one->most_iterations > sum->most_iterations) sum->most_iterations = one->most_iterations;
+    sum->residual = fmax(sum->residual, one->residual);
+    sum->last_step = one->last_step;
+}
+
+/* The status of a step that says most about the call: a failure, then the larger of the notes 0 < 1 < 2 of a step. Its
+ * message is kept. */
+static void note_step(const dmb_sim *sim, int32_t status, int32_t *worst, dmb_message *message)
+{
+    if (status > 0 && status < *worst) return;
+    if (status == DMB_OK) return;
+    *worst = status;
+    *message = sim->message;
+}
+
+/* What a step would refuse, before the first. */
+static int32_t check_steps(dmb_sim *sim, double duration, const dmb_step_report *report)
+{
+    dmb_walk unused;
+    int32_t status = dmb_walk_begin(sim, report, &unused);
+    if (status >= 0) status = dmb_walk_check(sim, "duration", duration, 0.0);
+    return status < 0 ? status : dmb_walk_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
+}
+
+static int32_t steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report)
+{
+    dmb_step_report sum = dmb_step_report_default();
+    dmb_message message;
+    uint32_t accepted = 0;
+    int32_t worst = DMB_OK, status = check_steps(sim, duration, report);
+    if (status < 0) return status;
+    while (status >= 0 && accepted < count) {
+        dmb_step_report one = dmb_step_report_default();
+        dmb_progress_at(sim, (double)accepted / count);
+        status = step(sim, duration, &one);
+        add_report(&sum, &one);
+        note_step(sim, status, &worst, &message);
+        accepted += status >= 0;
+    }
+    if (worst != DMB_OK) sim->message = message;
+    sum.time = sim->clock->time;
+    if (done != NULL) *done = accepted;
+    if (report != NULL) (void)dmb_step_report_write(report, &sum);
+    return worst;
+}
+
+int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, steps(sim, duration, count, done, report));
+}
+
 /* dmb_sim_advance: steps whose local error holds the tolerances. The estimate is of third order, so
  *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2)
  * with the error ahead of the step, not its own (dmb_step_error): steps that follow the error through the zeros of an

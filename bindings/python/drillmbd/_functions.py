@@ -214,6 +214,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_snapshot": (c_int32, c_void_p, c_void_p, c_size_t,),
     "dmb_sim_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
     "dmb_sim_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
+    "dmb_sim_steps": (c_int32, c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(StepReport),),
     "dmb_sim_time": (c_double, c_void_p,),
     "dmb_sim_transfer_state": (c_int32, c_void_p, c_void_p,),
     "dmb_speed_band_init": (c_int32, POINTER(SpeedBand), c_uint32,),
@@ -484,11 +485,13 @@ FUNCTION_DOCS = {
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew. That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_progress":
-        "From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one interval. Nonzero ends the call: ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
+        "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK is one interval. Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state); dmb_sim_advance ends with NOTE_CANCELLED in its last accepted state. A signal handler or another thread sets a flag that the function reads. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
     "dmb_sim_snapshot_size":
         "Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints).",
     "dmb_sim_step":
         "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at time function breakpoints, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
+    "dmb_sim_steps":
+        "`count` calls of dmb_sim_step with the same duration in one, with the same bits. *done (may be NULL): [-] accepted calls. The report has the sums and maxima of them all. The status is the largest note of a step, with its message, or the error that ended the calls; the state is then that after *done of them.",
     "dmb_sim_time":
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":

@@ -318,7 +318,7 @@ class ModelInfo(Sized):
 
 
 class StepReport(Sized):
-    c_name, about = "dmb_step_report", "For dmb_sim_step, dmb_sim_advance, dmb_sim_advance_to_event, dmb_sensitivity_step."
+    c_name, about = "dmb_step_report", "For dmb_sim_step, dmb_sim_steps, dmb_sim_advance, dmb_sim_advance_to_event."
     struct_size: int
     steps: int
     iterations: int
@@ -3059,7 +3059,7 @@ class SimOptions(Sized):
         "log": ("", "NULL: silent"),
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "0 (default): the iterations of a step follow its own error, of which they leave a few hundredths at most (estimated from predictor and corrector), and a residual that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual over the norm of the forces that balance in it, whatever the step's error; 1e-8 was the default before. The force that rounding of the poses makes in a stiff pipe counts as zero; factors of an earlier step aim at a fifth of the residual"),
+        "newton_tolerance": ("-", "0 (default): iterations leave a few hundredths of the step's own error at most, and a residual below 1e-7 of the forces' work (lib/theory/integration.md). 1e-14 .. 1e-1: they end at this residual over the norm of the balancing forces"),
         "tolerance_translation": ("m", "local error allowed in a step of dmb_sim_advance, > 0; default 1e-6"),
         "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
         "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
