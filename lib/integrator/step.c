@@ -285,7 +285,7 @@ static void note_step(const dmb_sim *sim, int32_t status, int32_t *worst, dmb_me
     *message = sim->message;
 }
 
-/* What a step would refuse, before the first. */
+/* Refuses what a step would refuse, before the first. */
 static int32_t check_steps(dmb_sim *sim, double duration, const dmb_step_report *report)
 {
     dmb_walk unused;
