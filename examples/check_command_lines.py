@@ -13,7 +13,7 @@ import tempfile
 # Programs that are not named here have no options.
 OPTIONS = {
     "gas_drainage_rig": ["--system", "--couple", "--pipes", "--length", "--elements", "--step", "--time", "--drop",
-                         "--quick", "--output", "--rate", "--quiet", "--bit", "--seed"],
+                         "--quick", "--output", "--rate", "--quiet", "--bit", "--seed", "--threads"],
     "reference_study": ["--output", "--threads", "--step", "--short"],
     "safe_speeds": ["--output", "--threads", "--depth", "--order"],
     "turning_string": ["--threads"],
@@ -25,7 +25,7 @@ NONSENSE = {
     "gas_drainage_rig": [["--pipes", "0"], ["--pipes", "2.5"], ["--pipes", "many"], ["--length", "-1"],
                          ["--length", "nan"], ["--step", "0"], ["--step", "1e-3s"], ["--time", "inf"],
                          ["--system", "wooden"], ["--couple", "x"], ["--elements", "0"], ["--bit", "95"],
-                         ["--rate", "0"], ["--seed", "-1"]],
+                         ["--rate", "0"], ["--seed", "-1"], ["--threads", "0"], ["--threads", "65"]],
     "reference_study": [["--threads", "0"], ["--threads", "-2"], ["--threads", "2x"], ["--threads", "65"],
                         ["--threads", "99999999999999999999"], ["--step", "0"], ["--step", "1"], ["--step", "nan"]],
     "safe_speeds": [["--threads", "0"], ["--threads", "two"], ["--depth", "0"], ["--depth", "-5"],

@@ -30,6 +30,7 @@ rig_options rig_options_default(void)
 {
     const rig_options options = {.variant = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
                                  .all = 1,
+                                 .threads = 1,
                                  .pipes = 100,
                                  .elements = 1,
                                  .seed = 1,
@@ -37,7 +38,7 @@ rig_options rig_options_default(void)
                                  .bit = 0.0,
                                  .step = 1e-3,
                                  .end = 40.0,
-                                 .rate = 1000.0,
+                                 .rate = 200.0,
                                  .cycle = rig_cycle_full()};
     return options;
 }
@@ -116,6 +117,12 @@ static int read_all(int count, char **words, rig_options *o, flags *f)
         {.name = "quick",
          .help = "a cycle of 8 s instead of 40 s: same ramps, 2 s of drilling and of pulling out",
          .given = &f->quick},
+        {.name = "threads",
+         .value = "N",
+         .help = "that run variants side by side (1)",
+         .low = 1.0,
+         .high = 64.0,
+         .whole = &o->threads},
         {.help = "The output:"},
         {.name = "output",
          .letter = 'o',
@@ -124,7 +131,7 @@ static int read_all(int count, char **words, rig_options *o, flags *f)
          .text = &o->output},
         {.name = "rate",
          .value = "HZ",
-         .help = "samples a second in the tables (1000)",
+         .help = "rows a second in the tables (200)",
          .low = 1.0,
          .high = 1e5,
          .number = &o->rate},

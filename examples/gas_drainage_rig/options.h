@@ -19,6 +19,7 @@ typedef struct rig_options {
     int all;             /* the four variants that the pictures need */
     int quiet;           /* no progress bar */
     int dropped;         /* starts straight on the axis of the hole, not at rest on its low side */
+    uint32_t threads;    /* that run variants side by side */
     uint32_t pipes;
     uint32_t elements;  /* in each pipe */
     uint32_t seed;      /* of the eccentric masses */

@@ -31,9 +31,14 @@ static void choose_outputs(rig_recording *recording, const rig_scene *scene)
     watch(next++, last, DMB_OUTPUT_ENERGY_ERROR);
 }
 
+double rig_samples_a_second(const rig_options *options)
+{
+    return fmax(options->rate, 1000.0);
+}
+
 int32_t rig_recording_open(rig_recording *recording, const rig_options *options, const rig_scene *scene)
 {
-    const double rows = ceil(options->end * options->rate) + 2.0;
+    const double rows = ceil(options->end * rig_samples_a_second(options)) + 2.0;
     memset(recording, 0, sizeof *recording);
     recording->pipe[RIG_FIRST] = 0;
     recording->pipe[RIG_MIDDLE] = options->pipes > 1 ? options->pipes / 2 - 1 : 0;
@@ -43,7 +48,7 @@ int32_t rig_recording_open(rig_recording *recording, const rig_options *options,
     recording->recorder.outputs = recording->outputs;
     recording->recorder.output_count = RIG_COLUMNS - 1;
     recording->recorder.capacity = (uint64_t)rows;
-    recording->recorder.interval = 1.0 / options->rate;
+    recording->recorder.interval = 1.0 / rig_samples_a_second(options);
     recording->recorder.table = calloc((size_t)rows, RIG_COLUMNS * sizeof(double));
     recording->wall_force = calloc((size_t)rows, sizeof(double));
     return recording->recorder.table == NULL || recording->wall_force == NULL ? DMB_ERR_NO_MEMORY : DMB_OK;
@@ -58,6 +63,21 @@ int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim)
     if (status < 0 || recording->recorder.row_count == before) return status;
     status = dmb_query_contact_total(sim, &sum);
     recording->wall_force[before] = sum.normal_force;
+    return status;
+}
+
+int32_t rig_recording_write(const rig_recording *recording, const rig_options *options, const char *path)
+{
+    const uint64_t stride = (uint64_t)(rig_samples_a_second(options) / options->rate);
+    dmb_recorder thin = recording->recorder;
+    thin.row_count = (recording->recorder.row_count + stride - 1) / stride;
+    thin.table = malloc((size_t)thin.row_count * RIG_COLUMNS * sizeof(double));
+    if (thin.table == NULL) return DMB_ERR_NO_MEMORY;
+    for (uint64_t row = 0; row < thin.row_count; ++row)
+        memcpy(thin.table + row * RIG_COLUMNS, recording->recorder.table + row * stride * RIG_COLUMNS,
+               RIG_COLUMNS * sizeof(double));
+    const int32_t status = dmb_recorder_write_csv(&thin, path);
+    free(thin.table);
     return status;
 }
 

@@ -31,9 +31,13 @@ typedef struct rig_recording {
     double *wall_force;       /* [N] sum over the wall at each row */
 } rig_recording;
 
+/* [Hz] Extents and means are taken of so many samples, whatever part of them the tables show. */
+double rig_samples_a_second(const rig_options *options);
 /* Makes room for all samples of a run. DMB_ERR_NO_MEMORY if there is none. */
 int32_t rig_recording_open(rig_recording *recording, const rig_options *options, const rig_scene *scene);
 int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim);
+/* Writes the table as CSV with `rate` rows a second. DMB_ERR_NO_MEMORY, DMB_ERR_IO. */
+int32_t rig_recording_write(const rig_recording *recording, const rig_options *options, const char *path);
 void rig_recording_close(rig_recording *recording);
 
 /* Statistics of one column of the results between two times. Times are included. */

@@ -137,13 +137,18 @@ static void report_cost(const rig_options *options, const rig_result *result)
     printf("  %-36s%13.3f MB\n", "memory", 1e-6 * ((double)result->info.model_bytes + (double)statistics->bytes));
 }
 
-void rig_report_variant(const rig_options *options, const rig_result *result)
+static const char *couple_text(const rig_result *result)
 {
     static const char *const couples[] = {[RIG_NO_COUPLING] = "no wall",
                                           [RIG_CONTACT] = "contact",
                                           [RIG_FRICTION] = "contact + friction",
                                           [RIG_VIBRATION] = "contact + friction + vibration"};
-    printf("\n---- %s, %s\n", rig_system_name(&result->variant), couples[result->variant.couple]);
+    return couples[result->variant.couple];
+}
+
+void rig_report_variant(const rig_options *options, const rig_result *result)
+{
+    printf("\n---- %s, %s\n", rig_system_name(&result->variant), couple_text(result));
     printf("  %u degrees_of_freedom, %u elements, %u places of contact; ", result->info.degrees_of_freedom,
            result->info.elements, result->info.contact_points);
     if (options->dropped)
@@ -154,4 +159,42 @@ void rig_report_variant(const rig_options *options, const rig_result *result)
     report_forces(options, result);
     report_energy(result);
     report_cost(options, result);
+}
+
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+
+static void answer_forces(const rig_options *options, const rig_result *result)
+{
+    const rig_window window = rig_drilling(options);
+    const rig_extent feed = rig_column_extent(&result->recording, RIG_FEED_FORCE, 0.0, options->end);
+    const rig_extent torque = rig_column_extent(&result->recording, RIG_TORQUE, 0.0, options->end);
+    const rig_extent feed_drilling = rig_column_extent(&result->recording, RIG_FEED_FORCE, window.from, window.to);
+    const rig_extent torque_drilling = rig_column_extent(&result->recording, RIG_TORQUE, window.from, window.to);
+    printf("  thrust at the rig    mean %.3f kN from %g s to %g s, largest %.3f kN\n", shown(1e-3 * feed_drilling.mean),
+           window.from, window.to, shown(1e-3 * fmax(feed.high, 0.0)));
+    printf("  pull at the rig      largest %.3f kN\n", shown(1e-3 * fmax(-feed.low, 0.0)));
+    printf("  torque at the rig    mean %.1f N m from %g s to %g s, largest %.1f N m in either direction\n",
+           shown(torque_drilling.mean), window.from, window.to, shown(fmax(torque.high, -torque.low)));
+}
+
+static void answer_sag(const rig_options *options, const rig_result *result)
+{
+    const rig_extent sag =
+        rig_column_extent(&result->recording, RIG_DISPLACEMENT_Z + 6 * RIG_MIDDLE, 0.0, options->end);
+    printf("  sag of pipe %-3u      mean %.2f mm, vertical motion %.2f mm peak to peak",
+           result->recording.pipe[RIG_MIDDLE] + 1, shown(-1e3 * sag.mean), shown(1e3 * (sag.high - sag.low)));
+    if (result->variant.couple != RIG_NO_COUPLING)
+        printf("; radial clearance of the hole %.2f mm", 500.0 * (rig_wall().diameter - rig_pipe().outer_diameter));
+    printf("\n");
+}
+
+void rig_report_answers(const rig_options *options, const rig_result *result)
+{
+    const dmb_energy *energy = &result->energy;
+    printf("\nResults: %s pipes, %s\n", rig_system_name(&result->variant), couple_text(result));
+    answer_forces(options, result);
+    answer_sag(options, result);
+    printf("  energy               %.4g kJ put in by the drives, %.4g kJ taken by friction; error of the balance %.2g "
+           "%%\n",
+           1e-3 * energy->drives, 1e-3 * energy->friction, 100.0 * energy->error);
 }

@@ -25,7 +25,7 @@ static int32_t write_string(const rig_options *options, const rig_result *result
     if (options->output == NULL) return DMB_OK;
     snprintf(ending, sizeof ending, "_string_at_%gs.vtp", dmb_sim_time(sim));
     const rig_path path = file_of(options, result, ending);
-    return dmb_write_vtk_strings(sim, 4, path.text);
+    return dmb_write_vtk_strings(sim, 2, path.text);
 }
 
 /* Every variant has the same hole. */
@@ -34,14 +34,14 @@ static int32_t write_hole(const rig_options *options, const rig_result *result, 
     rig_path path;
     if (options->output == NULL) return DMB_OK;
     snprintf(path.text, sizeof path.text, "%s/hole.vtp", options->output);
-    return dmb_write_vtk_hole(model, 0.0, result->info.length + 1.0, 0.5, 48, path.text);
+    return dmb_write_vtk_hole(model, 0.0, result->info.length + 1.0, 1.0, 32, path.text);
 }
 
 static int32_t write_table(const rig_options *options, const rig_result *result)
 {
     if (options->output == NULL) return DMB_OK;
     const rig_path path = file_of(options, result, ".csv");
-    const int32_t status = dmb_recorder_write_csv(&result->recording.recorder, path.text);
+    const int32_t status = rig_recording_write(&result->recording, options, path.text);
     if (status < 0) fprintf(stderr, "%s: %s\n", path.text, dmb_status_text(status));
     return status;
 }

@@ -105,7 +105,7 @@ static void watch_bit(study_run *run, const dmb_recorder *recorder)
 
 static void watch_motion(study_run *run, const dmb_recorder *recorder)
 {
-    const double end = run->options.end, bound = STUDY_JUMP / run->options.rate;
+    const double end = run->options.end, bound = STUDY_JUMP / rig_samples_a_second(&run->options);
     run->height[0] = mean(take(recorder, RIG_DISPLACEMENT_Z + 6 * RIG_FIRST, 0.0, end));
     run->height[1] = mean(take(recorder, RIG_DISPLACEMENT_Z + 6 * RIG_BIT, 0.0, end));
     for (int p = 0; p < RIG_PIPES; ++p) {
@@ -155,7 +155,7 @@ static void watch_place(study_motion *m, const dmb_recorder *recorder, int place
 /* Motion of each place in each driven stage. */
 static void watch_stages(study_run *run, const dmb_recorder *recorder)
 {
-    const double bound = STUDY_JUMP / run->options.rate, *time = run->options.cycle.time;
+    const double bound = STUDY_JUMP / rig_samples_a_second(&run->options), *time = run->options.cycle.time;
     for (int stage = 0; stage < STUDY_DRIVEN; ++stage) {
         const double from = time[driven[stage]], to = time[driven[stage] + 1];
         for (int place = 0; place < RIG_PLACES; ++place) {
