@@ -1,8 +1,8 @@
 /* A time function of JavaScript: the library calls a function of C, which calls the imported one with its number. */
 #include "drillmbd.h"
 
-__attribute__((import_module("drillmbd"), import_name("time_function"))) int32_t web_time_function(uint32_t number, double time,
-                                                                                                   double *out);
+__attribute__((import_module("drillmbd"), import_name("time_function"))) int32_t
+web_time_function(uint32_t number, double time, double *out);
 
 static int32_t time_function(void *context, double time, double out[3])
 {
