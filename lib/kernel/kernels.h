@@ -203,6 +203,30 @@ typedef struct dmb_matrix_job {
     double *stiffness;       /* K in, the block out; shape (count, 36) */
 } dmb_matrix_job;
 
+/* Frequencies of a response that are solved side by side, in groups of this size on every processor. */
+#define DMB_FREQUENCIES 8
+
+/* Blocks of M, C and K at the same offsets. */
+typedef struct dmb_response_blocks {
+    const double *mass, *damping, *stiffness;
+} dmb_response_blocks;
+
+/* One chain of A(w) x = b, A(w) = (1 + i eta) K + i w C - w^2 M, at the frequencies of a group. */
+typedef struct dmb_response_job {
+    uint32_t first, count; /* blocks of the chain, count >= 1 */
+    uint32_t used;         /* frequencies, at most DMB_FREQUENCIES */
+    uint32_t columns;      /* right-hand sides of each frequency, and those that there is room for: */
+    uint32_t stride;
+    uint32_t bad; /* out: one bit for each frequency at which a pivot is 0 or of rounding size: no x there */
+    const dmb_block_layout *layout;
+    dmb_response_blocks diagonal, lower, upper; /* of all chains, as in dmb_block_matrix */
+    const uint8_t *solved;                      /* 0: the row is supported, shape (rows) */
+    double structural_damping;                  /* [-] eta */
+    double omega[DMB_FREQUENCIES];              /* [rad/s] w; numbers behind those that are used are read too */
+    double *sides; /* b in, x out: shape (rows, stride, 2, DMB_FREQUENCIES), real parts and imaginary parts */
+    double *work;  /* shape (numbers in the chain's `upper`, 2, DMB_FREQUENCIES) */
+} dmb_response_job;
+
 /* Sums of squares that are made side by side: of four FULL nodes, of twelve PATH nodes. */
 #define DMB_SQUARES 24
 
@@ -246,6 +270,7 @@ typedef struct dmb_kernels {
     void (*node_forces)(dmb_node_force_job *job);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
     void (*walls)(dmb_wall_job *job);
+    void (*responses)(dmb_response_job *job);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */

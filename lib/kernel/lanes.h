@@ -5,6 +5,7 @@
 #include "kernel/lane_group.h"
 #include "kernel/lanes_bar.h"
 #include "kernel/lanes_node.h"
+#include "kernel/lanes_response.h"
 #include "kernel/lanes_wall.h"
 #include "math/block_inverse.h"
 
@@ -358,4 +359,5 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .solve = solve,
                                  .factor_part = factor_end,
                                  .towards_part = solve_towards_middle,
-                                 .away_part = solve_from_middle};
+                                 .away_part = solve_from_middle,
+                                 .responses = responses};

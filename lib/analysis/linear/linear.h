@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "drillmbd/analysis.h"
 #include "drillmbd/response.h"
+#include "kernel/kernels.h"
 #include "math/block_kernel.h"
 #include "math/complex_sparse.h"
 #include "sim/sim.h"
@@ -321,6 +322,38 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *stiffness, double
 /* x, shape (rows): forces on entry (those on rows that are held do nothing), displacements of all rows on return.
  * moves 1: on entry displacements p. */
 void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves, dmb_complex_array x);
+
+/* Displacements p that drives prescribe are kept, and x are the forces -A p in their place, at growth and omega of
+ * `stiffness`. */
+void dmb_dynamic_take_told(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+
+/* Responses at up to DMB_FREQUENCIES frequencies side by side (eq:response.direct), in scenes without joints: the bits
+ * of one frequency at a time. */
+typedef struct dmb_dynamic_group {
+    dmb_dynamic_stiffness *stiffness;
+    uint32_t columns;              /* right-hand sides of each frequency that there is room for */
+    uint32_t used;                 /* frequencies */
+    double omega[DMB_FREQUENCIES]; /* [rad/s] */
+    double *sides, *work;          /* as in dmb_response_job */
+    void *block;
+    size_t block_size;
+} dmb_dynamic_group;
+
+/* 1 if the scene can be solved so. */
+int32_t dmb_dynamic_group_suits(const dmb_dynamic_stiffness *stiffness);
+/* DMB_OK or DMB_ERR_NO_MEMORY; release gives the memory back and takes a struct of zeros too. */
+int32_t dmb_dynamic_group_make(dmb_dynamic_stiffness *stiffness, uint32_t columns, dmb_dynamic_group *out);
+void dmb_dynamic_group_release(dmb_dynamic_group *group);
+/* Right-hand side of a frequency, x and moves as in dmb_dynamic_stiffness_solve; x is written. */
+void dmb_dynamic_group_put(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
+                           dmb_complex_array x);
+/* Solves for the first `columns` right-hand sides. One bit for each frequency at which something is not held: it has
+ * no solution, or dmb_dynamic_stiffness_factor tells the node. */
+uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns);
+/* Displacements; moves 1: x holds the displacements p on entry. The stiffness is at that frequency then, for
+ * dmb_dynamic_row and what it is used by. */
+void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
+                           dmb_complex_array x);
 
 /* 1 if the reciprocal of a pivot is so large that nothing but rounding holds its row at this frequency. */
 static inline int32_t dmb_dynamic_is_loose(const dmb_dynamic_stiffness *s, double re, double im, double stiffness,

@@ -118,23 +118,12 @@ int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint
 
 /* Frequency response: prepares what shakes and what is asked, solves at each frequency, refines at peaks. */
 
-typedef struct response_work {
-    dmb_sim *sim; /* for its message */
-    dmb_response_options options;
-    dmb_linear *linear;
-    dmb_linear_turned turned;
-    dmb_dynamic_stiffness stiffness;
-    dmb_linear_excitation *excitations;
-    dmb_linear_output *outputs;
-    uint32_t excitation_count, output_count;
-    dmb_complex_array x, f; /* displacements, and the forces that lead to them, shape (rows) */
-    void *block;
-    size_t block_size;
-} response_work;
+/* Right-hand sides that are solved for together, where there are more excitations: what factors cost is shared. */
+enum { SIDES = 16 };
 
 /* ---- Preparation ------------------------------------------------------------------------------------------------- */
 
-static void lay_out(dmb_arena *arena, response_work *w)
+static void lay_out(dmb_arena *arena, dmb_response_work *w)
 {
     const uint32_t rows = w->sim->scene->row_count;
     w->excitations = DMB_ARENA_ARRAY(arena, dmb_linear_excitation, w->excitation_count);
@@ -151,7 +140,7 @@ static void lay_out(dmb_arena *arena, response_work *w)
     }
 }
 
-static int32_t take_memory(response_work *w)
+static int32_t take_memory(dmb_response_work *w)
 {
     dmb_arena arena;
     dmb_arena_count(&arena);
@@ -164,7 +153,7 @@ static int32_t take_memory(response_work *w)
     return DMB_OK;
 }
 
-static int32_t check_balance(const response_work *w)
+static int32_t check_balance(const dmb_response_work *w)
 {
     const dmb_linear *linear = w->linear;
     if (linear->balanced || linear->relative_residual <= w->options.equilibrium_tolerance) return DMB_OK;
@@ -177,7 +166,7 @@ static int32_t check_balance(const response_work *w)
     return DMB_ERR_VALUE;
 }
 
-static int32_t linearise(response_work *w)
+static int32_t linearise(dmb_response_work *w)
 {
     const dmb_linear_options options = {.contact = w->options.contact,
                                         .no_friction = !w->options.friction,
@@ -189,10 +178,12 @@ static int32_t linearise(response_work *w)
     if (status >= 0) status = dmb_linear_turn_on(w->linear, w->sim, &options, &w->turned);
     if (status < 0) return status;
     w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
-    return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
+    status = dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
+    if (status < 0 || !dmb_dynamic_group_suits(&w->stiffness)) return status;
+    return dmb_dynamic_group_make(&w->stiffness, w->excitation_count < SIDES ? w->excitation_count : SIDES, &w->group);
 }
 
-static int32_t take_inputs(response_work *w, const dmb_excitation *excitations, dmb_response *response)
+static int32_t take_inputs(dmb_response_work *w, const dmb_excitation *excitations, dmb_response *response)
 {
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < w->excitation_count && status >= 0; i++) {
@@ -206,7 +197,7 @@ static int32_t take_inputs(response_work *w, const dmb_excitation *excitations, 
     return status;
 }
 
-static int32_t take_outputs(response_work *w, const dmb_response_output *outputs)
+static int32_t take_outputs(dmb_response_work *w, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_response_output output;
@@ -214,97 +205,46 @@ static int32_t take_outputs(response_work *w, const dmb_response_output *outputs
         if (status < 0) return status;
         status = dmb_linear_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
         if (status < 0) return status;
-    }
-    return DMB_OK;
-}
-
-/* ---- One frequency ----------------------------------------------------------------------------------------------- */
-
-static int32_t no_displacement(const response_work *w, uint32_t input)
-{
-    dmb_message_set(&w->sim->message, "excitation %u: at frequency 0 a speed has no displacement to respond to", input);
-    return DMB_ERR_SINGULAR;
-}
-
-/* Right-hand side of an input into x: forces, which are f too, or displacements that a drive asks for. */
-static int32_t load(response_work *w, uint32_t input, double omega)
-{
-    const dmb_linear_excitation *e = w->excitations + input;
-    const uint32_t rows = w->linear->rows;
-    double re = 1.0, im = 0.0;
-    if (e->law == DMB_EXCITE_INERTIA) re = omega * omega;
-    if (e->law == DMB_EXCITE_CONTROL) re = e->gain, im = e->integral_gain == 0.0 ? 0.0 : -e->integral_gain / omega;
-    if (e->law == DMB_EXCITE_MOTION) re = 0.0, im = -1.0 / omega;
-    if (!isfinite(im)) return no_displacement(w, input);
-    for (uint32_t r = 0; r < rows; r++) {
-        w->x.re[r] = re * e->re[r] - im * e->im[r];
-        w->x.im[r] = re * e->im[r] + im * e->re[r];
-        w->f.re[r] = e->law == DMB_EXCITE_MOTION ? 0.0 : w->x.re[r];
-        w->f.im[r] = e->law == DMB_EXCITE_MOTION ? 0.0 : w->x.im[r];
-    }
-    return DMB_OK;
-}
-
-static int32_t nothing_holds(const response_work *w, double frequency, uint32_t node)
-{
-    const dmb_owner owner = dmb_owner_of_node(&w->linear->scene, node);
-    dmb_message_set(&w->sim->message,
-                    "frequency %g Hz: %s: nothing holds it there, the dynamic stiffness is "
-                    "singular",
-                    frequency, owner.text.text);
-    return DMB_ERR_SINGULAR;
-}
-
-static int32_t solve_point(response_work *w, dmb_response *response, uint32_t point)
-{
-    const double frequency = response->frequency[point], omega = DMB_TWO_PI * frequency, s[2] = {0.0, omega};
-    const int32_t told = dmb_progress_pulse(w->sim);
-    if (told < 0) return told;
-    const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
-    if (bad >= 0) return nothing_holds(w, frequency, (uint32_t)bad);
-    for (uint32_t i = 0; i < w->excitation_count; i++) {
-        const int32_t status = load(w, i, omega);
-        if (status < 0) return status;
-        dmb_dynamic_stiffness_solve(&w->stiffness, w->excitations[i].law == DMB_EXCITE_MOTION, w->x);
-        (void)dmb_linear_change_of(&w->turned, w->linear, s, w->x.re, w->x.im);
-        double *value = dmb_response_value(response, point, i);
-        for (uint32_t k = 0; k < w->output_count; k++) {
-            const dmb_complex_number found =
-                dmb_response_output_value(&w->stiffness, w->outputs + k, w->excitations + i, w->x, w->f);
-            value[2 * (size_t)k] = found.re;
-            value[2 * (size_t)k + 1] = found.im;
-        }
+        w->takes_forces |= w->outputs[i].support_count > 0 || w->outputs[i].cluster != DMB_NONE;
     }
     return DMB_OK;
 }
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-static int32_t solve_grid(response_work *w, dmb_response *response)
+static int32_t solve_grid(dmb_response_work *w, dmb_response *response)
 {
     int32_t status = dmb_response_resize(response, w->options.points);
-    for (uint32_t i = 0; i < w->options.points && status >= 0; i++) {
-        dmb_progress_at(w->sim, (double)i / w->options.points / (1.0 + w->options.refinement));
+    for (uint32_t i = 0; i < w->options.points && status >= 0; i++)
         response->frequency[i] = dmb_response_grid(&w->options, i);
-        status = solve_point(w, response, i);
+    for (uint32_t i = 0; i < w->options.points && status >= 0; i += DMB_FREQUENCIES) {
+        dmb_response_points points = {.count = 0};
+        for (uint32_t k = i; k < i + DMB_FREQUENCIES && k < w->options.points; k++) points.point[points.count++] = k;
+        dmb_progress_at(w->sim, (double)i / w->options.points / (1.0 + w->options.refinement));
+        status = dmb_response_solve(w, response, &points);
     }
     return status;
 }
 
 /* Halves the intervals beside each peak; new points are marked by the frequencies alone until they are solved. */
-static int32_t refine(response_work *w, dmb_response *response)
+static int32_t refine(dmb_response_work *w, dmb_response *response)
 {
     uint8_t *fresh = NULL;
     uint32_t before = response->points;
     int32_t status = dmb_response_split_peaks(response, &fresh);
-    const uint32_t points = response->points;
-    for (uint32_t i = 0; fresh != NULL && i < points && status >= 0; i++)
-        if (fresh[i]) status = solve_point(w, response, i);
-    if (fresh != NULL) dmb_release(&response->allocator, fresh, points);
-    return status >= 0 && points == before ? DMB_NOTE_STOPPED : status;
+    const uint32_t all = response->points;
+    dmb_response_points points = {.count = 0};
+    for (uint32_t i = 0; fresh != NULL && i < all && status >= 0; i++) {
+        if (fresh[i]) points.point[points.count++] = i;
+        if (points.count < DMB_FREQUENCIES && i + 1 < all) continue;
+        status = dmb_response_solve(w, response, &points);
+        points.count = 0;
+    }
+    if (fresh != NULL) dmb_release(&response->allocator, fresh, all);
+    return status >= 0 && all == before ? DMB_NOTE_STOPPED : status;
 }
 
-static int32_t respond(response_work *w, const dmb_excitation *excitations, const dmb_response_output *outputs,
+static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, const dmb_response_output *outputs,
                        dmb_response *response)
 {
     int32_t status = take_memory(w);
@@ -322,7 +262,7 @@ static int32_t respond(response_work *w, const dmb_excitation *excitations, cons
 }
 
 /* Tells what the answers leave out. */
-static int32_t note_left_out(const response_work *w)
+static int32_t note_left_out(const dmb_response_work *w)
 {
     const int32_t status = dmb_linear_note_coefficients(w->linear, "response", &w->sim->message);
     if (status != DMB_OK) return status;
@@ -330,8 +270,9 @@ static int32_t note_left_out(const response_work *w)
     return dmb_linear_check_change(&w->turned, "response", then, &w->sim->message) < 0 ? DMB_NOTE_INCOMPLETE : DMB_OK;
 }
 
-static void release(response_work *w)
+static void release(dmb_response_work *w)
 {
+    dmb_dynamic_group_release(&w->group);
     if (w->linear != NULL) dmb_linear_turned_release(&w->turned, &w->linear->allocator);
     dmb_dynamic_stiffness_release(&w->stiffness);
     dmb_linear_release(&w->linear);
@@ -346,7 +287,7 @@ static int32_t check_counts(dmb_sim *sim, uint32_t excitations, uint32_t outputs
     return check.status;
 }
 
-static int32_t analyse(response_work *w, const dmb_response_options *options, const dmb_excitation *excitations,
+static int32_t analyse(dmb_response_work *w, const dmb_response_options *options, const dmb_excitation *excitations,
                        const dmb_response_output *outputs, dmb_response **response)
 {
     dmb_sim *sim = w->sim;
@@ -376,7 +317,7 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
     if (sim == NULL || excitations == NULL || outputs == NULL) return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    response_work w;
+    dmb_response_work w;
     memset(&w, 0, sizeof w);
     w.sim = sim;
     w.excitation_count = excitation_count;

@@ -120,6 +120,34 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffn
                                              const dmb_linear_excitation *input, dmb_complex_array x,
                                              dmb_complex_array f);
 
+/* Points of a response (response_points.c). */
+
+typedef struct dmb_response_work {
+    dmb_sim *sim; /* for its message */
+    dmb_response_options options;
+    dmb_linear *linear;
+    dmb_linear_turned turned;
+    dmb_dynamic_stiffness stiffness;
+    dmb_dynamic_group group; /* of zeros where points are solved one by one */
+    dmb_linear_excitation *excitations;
+    dmb_linear_output *outputs;
+    uint32_t excitation_count, output_count;
+    dmb_complex_array x, f; /* displacements, and the forces that lead to them, shape (rows) */
+    int32_t takes_forces;   /* 1: some output is a reaction, which f is a part of; else f stays 0 */
+    int32_t reserved;
+    void *block;
+    size_t block_size;
+} dmb_response_work;
+
+/* Points that are solved together, in ascending order. */
+typedef struct dmb_response_points {
+    uint32_t count;
+    uint32_t point[DMB_FREQUENCIES];
+} dmb_response_points;
+
+/* Solves at points of `response` whose frequencies are set. */
+int32_t dmb_response_solve(dmb_response_work *work, dmb_response *response, const dmb_response_points *points);
+
 /* ---- Speeds to avoid --------------------------------------------------------------------------------------------- */
 
 /* Severity over speed: one curve an order, their sum, and the bands in which it is above a threshold. */
