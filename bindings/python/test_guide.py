@@ -1,4 +1,4 @@
-"""The user's guide, examples/README.md, does what it says: its scene, its commands and its program run."""
+"""The user's guide, examples/README.md, and README.md: scenes, commands and programs run and give the figures of the text."""
 import contextlib
 import io
 import math
@@ -15,10 +15,11 @@ import drillmbd as mbd
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def block(language):
-    found = re.findall(rf"^```{language}\n(.*?)^```", GUIDE, re.M | re.S)
+def block(language, page=GUIDE):
+    found = re.findall(rf"^```{language}\n(.*?)^```", page, re.M | re.S)
     assert len(found) == 1, f"{len(found)} blocks of {language}"
     return found[0]
 
@@ -36,28 +37,50 @@ class GuideTest(unittest.TestCase):
         script = ROOT / "examples" / "conventions" / "draw.py"
         self.assertEqual(subprocess.run([sys.executable, str(script), "--check"], check=False).returncode, 0)
 
-    def test_scene_and_commands(self):
+    def run_commands(self, scene, lines):
+        """Output of each command of a page, run beside its scene."""
         try:
             import matplotlib  # noqa: F401
         except ImportError as error:
             self.skipTest(f"not there: {error.name}")
         from drillmbd.command import main
-        before = os.getcwd()
+        before, printed = os.getcwd(), {}
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             try:
-                pathlib.Path("hole.toml").write_text(block("toml"), encoding="utf-8")
-                told = {}
-                for line in block("sh").splitlines():
-                    words = shlex.split(line)
+                pathlib.Path("hole.toml").write_text(scene, encoding="utf-8")
+                for line in lines:
+                    words = shlex.split(line, comments=True)
                     self.assertEqual(words[0], "drillmbd")
-                    told[words[1]] = output_of(lambda: self.assertEqual(main(words[1:]), 0, line))
+                    printed[words[1]] = output_of(lambda: self.assertEqual(main(words[1:]), 0, line))
                 self.assertTrue(pathlib.Path("out", "run.csv").exists())
             finally:
                 os.chdir(before)
-        self.assertIn("warnings of the model: none; notes on the scene: 2, above", told["check"])
-        self.assertIn("displacement up to 10.5", told["static"])
-        self.assertRegex(told["torque-drag"], r"rotate at 90 m: .*torque 79\.\d+ N m|rotate at 90 m: .*torque 80")
+        return printed
+
+    def test_scene_and_commands(self):
+        printed = self.run_commands(block("toml"), block("sh").splitlines())
+        self.assertIn("warnings of the model: none; notes on the scene: 2, above", printed["check"])
+        self.assertIn("displacement up to 10.5", printed["static"])
+        self.assertIn("torque at the rig [N m]: 0 .. 126.9", printed["run"])  # "reaches 127 N m"
+        self.assertIn("energy error 3.1e-06", printed["run"])
+        self.assertRegex(printed["torque-drag"], r"rotate at 90 m: .*torque 79\.\d+ N m|rotate at 90 m: .*torque 80")
+
+    def test_readme_scene(self):
+        """Ten lines, and the figures that README gives for them."""
+        scene = block("toml", README)
+        self.assertEqual(len(scene.splitlines()), 10)
+        printed = self.run_commands(scene, re.findall(r"^    (drillmbd .*hole\.toml.*)$", README, re.M))
+        drill = re.search(r"drill at 100 m: .*", printed["torque-drag"]).group()
+        page = " ".join(README.split())
+        for word in ("thrust 10.04 kN", "torque 259.8 N m", "9.5 % of the helical buckling load", "1.9 % of the yield strength"):
+            self.assertIn(word, drill)
+            self.assertIn(word, page)
+        quoted = re.search(r"`(thrust [^`]*limit [^`]*)`", README).group(1)
+        self.assertIn(quoted, printed["torque-drag"])
+        low, high = map(float, re.search(r"torque \[N m\]: (\S+) \.\. (\S+)", printed["run"]).groups())
+        self.assertIn(f"{low:.1f} to {high:.0f} N m", page)
+        self.assertLessEqual(len(README.splitlines()), 130)
 
     def test_lines_that_a_question_needs(self):
         """A question whose table the scene lacks tells the least lines; the scene with them is answered."""

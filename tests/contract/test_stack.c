@@ -1,4 +1,4 @@
-/* The stack that calls need, held against what README states: each runs on a stack of its own that was painted before,
+/* The stack that calls need, held against lib/README.md: each runs on a stack of its own that was painted before,
  * and what has lost its paint is counted. */
 #define _GNU_SOURCE
 #include <pthread.h>
@@ -9,7 +9,7 @@
 #include "whole_scene.h"
 
 enum { STACK = 1 << 20, PAINT = 0xA5 };
-#define DMB_STACK_STATED 65536 /* [byte] of every call here, README */
+#define DMB_STACK_STATED 65536 /* [byte] of every call here, lib/README.md */
 
 typedef struct work {
     whole_parts parts;

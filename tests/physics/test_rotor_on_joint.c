@@ -234,7 +234,7 @@ static void a_rotor_at_the_end_of_a_string_precesses_right(void **state)
                     error_on_string(1, (const double[]){0.1, 0.3, 1.0}[i]), 2e-5);
 }
 
-/* The bound of README. */
+/* The bound of lib/theory/limits.md. */
 static void fixed_to_a_string_the_error_grows_with_the_square_of_the_spin_a_step(void **state)
 {
     (void)state;
@@ -313,7 +313,7 @@ static void a_rotor_between_stops_gains_no_energy(void **state)
                     energy_gained_between_stops((const double[]){0.1, 0.3, 1.0}[i], 1e3, 0.006), 1e-3);
 }
 
-/* A body that is not of revolution has the error of its own axes: README's limit. */
+/* A body that is not of revolution has the error of its own axes (lib/theory/limits.md). */
 static void another_body_between_stops_needs_short_steps(void **state)
 {
     (void)state;
