@@ -89,6 +89,10 @@ class Keep:
         def call(_context: Any, time: float, out: Any) -> int:
             try:
                 answer = function(time)
+                if type(answer) is tuple and len(answer) == wanted and all(type(one) is float for one in answer):  # at once
+                    for i in range(wanted):
+                        out[i] = answer[i]
+                    return 0
                 if wanted == 1:
                     out[0] = real(answer, "time_function", "answer of the function")
                     return 0

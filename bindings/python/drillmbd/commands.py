@@ -8,7 +8,7 @@ from typing import Any
 from . import rotating, station
 from ._optional import need
 from ._progress import INTERRUPTS
-from .results import RPM, CommandOutput, count_fatigue, file_name, note_bounces, record, tell_fatigue
+from .results import RPM, CommandOutput, count_fatigue, file_name, note_bounces, note_steps, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
 from .language import Phrase
@@ -182,12 +182,14 @@ class Course:
         every = scene.results.get("vtk_interval") if out.folder is not None else None
         self.every = max(1, round(every / step)) * step if every and step else every  # whole steps: files change no step
         self.begin, self.frame, self.elapsed = sim.time, 0, 0.0
+        self.notes: dict[Status, str] = {}
 
     def take_up(self, parts: dict[str, Kept]) -> None:
         """Goes on from a state that was kept."""
         kept = self.state.take_up(parts)
         if kept:
             self.begin, self.frame, self.elapsed = kept["begin"], kept["frame"], kept["elapsed"]
+            self.notes = {Status(int(status)): text for status, text in kept["notes"].items()}
             self.out.summary.update(kept["summary"])
             for frame in range(self.frame):
                 self.out.path(f"string_{frame:04d}.vtp")
@@ -195,6 +197,7 @@ class Course:
     def kept(self) -> dict[str, Any]:
         """For the state."""
         return {"begin": self.begin, "frame": self.frame, "elapsed": self.elapsed,
+                "notes": {int(status): text for status, text in self.notes.items()},
                 "summary": {key: self.out.summary[key] for key in ("static",) if key in self.out.summary}}
 
     def go(self, recorder: Any, counters: list[Any]) -> bool:
@@ -226,6 +229,7 @@ class Course:
         if self.every:
             self.sim.write_vtk(self.out.path(f"string_{self.frame:04d}.vtp"))
         self._report(at, time.perf_counter() - started, stopped)
+        note_steps(self.notes, self.out)
         return stopped
 
     def _at_end(self) -> bool:
@@ -234,13 +238,15 @@ class Course:
     def _stretch(self, recorder: Any, shown: Any, counters: list[Any]) -> None:
         """To the next file, or to the end; a stretch that was stopped goes on."""
         if not self.every:
-            self.sim.run(self.end, self.step, recorder, shown, LOOK, counters, self.begin)
+            at = self.sim.run_noting(self.end, self.step, recorder, shown, LOOK, counters, self.begin)
+            self.notes.update(at.notes)
             return
         if self.sim.time >= self.begin + self.frame * self.every - 1e-6 * (self.step or 0.0):
             self.sim.write_vtk(self.out.path(f"string_{self.frame:04d}.vtp"))
             self.frame += 1
-        self.sim.run(min(self.end, self.begin + self.frame * self.every), self.step, recorder, shown, LOOK, counters,
-                     self.begin + (self.frame - 1) * self.every)
+        at = self.sim.run_noting(min(self.end, self.begin + self.frame * self.every), self.step, recorder, shown, LOOK, counters,
+                                 self.begin + (self.frame - 1) * self.every)
+        self.notes.update(at.notes)
 
     def _report(self, at: float, elapsed: float, stopped: bool) -> None:
         sim, factor = self.sim, (self.sim.time - self.begin) / self.elapsed if self.elapsed else None

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ from .outputs import output_name, output_quantity, output_unit
 from .enums import OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
 
 from .profile import unit_of, values_of
+from .running import sample_due
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -81,6 +83,13 @@ class Recorder:
     def take(self) -> int:
         """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
         return self.sim._told(_lib.dmb_recorder_take(byref(self._struct), self.sim._handle), _lib.dmb_recorder_take)
+
+    def due(self) -> float:
+        """[s] of the sim before which take() writes no row"""
+        rows, interval = len(self), self._struct.interval
+        if not rows or not interval > 0.0:
+            return -math.inf
+        return sample_due(interval, self._struct.table[0], self._struct.table[(rows - 1) * self._width])
 
     def take_up(self, table: Any) -> None:
         """Begins with the rows of another recorder of the same outputs and interval."""
@@ -149,6 +158,13 @@ class ProfileRecorder:
     def take(self) -> int:
         """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
         return self.sim._check(_lib.dmb_profile_recorder_take(byref(self._struct), self.sim._handle))
+
+    def due(self) -> float:
+        """[s] of the sim before which take() writes no row"""
+        rows, interval = len(self), self._struct.interval
+        if not rows or not interval > 0.0:
+            return -math.inf
+        return sample_due(interval, self._memory[0], self._memory[(rows - 1) * self._width])
 
     def __len__(self) -> int:
         return int(self._struct.row_count)

@@ -11,7 +11,8 @@ from . import __version__, enums, commands
 from ._optional import need
 from ._progress import INTERRUPTS
 from .analysis import OPERATIONS
-from .results import CommandOutput, count_fatigue, finite, note_bounces, tell_fatigue
+from .results import CommandOutput, count_fatigue, finite, note_bounces, note_steps, tell_fatigue
+from .enums import Status
 from .errors import Error, Usage
 from .fatigue import StringFatigue
 from .language import Foreign, Phrase, joined, phrase
@@ -354,7 +355,7 @@ class Study:
         parts: dict[str, Kept] = {"frames": course, **{f"fatigue of {name}": KeptFatigue(one) for name, one in counters.items()}}
         state.take_up(parts if recorder is None else {**parts, "recorder": KeptRecorder(recorder)})
         every = max(1, round(end / FRAMES / step)) * step if step else end / FRAMES
-        begin, stopped = course.times[0], False
+        begin, stopped, notes = course.times[0], False, dict[Status, str]()
 
         def at_end() -> bool:
             return not end - sim.time > (1e-6 * step if step else 0.0)
@@ -363,8 +364,9 @@ class Study:
             with INTERRUPTS.held():
                 while not at_end() and not INTERRUPTS.pending:
                     done = len(course.times) - 1
-                    sim.run(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), commands.LOOK,
-                            [course, *counters.values()], begin + done * every)
+                    at = sim.run_noting(min(end, begin + (done + 1) * every), step, recorder, lambda _: stop_asked(state, dict), commands.LOOK,
+                                        [course, *counters.values()], begin + done * every)
+                    notes.update(at.notes)
                     if not INTERRUPTS.pending or at_end():
                         self._shape_of(sim, course)
                 stopped = INTERRUPTS.pending = INTERRUPTS.pending and not at_end()
@@ -379,6 +381,7 @@ class Study:
             self.state = state
         self.out.summary["run"] = {"time_s": sim.time, "steps": sim.statistics().steps}
         note_bounces(sim, self.out)
+        note_steps(notes, self.out)
         if recorder is not None and len(recorder):
             table = recorder.table
             for number, head in enumerate(columns_of(self.scene, recorder, self.units)[1:]):

@@ -15,10 +15,12 @@ from . import __version__
 from ._optional import need
 from ._progress import INTERRUPTS
 from ._structs import FatigueResult
+from .enums import Status
 from .errors import Usage, status_text
 from .exit_status import STOPPED
 from .fatigue import StringFatigue
 from .language import ENGLISH, Foreign, Language, phrase
+from .running import INACCURATE
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Sim
@@ -136,6 +138,13 @@ def note_bounces(sim: Any, out: CommandOutput) -> None:
             phrase("run: {bounces} contacts with the wall, stops or springs opened within fewer than ten steps after they"
                    " closed; the steps do not resolve these bounces, so speeds after them are uncertain; run again with half"
                    " the step and compare", bounces=bounces))
+
+
+def note_steps(notes: dict[Status, str], out: CommandOutput) -> None:
+    """A note for each reason for which steps of a run are less accurate than the tolerances."""
+    for status in INACCURATE:
+        if status in notes:
+            out.note_text(out.units.sentence(phrase("run: {text}", text=Foreign(notes[status]))))
 
 
 def key_of(name: str, unit: str) -> str:

@@ -1,6 +1,7 @@
 """Quality of a run in time: the energy error of its first and last tenth, and the last part again with half the step."""
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from . import station
@@ -36,6 +37,10 @@ class FirstTenth:
             self.balance = self.sim.energy().balance - self.start
         return Status.OK
 
+    def due(self) -> float:
+        """[s] when it takes the balance"""
+        return self.until if self.balance is None else math.inf
+
     def keep(self) -> dict[str, Any]:
         """For a run that is stopped."""
         return {"until": self.until, "start": self.start, "balance": self.balance}
@@ -69,6 +74,10 @@ class TurnAStep:
                 self.most[name] = max(self.most[name], abs(turn - self.turns[name]) / passed)
             self.time, self.turns = self.sim.time, now
         return Status.OK
+
+    def due(self) -> float:
+        """[s] of the next sample"""
+        return self.time + self.interval * (1.0 - 1e-6)
 
     def keep(self) -> dict[str, Any]:
         """For a run that is stopped."""
@@ -118,6 +127,10 @@ class LastPart:
             self.state, self.begin = self.sim.snapshot(), self.sim.time
         return int(self.recorder.take())
 
+    def due(self) -> float:
+        """[s] of its first row; then of each step"""
+        return self.begin - 1e-6 * self.step if self.state is None else -math.inf
+
     def keep(self) -> dict[str, Any]:
         """For a run that is stopped."""
         return {"begin": self.begin, "rows": need("numpy").array(self.recorder.table), "state": self.state or b""}
@@ -133,7 +146,7 @@ class LastPart:
         assert self.state is not None
         self.sim.restore(self.state)
         again = self._recorder(2 * self.rows + 3)
-        self.sim.run(self.end, 0.5 * self.step, again)
+        self.sim.run_noting(self.end, 0.5 * self.step, again)
         out.say(f"verification: from {self.begin:g} s to {self.end:g} s again with half the step, {500.0 * self.step:g} ms; largest magnitudes:")
         told: dict[str, Any] = {}
         changed: list[str] = []

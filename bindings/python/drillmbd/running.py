@@ -3,18 +3,27 @@ from __future__ import annotations
 
 import math
 import sys
+import time as clock
 import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import IO, Any, Protocol
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import IO, TYPE_CHECKING, Any, Protocol
 
 from ._optional import need
 from ._values import refuse_type, refuse_value
-from .enums import NOTE_FULL
+from .enums import NOTE_CANCELLED, NOTE_FULL, NOTE_STOPPED, NOTE_TOLERANCE, NOTE_WORK_LIMITED, Status
+
+if TYPE_CHECKING:
+    from .sim import Sim
+
+LONGEST = 0.05  #: [s] by the clock that one call of several steps lasts at most, about: so long Ctrl-C and progress functions wait
+INACCURATE = (NOTE_WORK_LIMITED, NOTE_TOLERANCE)  #: notes of steps that are less accurate than asked for
+ROUNDING = 1e-6  #: of a step, by which times of samples may be off
 
 
 class Taker(Protocol):
-    """Takes a sample after each step: Fatigue, StringFatigue, Window."""
+    """Takes a sample after each step: Fatigue, StringFatigue, Window. One that has due() -> float, the time [s] of the sim before which
+    take() does nothing, is called from that time on only, and steps before it are made in one call."""
 
     def take(self) -> int:
         """A sample; returns the status."""
@@ -28,11 +37,18 @@ class Progress:
     steps: int        #: [-] accepted so far in this run
     elapsed: float    #: [s] by the clock since the run began
     begin: float = 0.0  #: [s] of the sim, where the run began
-    status: int = 0   #: NOTE_FULL where the recorder had no room for a row, else OK
+    status: int = 0   #: the largest of the notes, else OK
+    notes: dict[Status, str] = field(default_factory=dict)  #: of steps and recorder so far, each with its last message
 
     def copy(self) -> Progress:
         """Another with the same values."""
-        return replace(self)
+        return replace(self, notes=dict(self.notes))
+
+    def note(self, status: int, message: str) -> None:
+        """Keeps a note of a call; a call that max_steps stopped continues."""
+        if status > 0 and status != NOTE_STOPPED:
+            self.notes[Status(status)] = message
+            self.status = max(self.notes)
 
     @property
     def fraction(self) -> float:
@@ -73,6 +89,10 @@ class Lengths:
     def step(self, number: int) -> float:
         """[s] length of step `number`, from 1."""
         return self.rest if self.rest and number == self.count else self.length or 0.0
+
+    def equal(self, number: int) -> int:
+        """Steps of the same length from step `number` on."""
+        return max(1, self.count - number + 1 - (1 if self.rest else 0))
 
     def target(self, number: int) -> float:
         """[s] where call `number` ends, from 1."""
@@ -127,9 +147,89 @@ def own_takers(sim: Any, recorder: Any, counters: Sequence[Taker]) -> list[Taker
 
 
 def take_all(takers: list[Taker], at: Progress) -> None:
-    """A sample of each; a recorder that is full warns once in a run."""
+    """A sample of each."""
     for one in takers:
-        if one.take() == NOTE_FULL and at.status != NOTE_FULL:
-            at.status = NOTE_FULL
-            warnings.warn("the recorder of a run is full: later rows are lost; give it more capacity, or an interval",
-                          RuntimeWarning, stacklevel=3)
+        if one.take() == NOTE_FULL:
+            at.note(NOTE_FULL, "the recorder is full: later rows are lost; give it more capacity, or an interval")
+
+
+def warn_of(at: Progress) -> None:
+    """A warning for each note of a run by which its results are incomplete or less accurate than the tolerances."""
+    for status in (NOTE_FULL, *INACCURATE):
+        if status in at.notes:
+            warnings.warn(f"run: {at.notes[status]}", RuntimeWarning, stacklevel=3)
+
+
+def sample_due(interval: float, first: float, last: float) -> float:
+    """[s] of the next row of a recorder: rows belong to whole multiples of the interval since the first one (dmb_sample_is_due)."""
+    return first + (math.floor((last - first) / interval + ROUNDING) + 1) * interval
+
+
+# ---- The loop --------------------------------------------------------------------------------------------------------
+class Loop:
+    """A run in time. Equal steps are made many in a call: up to the next sample, or until the call lasts LONGEST. The bits of the results
+    do not depend on that."""
+
+    def __init__(self, sim: Sim, lengths: Lengths, takers: list[Taker], tell: Callable[[Progress], Any] | None, every: float) -> None:
+        self.sim, self.lengths, self.takers, self.tell = sim, lengths, takers, tell
+        self.every, self.longest = every, min(LONGEST, every) if tell else LONGEST
+        self.most = 1  # steps in a call
+        self.started = self.told = clock.monotonic()
+        self.at = Progress(sim.time, lengths.end, 0, 0.0, lengths.begin)
+        self.number = lengths.done(sim.time)
+
+    def go(self) -> Progress:
+        """To the end, or to where the progress function stops it."""
+        while self.number < self.lengths.count:
+            before, began = self.sim.time, clock.monotonic()
+            try:
+                going = self._call()
+            except KeyboardInterrupt:
+                if self.sim.time > before:  # the call was done when it came
+                    take_all(self.takers, self.at)
+                raise
+            if not going:
+                break
+            take_all(self.takers, self.at)
+            if self._told(clock.monotonic(), began):
+                break
+        self.at.time, self.at.elapsed = self.sim.time, clock.monotonic() - self.started
+        return self.at
+
+    def _call(self) -> bool:
+        """One call; False where the progress function of the sim ended it."""
+        count = self._count() if self.lengths.length else 1
+        self.number += count
+        if not self.lengths.length:
+            report = self.sim.advance(self.lengths.target(self.number))
+        elif count == 1:
+            report = self.sim.step(self.lengths.step(self.number))
+        else:
+            report = self.sim.steps(self.lengths.length, count)
+        self.made = count
+        self.at.steps += report.steps
+        if report.status:
+            self.at.note(report.status, self.sim.message)
+        if report.status == NOTE_STOPPED:  # max_steps of one call; go on
+            self.number -= 1
+        return bool(report.status != NOTE_CANCELLED)
+
+    def _count(self) -> int:
+        """Steps of the next call: the last one of them is the first after which a taker has something to do."""
+        most = min(self.most, self.lengths.equal(self.number + 1))
+        step, time = self.lengths.length or 0.0, self.sim.time
+        for one in self.takers if most > 1 else ():
+            left = (one.due() - time) / step if hasattr(one, "due") else 0.0
+            if left < most:
+                most = max(1, math.ceil(max(left, 0.0) - ROUNDING))
+        return most
+
+    def _told(self, now: float, began: float) -> bool:
+        """True where the progress function wants the run to end."""
+        self.at.time, self.at.elapsed = self.sim.time, now - self.started
+        one = max((now - began) / self.made, 1e-9)
+        self.most = max(1, min(2 * self.most, int(self.longest / one)))
+        if self.tell is None or not (now - self.told >= self.every or self.number == self.lengths.count):
+            return False
+        self.told = now
+        return bool(self.tell(self.at.copy()))

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any
@@ -13,18 +12,18 @@ from ._handle import Handle
 from ._keep import Keep, as_id, as_place, mirrors, path_of, struct, written
 from ._library import lib as _lib
 from ._parts import closed, index_of, is_closed
-from ._progress import Teller
+from ._progress import INTERRUPTS, Teller
 from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Excitation, JointState,
                        Momentum, Motion, ResponseOutput, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .outputs import output_quantity
-from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
+from .enums import FRAME_WORLD, OK
 from .errors import Error, check
 from .inputs import InputLog, Inputs
 from .recorder import ProfileRecorder, Recorder
-from .running import Bar, Lengths, Progress, Taker, own_takers, take_all
+from .running import Bar, Lengths, Loop, Progress, Taker, own_takers, warn_of
 
 if TYPE_CHECKING:
     from .model import Model
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
     from .window import Window
 
 _advance_to_event = _lib.dmb_sim_advance_to_event
-_step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
+_step, _steps, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_steps, _lib.dmb_sim_advance, object.__setattr__
 
 
 def _word(function: Any) -> str:
@@ -118,6 +117,18 @@ class Sim(Handle, analysis.Analyses):
         _set_status(report, "status", self._check(status))
         return report
 
+    @mirrors("dmb_sim_steps")
+    def steps(self, duration: float, count: int) -> StepReport:
+        """Advances by `count` equal steps of `duration` [s]; returns the report of all, whose status may be a note."""
+        report: StepReport = StepReport.blank()
+        arguments = real(duration, "steps", "duration", "s"), whole(count, "steps", "count"), None, byref(report)
+        if self._scene.references and not INTERRUPTS.holding:  # as in step
+            status = self._teller.long_call(self._handle, _steps, *arguments)
+        else:
+            status = _steps(self._handle, *arguments)
+        _set_status(report, "status", self._check(status))
+        return report
+
     @mirrors("dmb_sim_advance")
     def advance(self, time: float) -> StepReport:
         """Advances to time [s] with steps of its own choice."""
@@ -143,40 +154,31 @@ class Sim(Handle, analysis.Analyses):
         recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows.
         progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true, stops the
         run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on,
-        and the recorder has all rows so far. A full recorder warns, and status of the answer is NOTE_FULL. begin: of a run
+        and the recorder has all rows so far. The answer has the notes of all steps; a full recorder, and steps above their
+        tolerance, are a RuntimeWarning too. begin: of a run
         that goes on from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
-        started, end = clock.monotonic(), real(end, "run", "end", "s")
+        at = self.run_noting(end, step, recorder, progress, every, counters, begin)
+        warn_of(at)
+        return at
+
+    def run_noting(self, end: float, step: float | None = None, recorder: Recorder | None = None,
+                   progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,
+                   counters: Sequence[Taker] = (), begin: float | None = None) -> Progress:
+        """As run, without warnings: the notes are in the answer alone."""
+        end = real(end, "run", "end", "s")
         begin = self.time if begin is None else real(begin, "run", "begin", "s")
         lengths = Lengths(begin, end, None if step is None else real(step, "run", "step", "s"))
         takers = own_takers(self, recorder, counters)
         if progress is not None and progress is not True and not callable(progress):
             refuse_type("run", "progress", progress, "be a function of a Progress, or True for a bar")
         bar = Bar(begin, end) if progress is True else None
-        tell: Any = bar if bar is not None else progress
         if recorder is not None and len(recorder) == 0:
             recorder.take()
-        at, told, number = Progress(self.time, end, 0, 0.0, begin), started, lengths.done(self.time)
         try:
-            while number < lengths.count:
-                number += 1
-                report = self.step(lengths.step(number)) if lengths.length else self.advance(lengths.target(number))
-                at.steps += report.steps
-                if report.status == NOTE_CANCELLED:
-                    break
-                if report.status == NOTE_STOPPED:  # max_steps of one call; go on
-                    number -= 1
-                take_all(takers, at)
-                now = clock.monotonic()
-                at.time, at.elapsed = self.time, now - started
-                if tell and (now - told >= every or number == lengths.count):
-                    told = now
-                    if tell(at.copy()):
-                        break
+            return Loop(self, lengths, takers, bar if bar is not None else progress if callable(progress) else None, every).go()
         finally:
             if bar is not None:
                 bar.close()
-        at.time, at.elapsed = self.time, clock.monotonic() - started
-        return at
 
     @mirrors("dmb_sim_set_drive")
     def set_drive(self, drive: Id, value: float | None) -> None:

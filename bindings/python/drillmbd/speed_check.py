@@ -101,10 +101,10 @@ def _measured(course: Course, scene: Scene, sim: Any) -> Result:
     outputs: list[tuple[Any, int]] = [(scene.model.own(course.drive), enums.OUTPUT_DRIVE_FORCE)]
     outputs += [(place, enums.OUTPUT_BODY_ACCELERATION + axis) for place in places for axis in (enums.Y, enums.Z)]
     sim.static(**scene.fields_of("static"))
-    sim.run(course.settle, course.step)
+    sim.run_noting(course.settle, course.step)
     step = course.step or 1e-3
     recorder = sim.recorder(outputs, int((course.end - course.settle) / step + 3), 0.0 if course.step else step)
-    sim.run(course.end, course.step, recorder)
+    sim.run_noting(course.end, course.step, recorder)
     table = numpy.array(recorder.table)
     torque, lateral = table[:, 1], table[:, 2:].reshape(len(table), len(places), 2)
     mean = float(torque.mean())

@@ -8,7 +8,7 @@ from typing import Any
 from .._optional import need
 from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE
 from ..scene import Scene
-from ..scene.segments import _segment as known_segment
+from ..scene.segments import value_at
 from ..scene.units import text
 from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
 from .blas import one_thread
@@ -34,7 +34,7 @@ def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
             d = min(max((time - segment.get("x0", 0.0)) / (segment.get("x1", 1.0) - segment.get("x0", 0.0)), 0.0), 1.0)
             total += segment.get("h0", 0.0) + (segment.get("h1", 0.0) - segment.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
         elif kind in (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC):
-            total += known_segment(time, segment)[1]
+            total += value_at(time, segment)
         else:
             raise CannotDraw(f"a segment of kind {kind} cannot be multiplied; use how = \"added\"")
     return total

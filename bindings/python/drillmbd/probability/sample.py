@@ -237,14 +237,13 @@ class SceneSample:
         step = scene.run.get("step")
         if step:
             count, each = max(0, round(end / step)), max(1, round(look / step))
-            for number in range(1, count + 1):
-                sim.step(step)
-                if number % each == 0 or number == count:
-                    take()
+            for number in range(0, count, each):
+                sim.steps(step, min(each, count - number))
+                take()
             return
         count = math.ceil(end / look - 1e-9) if end > 0.0 else 0
         for number in range(1, count + 1):
-            sim.run(min(number * look, end))
+            sim.run_noting(min(number * look, end))
             take()
 
     def _beside(self, one: Failure, scene: Scene, sim: Any, values: dict[str, Any], watch: Any, recorder: Any) -> tuple[float, float]:

@@ -1,0 +1,185 @@
+"""Tests of runs in time: many steps in a call give the bits, rows and samples of single ones; notes are kept; Ctrl-C ends a run soon."""
+import os
+import signal
+import threading
+import time
+import unittest
+import warnings
+from unittest import mock
+
+import drillmbd as mbd
+from drillmbd import running
+
+STEP = 1e-3
+
+
+def model(callback=False):
+    """A string of six eccentric pipes that is turned up to 10 rad/s in a hole."""
+    made = mbd.Model()
+    made.add_wall()
+    string = made.add_pipes(6, eccentricity=1e-3, damping_time=1e-3)
+    made.add_bit()
+    turning = made.add_time_function((lambda time: 10.0 * min(time, 1.0)) if callback else
+                                     mbd.Segment(kind=mbd.SEGMENT_STEP5, x1=0.1, h1=10.0))
+    drive = made.add_drive(part=string, component=mbd.RX, time_function=turning)
+    made.add_drive(part=string, time_function=made.add_time_function(0.0))
+    made.compile()
+    return made, string, drive
+
+
+class Counter:
+    """Notes the times of its calls, and how it may be called."""
+
+    def __init__(self, sim, times=None):
+        self.sim, self.calls, self.times = sim, [], times
+
+    def take(self):
+        self.calls.append(round(self.sim.time / STEP))
+        return mbd.OK
+
+
+class DueCounter(Counter):
+    """Has something to do at given times [steps] only, and is called at others too."""
+
+    def take(self):
+        if self.times and round(self.sim.time / STEP) >= self.times[0]:
+            self.calls.append(round(self.sim.time / STEP))
+            self.times = self.times[1:]
+        return mbd.OK
+
+    def due(self):
+        return STEP * self.times[0] if self.times else float("inf")
+
+
+class StrideTest(unittest.TestCase):
+    def test_same_bits_and_rows(self):
+        """Intervals that are, and are not, multiples of the step; the last step is shorter."""
+        made, string, drive = model()
+        for interval in (0.0, 1e-2, 7.3e-3, 0.4e-3, 1.0):
+            with made.sim() as one, made.sim() as other:
+                outputs = [(drive, "drive_force"), (string, "rotation")]
+                first, second = one.recorder(outputs, 1000, interval), other.recorder(outputs, 1000, interval)
+                second.take()
+                for _ in range(250):
+                    other.step(STEP)
+                    second.take()
+                other.step(0.2505 - 250 * STEP)
+                second.take()
+                at = one.run(0.2505, step=STEP, recorder=first)
+                self.assertEqual(one.hash(), other.hash())
+                self.assertEqual(at.steps, other.statistics().steps)
+                self.assertEqual([list(row) for row in first.table], [list(row) for row in second.table], interval)
+
+    def test_profile_recorder(self):
+        made, string, _ = model()
+        with made.sim() as one, made.sim() as other:
+            first, second = (sim.profile_recorder([mbd.PROFILE_TORQUE], 4, 100, 0.013) for sim in (one, other))
+            second.take()
+            for _ in range(200):
+                other.step(STEP)
+                second.take()
+            first.take()
+            one.run(0.2, step=STEP, counters=[first])
+            self.assertEqual(first.values.tolist(), second.values.tolist())
+            self.assertEqual(first.time.tolist(), second.time.tolist())
+
+    def test_samples_are_taken_when_they_are_due(self):
+        made, _, _ = model()
+        with made.sim() as sim:
+            each, due = Counter(sim), DueCounter(sim, [3, 4, 57, 199])
+            sim.run(0.05, step=STEP, counters=[due])
+            self.assertEqual(due.calls, [3, 4])
+            sim.run(0.1, step=STEP, counters=[each, due])
+            self.assertEqual((due.calls, each.calls), ([3, 4, 57], list(range(51, 101))))
+            sim.run(0.25, step=STEP, counters=[due])
+            self.assertEqual(due.calls, [3, 4, 57, 199])
+
+    def test_calls_are_few(self):
+        """Rows each 20 steps: soon 20 steps a call. A callback does not change that."""
+        for callback in (False, True):
+            made, _, drive = model(callback)
+            with made.sim() as sim, mock.patch.object(running, "LONGEST", 10.0), \
+                    mock.patch.object(mbd.Sim, "steps", autospec=True, side_effect=mbd.Sim.steps) as steps:
+                recorder = sim.recorder([(drive, "drive_force")], 100, 0.02)
+                sim.run(1.0, step=STEP, recorder=recorder)
+                self.assertEqual(len(recorder), 51)
+                self.assertLess(steps.call_count, 60)
+                self.assertEqual(max(call.args[2] for call in steps.call_args_list), 20)
+
+    def test_steps(self):
+        made, _, _ = model()
+        with made.sim() as one, made.sim() as other:
+            report = one.steps(STEP, 7)
+            for _ in range(7):
+                other.step(STEP)
+            self.assertEqual((one.hash(), report.steps), (other.hash(), 7))
+            self.assertEqual(one.steps(STEP, 0).steps, 0)
+            for wrong in ((STEP, -1), (STEP, 1.5), (0.0, 3), ("1 ms", 3)):
+                with self.assertRaises(mbd.Error):
+                    one.steps(*wrong)
+            self.assertEqual(one.hash(), other.hash())
+
+
+class NotesTest(unittest.TestCase):
+    def run_of(self, **options):
+        made, _, _ = model()
+        sim = made.sim(**options)
+        self.addCleanup(sim.close)
+        return sim
+
+    def test_work_limited(self):
+        sim = self.run_of(bounded_work=1, max_iterations=1)
+        with self.assertWarnsRegex(RuntimeWarning, "^run: step to time .* accepted as asked"):
+            at = sim.run(0.2, step=5e-3)
+        self.assertGreater(sim.statistics().limited_steps, 0)
+        self.assertEqual(at.status, mbd.NOTE_WORK_LIMITED)
+        self.assertEqual(list(at.notes), [mbd.NOTE_WORK_LIMITED])
+
+    def test_tolerance(self):
+        sim = self.run_of(step_min=5e-4, tolerance_translation=1e-12, tolerance_rotation=1e-12)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            at = sim.run(0.1)
+        self.assertEqual(len(caught), 1)  # of a hundred calls
+        self.assertEqual(caught[0].filename, __file__)
+        self.assertEqual(at.status, mbd.NOTE_TOLERANCE)
+        self.assertIn("above the error tolerance", at.notes[mbd.NOTE_TOLERANCE])
+
+    def test_none(self):
+        sim = self.run_of()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            at = sim.run(0.05, step=STEP)
+        self.assertLessEqual(set(at.notes), {mbd.NOTE_STEP_CUT})  # which costs no accuracy
+        self.assertEqual(at.status, max(at.notes, default=mbd.OK))
+
+
+class InterruptTest(unittest.TestCase):
+    def test_within_a_third_of_a_second(self):
+        """With and without a callback; the recorder has all rows up to there, and the sim goes on."""
+        for callback in (False, True):
+            made, _, drive = model(callback)
+            with made.sim() as sim:
+                recorder = sim.recorder([(drive, "drive_force")], 10 ** 6, 2e-3)
+                sent = []
+
+                def send():
+                    sent.append(time.monotonic())
+                    os.kill(os.getpid(), signal.SIGINT)
+
+                timer = threading.Timer(0.3, send)
+                timer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    sim.run(1e3, step=STEP, recorder=recorder)
+                took = time.monotonic() - sent[0]
+                timer.join()
+                self.assertLess(took, 0.3 + running.LONGEST)
+                self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+                self.assertEqual(len(recorder), int(sim.time / 2e-3 + 1e-6) + 1)
+                before = sim.time
+                sim.run(before + 0.01, step=STEP, recorder=recorder)
+                self.assertEqual(len(recorder), int(sim.time / 2e-3 + 1e-6) + 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
