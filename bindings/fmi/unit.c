@@ -20,7 +20,8 @@ unit_status unit_tell(const unit *u, unit_status status, const char *format, ...
 
 unit_status unit_require(const unit *u, unsigned modes, const char *call)
 {
-    static const char *const names[UNIT_MODES] = {"instantiated", "initialization", "event", "step", "terminated"};
+    static const char *const names[UNIT_MODES] = {"instantiated", "initialization", "event",
+                                                  "step",         "terminated",     "failed"};
     if (modes >> u->mode & 1u) return UNIT_OK;
     return unit_tell(u, UNIT_ERROR, "call refused: %s in mode \"%s\"; see the state machine of the standard", call,
                      names[u->mode]);
@@ -166,11 +167,19 @@ static int32_t start_sim(unit *u, const char **failed)
 
 unit_status unit_prepare(unit *u)
 {
+    const unit_mode before = u->mode;
     const char *failed;
     if (u->sim) return UNIT_OK;
+    if (u->mode == UNIT_FAILED)
+        return unit_tell(u, UNIT_ERROR,
+                         "call refused: the start of this unit failed; reset it, then give other values");
+    u->mode = UNIT_FAILED; /* an importer that does not read the status of the start gets no values */
     if (dmb_sim_create(u->scene.model, &u->scene.sim, &u->sim) < 0)
         return unit_tell(u, UNIT_ERROR, "start failed: %s", dmb_model_message(u->scene.model));
-    if (start_sim(u, &failed) >= 0) return UNIT_OK;
+    if (start_sim(u, &failed) >= 0) {
+        u->mode = before;
+        return UNIT_OK;
+    }
     unit_tell(u, UNIT_ERROR, "start failed: %s at time 0: %s", failed, dmb_sim_message(u->sim));
     dmb_sim_destroy(&u->sim);
     return UNIT_ERROR;

@@ -28,7 +28,8 @@ typedef enum unit_mode {
     UNIT_AT_EVENT = 2,
     UNIT_STEPPING = 3,
     UNIT_TERMINATED = 4,
-    UNIT_MODES = 5
+    UNIT_FAILED = 5, /* the start failed: only reset, a state that was saved before, or the end of the unit */
+    UNIT_MODES = 6
 } unit_mode;
 
 typedef void (*unit_log_fn)(void *context, unit_status status, const char *category, const char *text);
@@ -78,7 +79,7 @@ unit_status unit_derivative(unit *u, const uint32_t *unknowns, size_t unknown_co
                             size_t known_count, const double *seed, double *sensitivity);
 
 unit_status unit_begin(unit *u, double start); /* initialization mode */
-unit_status unit_prepare(unit *u);             /* makes the sim at time 0, where it is not there */
+unit_status unit_prepare(unit *u); /* makes the sim at time 0, where it is not there; UNIT_FAILED if it cannot */
 unit_status unit_reset(unit *u);
 
 typedef struct unit_reached {

@@ -54,6 +54,7 @@ table = [["-1 m", "-1 N"], ["0 m", "0 N"], ["1 m", "3 N"]]
 [[input]]
 name = "speed"
 part = "head"
+initial = "0 rpm"
 low = "0 rpm"
 high = "300 rpm"
 [[input]]
@@ -97,6 +98,7 @@ part = "pull"
 name = "weight"
 target = "bit-load"
 part = "bit"
+initial = "0.2 kN"
 [[output]]
 name = "head speed"
 quantity = "drive-speed"
@@ -225,6 +227,24 @@ class Fmu(FolderTest):
                 else:
                     sim.step(loaded.run["step"])
         unit.close()
+
+    def test_inputs_have_their_start_values(self):
+        """Whether an importer sets each input to its start value or leaves it: the same bits."""
+        loaded, root, folder = self.unpacked(text=MOVED)
+        starts = {int(one.get("valueReference")): float(one.get("start")) for one in root.iter()
+                  if one.get("causality") == "input"}
+        self.assertEqual((len(starts), starts[100004]), (4, 200.0))
+        states = []
+        for given in ({}, starts):
+            unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+            unit.begin()
+            for number in range(60):  # past the changes of the time functions
+                for reference, value in given.items():
+                    unit.set(reference, value)
+                unit.step(1e-3 * number, 1e-3)
+            states.append(unit.get(*range(200000, 200000 + len(loaded.outputs))))
+            unit.close()
+        self.assertEqual(states[0], states[1])
 
     def test_every_kind_of_part(self):
         self.same_state(scene.loads(EVERYTHING))
@@ -415,6 +435,9 @@ class Fmu(FolderTest):
         twice = scene.loads(SCENE.replace('"wall force"', '"bit speed [rad/s]"'))
         with self.assertRaisesRegex(fmu.CannotExport, "of its own"):
             fmu.export(twice, self.folder / "no.fmu")
+        for text, name in ((SCENE.replace('initial = "0 rpm"', ""), "speed"), (MOVED.replace('initial = "0.2 kN"', ""), "weight")):
+            with self.assertRaisesRegex(fmu.CannotExport, f"input {name} stands for a time function that changes"):
+                fmu.export(scene.loads(text), self.folder / "no.fmu")
         with self.assertRaises(OSError):
             fmu.export(loaded, self.folder / "nowhere" / "no.fmu")
         self.assertEqual([one for one in self.folder.iterdir() if "no.fmu" in one.name], [])

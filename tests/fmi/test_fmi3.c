@@ -279,6 +279,32 @@ static void refused(fmi3Status status, fmi3Status want, told *log, const char *w
     log->text[0] = 0;
 }
 
+/* A start that fails is not made good by later values: an importer that does not read its status gets no results. */
+static void test_failed_start_stays_failed(void **state)
+{
+    (void)state;
+    rig r;
+    told log;
+    open_rig(&r, 0);
+    fmi3Instance unit = instance_of(&r, &log, false, false);
+    const fmi3ValueReference speed = SPEED, torque = TORQUE;
+    double value = 10.0, last;
+    bool a, b, c;
+    set_one(unit, SPEED, 99.0); /* at most 30 */
+    assert_int_equal(fmi.enter_initialization(unit, false, 0.0, 0.0, false, 0.0), fmi3OK);
+    refused(fmi.exit_initialization(unit), fmi3Error, &log, "start failed: inputs");
+    refused(fmi.set(unit, &speed, 1, &value, 1), fmi3Error, &log, "mode \"failed\"");
+    refused(fmi.exit_initialization(unit), fmi3Error, &log, "mode \"failed\"");
+    refused(fmi.get(unit, &torque, 1, &value, 1), fmi3Error, &log, "reset it");
+    refused(fmi.do_step(unit, 0.0, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "mode \"failed\"");
+    assert_int_equal(fmi.reset(unit), fmi3OK);
+    set_one(unit, SPEED, 10.0);
+    begin(unit);
+    step(unit, 0.0, 1e-3);
+    fmi.free_instance(unit);
+    close_rig(&r);
+}
+
 static void test_nonsense(void **state)
 {
     (void)state;
@@ -384,11 +410,9 @@ static void test_damaged_resources(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bits_of_the_library),
-        cmocka_unit_test(test_reset_and_start_values),
-        cmocka_unit_test(test_states_and_instances),
-        cmocka_unit_test(test_events),
-        cmocka_unit_test(test_nonsense),
+        cmocka_unit_test(test_bits_of_the_library),       cmocka_unit_test(test_reset_and_start_values),
+        cmocka_unit_test(test_states_and_instances),      cmocka_unit_test(test_events),
+        cmocka_unit_test(test_failed_start_stays_failed), cmocka_unit_test(test_nonsense),
         cmocka_unit_test(test_damaged_resources),
     };
     return cmocka_run_group_tests(tests, load, NULL);

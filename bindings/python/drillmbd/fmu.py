@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import math
 import io
 import os
 import pathlib
@@ -209,12 +210,32 @@ class Variable:
     of_state: bool = False  #: an output that no input changes at a communication point
 
 
+def _described(scene: Scene) -> dict[int, tuple[str, tuple[Any, ...]]]:
+    """The calls that describe parts, by the index of the part's id."""
+    ids = iter(scene.model.ids)
+    return {next(ids).index: (name, arguments) for name, arguments in scene.model.calls
+            if name.startswith("add_") and name != "add_hole_sections"}
+
+
 def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
     """The drives as they were described, by the index of their ids."""
-    ids = iter(scene.model.ids)
-    made = [(next(ids), name, arguments) for name, arguments in scene.model.calls
-            if name.startswith("add_") and name != "add_hole_sections"]
-    return {part.index: arguments[0] for part, name, arguments in made if name == "add_drive"}
+    return {index: arguments[0] for index, (name, arguments) in _described(scene).items() if name == "add_drive"}
+
+
+def _refuse_changing(scene: Scene) -> None:
+    """Refuses an input that stands for a time function that changes. In a unit, an input that the importer does not set keeps its start
+    value (FMI 3.0, 2.4.7); the unit would follow the time function instead, and the two importers' results would differ silently."""
+    parts = _described(scene)
+    for name, arguments in parts.values():
+        given = arguments[0] if name == "add_input" else {}
+        if name != "add_input" or given.get("target", enums.TARGET_SET_POINT) not in CONTROLLED or not math.isnan(given.get("initial", math.nan)):
+            continue
+        part = parts[given["part"].index]
+        function = part[1][0].get("load" if part[0] == "add_bit" else "time_function")
+        segments = parts[function.index][1] if function else ()
+        if any(one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT or one.get("table") or one.get("function") for one in segments):
+            raise CannotExport(f"unit refused: input {given['name']} stands for a time function that changes, but an input of a unit has its start "
+                               "value until it is set; give the [[input]] an initial value, or its part a constant time function")
 
 
 def _output_unit(quantity: int, place: Place | None, drives: dict[int, dict[str, Any]]) -> str:
@@ -237,7 +258,7 @@ def _inputs(scene: Scene, sim: Any) -> Iterator[Variable]:
         given = info.target in CONTROLLED
         unit = info.unit.decode()
         jumps = f"; goes there by at most {info.rate_limit:g} {unit} a second" if info.rate_limit else ""
-        about = f"{_target_name(info.target)}; until it is set, what the scene describes{jumps}"
+        about = f"{_target_name(info.target)}{jumps}"
         yield Variable(name, INPUTS + number, "input" if given else "parameter",
                        "continuous" if given else "tunable", unit, sim.inputs[name],
                        _bound(info.low), _bound(info.high), about)
@@ -252,6 +273,7 @@ def _target_name(target: int) -> str:
 def variables(scene: Scene) -> list[Variable]:
     """The variables of the unit, in the order of its description."""
     drives = _drives(scene)
+    _refuse_changing(scene)
     found = [Variable("time", 0, "independent", "continuous", "s"),
              Variable("step", 1, "parameter", "fixed", "s", _step(scene), 0.0, None,
                       "length of steps within a communication step; 0: chosen by the library to its tolerances")]
