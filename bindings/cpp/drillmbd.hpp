@@ -12,7 +12,7 @@
 //
 // A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a
 // note (> 0). The members named try_ and the create functions throw nothing and return the status instead; without
-// exceptions in the compiler they are what there is, next to the C functions on get(). Owners are one pointer wide, and
+// exceptions in the compiler they are the only ones, next to the C functions on get(). Owners are one pointer wide, and
 // the members are inline calls of C functions. Since C++17 a status or an answer that is thrown away is a warning.
 #ifndef DRILLMBD_DRILLMBD_HPP
 #define DRILLMBD_DRILLMBD_HPP
@@ -45,7 +45,7 @@
 namespace drillmbd {
 
 // Several values of the caller side by side: made of a vector, an array, a list in braces, std::span, or a pointer with
-// a number. It holds nothing: what it looks at lives at least as long as the call.
+// a number. It owns nothing: the values live at least as long as the call.
 template <typename T>
 class span {
 public:
@@ -64,7 +64,7 @@ public:
         data_ = list.begin();
         size_ = list.size();
     }
-    // Of whatever has data() and size().
+    // Of any container with data() and size().
     template <typename Container, typename = typename std::enable_if<std::is_convertible<
                                       decltype(std::declval<Container &>().data()), T *>::value>::type>
     span(Container &&container) noexcept : data_(container.data()), size_(container.size())
@@ -74,7 +74,7 @@ public:
     DRILLMBD_NODISCARD T *data() const noexcept { return data_; }
     // Number of values.
     DRILLMBD_NODISCARD std::size_t size() const noexcept { return size_; }
-    // As the C functions count; what is beyond is refused by them.
+    // As the C functions count; larger numbers are refused by them.
     DRILLMBD_NODISCARD std::uint32_t count() const noexcept
     {
         return size_ < UINT32_MAX ? static_cast<std::uint32_t>(size_) : UINT32_MAX;
@@ -93,8 +93,7 @@ private:
 
 #if defined(DRILLMBD_EXCEPTIONS)
 // A call that was refused or failed, with nothing changed. what() is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
-// Messages that refuse a value have four parts: which part, which field and value, which bound, and what to do about
-// it.
+// Messages that refuse a value have four parts: which part, which field and value, which bound, and the remedy.
 class error : public std::runtime_error {
 public:
     // Of a status < 0 and the message of who failed; without one the text of the status.
@@ -150,8 +149,8 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 
 // ---- Callbacks ------------------------------------------------------------------------------------------------------
 #if defined(DRILLMBD_EXCEPTIONS)
-// A function object as a callback: it takes what the C function takes, without the context, and returns its number or
-// nothing. The caller keeps it alive as long as models and sims that call it. An exception does not get into C: the
+// A function object as a callback: it has the arguments of the C function, without the context, and returns its number
+// or nothing. The caller keeps it alive as long as models and sims that call it. An exception does not get into C: the
 // call fails with DMB_ERR_CALLBACK; paths, which have no such failure, have sim::path with a visit. Not for threads:
 // sims on several threads call one object at once.
 template <typename Function, typename Result, typename... Arguments>
@@ -199,7 +198,7 @@ void set_callback(Def &def, Function &function) noexcept
     static_assert(!std::is_same<Def, dmb_path_options>::value, "a path would take an exception for its end: sim::path");
     bind(def.callback, def.callback_context, function);
 }
-// A term that is function(time, out): out[0] its value, out[1] and out[2] what `provides` says.
+// A term that is function(time, out): out[0] its value, out[1] and out[2] as `provides` says.
 template <typename Function>
 DRILLMBD_NODISCARD dmb_segment segment_of(Function &function, std::int32_t provides = 0) noexcept
 {
@@ -214,7 +213,7 @@ DRILLMBD_NODISCARD dmb_segment segment_of(Function &function, std::int32_t provi
 // ---- Memory ---------------------------------------------------------------------------------------------------------
 #if defined(DRILLMBD_EXCEPTIONS)
 // An allocator in the caller's memory, for the options of models and sims: `options.allocator = pool.get();`. Memory
-// and pool have to outlive what lives there. Copies speak of the same memory.
+// and pool have to outlive the objects in it. Copies speak of the same memory.
 class pool {
 public:
     pool(void *memory, std::size_t size) : allocator_()
@@ -250,7 +249,7 @@ public:
     model &operator=(const model &) = delete;
     ~model() { dmb_model_destroy(&handle_); }
 
-    // Makes a model in out; what out had is given back. Returns the status.
+    // Makes a model in out; a previous one is destroyed. Returns the status.
     DRILLMBD_NODISCARD static std::int32_t create(model &out, const dmb_model_options *options = nullptr) noexcept
     {
         dmb_model *made = nullptr;
@@ -276,7 +275,7 @@ public:
     }
     // Of the last call on this model that failed; of a sim::create of it in this thread too.
     DRILLMBD_NODISCARD const char *message() const noexcept { return dmb_model_message(handle_); }
-    // Goes on without the parts that were refused: compile fails otherwise.
+    // Continues without the parts that were refused: compile fails otherwise.
     void clear_refused() noexcept { (void)dmb_model_clear_refused(handle_); }
     DRILLMBD_NODISCARD std::int32_t try_compile(const dmb_compile_options *options = nullptr) noexcept
     {
@@ -748,7 +747,7 @@ public:
     }
     std::int32_t step(double duration) { return check(dmb_sensitivity_step(handle_, duration, nullptr)); }
     std::int32_t advance(double time) { return check(dmb_sensitivity_advance(handle_, time, nullptr)); }
-    // values: room for what is asked; derivatives: that times the number of parameters, which the caller knows.
+    // values: one for each output; derivatives: that times the number of parameters of the caller.
     void outputs(span<const dmb_output> asked, span<double> values, span<double> derivatives) const
     {
         if (values.size() < asked.size() || derivatives.size() < asked.size())
@@ -854,7 +853,7 @@ public:
     sim &operator=(const sim &) = delete;
     ~sim() { dmb_sim_destroy(&handle_); }
 
-    // Makes a sim in out; what out had is given back. Returns the status, which may be a note.
+    // Makes a sim in out; a previous one is destroyed. Returns the status, which may be a note.
     DRILLMBD_NODISCARD static std::int32_t create(sim &out, const model &of,
                                                   const dmb_sim_options *options = nullptr) noexcept
     {
@@ -944,7 +943,7 @@ public:
     {
         return dmb_analysis_static(handle_, options, report);
     }
-    // function(context, fraction) is told of long calls from now on and may end them; see dmb_sim_set_progress.
+    // function(context, fraction) is called during long calls from now on and may end them; see dmb_sim_set_progress.
     DRILLMBD_NODISCARD std::int32_t try_set_progress(dmb_progress_fn function, void *context = nullptr) noexcept
     {
         return dmb_sim_set_progress(handle_, function, context);
@@ -966,9 +965,9 @@ public:
         begun(of, dmb_sim_create_in(of.get(), &options, block, size, &handle_));
     }
 
-    // Does call(), which makes calls of this sim; told(fraction) is told of them and ends one by true: it throws an
-    // error of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. An exception of told ends it too and comes out
-    // of here.
+    // Does call(), which makes calls of this sim; told(fraction) is called during them and ends one by true: it throws
+    // an error of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. An exception of told ends it too and comes
+    // out of here.
     template <typename Told, typename Call>
     void with_progress(Told told, Call call)
     {
@@ -989,7 +988,7 @@ public:
         return done(try_steps(duration, count, finished, report));
     }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
-    // Bit i of `events` of the answer: event number i is told.
+    // Bit i of `events` of the answer: event number i is reported.
     dmb_event_report advance_to_event(double to, dmb_step_report *report = nullptr)
     {
         dmb_event_report event = dmb_event_report_default();
@@ -1008,7 +1007,7 @@ public:
     }
     // The status may be the note that speeds were projected.
     std::int32_t set_joint(dmb_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
-    // Goes on where `from` stands, a sim of another model: pipes may have come or gone at the rig end.
+    // Continues from the state of `from`, a sim of another model: pipes may have come or gone at the rig end.
     std::int32_t transfer_state(const sim &from) { return done(try_transfer_state(from)); }
     dmb_static_report static_start(const dmb_static_options *options = nullptr)
     {
@@ -1030,8 +1029,8 @@ public:
         done(dmb_analysis_path(handle_, options, &report));
         return report;
     }
-    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, stands there and may be asked until visit
-    // returns; what is true ends the path. An exception of visit ends it too and comes out of here.
+    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, stands there and may be queried until
+    // visit returns; true ends the path. An exception of visit ends it too and comes out of here.
     template <typename Visit>
     dmb_path_report path(const dmb_path_options &options, Visit visit)
     {
@@ -1164,7 +1163,7 @@ public:
         return found;
     }
 
-    // Questions leave no message: the status tells all.
+    // Queries leave no message: the status is all.
     DRILLMBD_NODISCARD dmb_pose pose(const dmb_place &place) const
     {
         return ask(dmb_query_pose, dmb_pose_default(), place);
@@ -1302,7 +1301,7 @@ public:
     }
 
 private:
-    // A function object as a C function, while it lives; what it throws must not unwind through C.
+    // A function object as a C function, while it lives; its exceptions must not unwind through C.
     template <typename Told>
     struct teller {
         teller(sim &of, Told &function) : told(function), owner(of)

@@ -420,7 +420,7 @@ class VerdictTest(unittest.TestCase):
             return shape(sim)
         shape, made._shape = made._shape, stopped
         made.ask()
-        self.assertTrue(made.output.interrupted)
+        self.assertTrue(made.out.interrupted)
         self.assertEqual({tile.verdict for tile in made.tiles if tile.title in [one.title for one in made.demands.values()]}, {"NOT ASSESSED"})
 
     def test_fatigue(self):

@@ -9,20 +9,20 @@ extern "C" {
 #endif
 
 /* Same bits, by level. Same build, same machine and same calls give
- *   1. steps, and all that is read off a state: the same bits, whatever else runs, in any number of threads;
- *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits likewise; they call no BLAS;
+ *   1. steps, and all that is read off a state: the same bits, beside other work, in any number of threads;
+ *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits; they call no BLAS;
  *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the
  *      number of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next
  *      frequency; counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same
  *      bits. */
 
-/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on
+/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run continues
  * without a transient. Time functions that change count with their speed at that time. */
 enum {
     DMB_STEADY_AUTO = 0, /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
                             about their axis, RIGID else, or where masses are eccentric; AT_REST with
                             DMB_NOTE_NOT_STEADY (message says why) where neither is steady */
-    DMB_STEADY_AT_REST = 1, /* all is at rest; only what motion drives move takes their speed */
+    DMB_STEADY_AT_REST = 1, /* all is at rest; only components of motion drives have their speed */
     DMB_STEADY_SLIDING = 2, /* axes at rest; strings slide along the hole and turn about their axis as drives say */
     DMB_STEADY_RIGID = 3    /* all turns about one fixed axis like a rigid body, under centrifugal forces */
 };
@@ -43,7 +43,7 @@ typedef struct dmb_static_options {
 } dmb_static_options;
 DMB_SIZED_STRUCT(dmb_static_options)
 
-/* Kinds of stiffness that the stability of a static state is judged by. */
+/* Kinds of stiffness by which the stability of a static state is assessed. */
 enum {
     DMB_STIFFNESS_SYMMETRIC = 0,  /* forces have a potential: the state is stable where no eigenvalue is negative */
     DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by
@@ -68,8 +68,8 @@ typedef struct dmb_static_report {
                           are any, those among the 108 nearest 0; -1: none was found, and others could not be
                           excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with
                           centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes) */
-    int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was judged */
-    int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
+    int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was assessed */
+    int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: kind of the state */
     int32_t steady_reserved;
     int32_t free_spins; /* [-] rotations of strings about their own axes that nothing resists, strings that turn
                            together counted once: every angle is an equilibrium, and the starting one is kept */
@@ -88,11 +88,11 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
  * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the
  * rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit
- * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no
- * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, supports, joints to the
- * ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and
- * some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy ledger
- * starts anew. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it
+ * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING requires that rotating parts are
+ * round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, supports,
+ * joints to the ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED, with the reason. Both take memory, one
+ * matrix and some vectors, from the sim's allocator; so do the signs of the stiffness of every static state. The energy
+ * ledger restarts. options and report may be NULL. A string whose rotation about its axis nothing resists keeps it
  * (report->free_spins) where the torques about the axis sum to 0; else DMB_ERR_SINGULAR. Unstable equilibria that the
  * search turned far to, or relaxed to, are left where a stable one is found beside. DMB_NOTE_UNSTABLE where the
  * equilibrium at rest is one that the string would leave (report->negative > 0); DMB_NOTE_INCOMPLETE where the
@@ -121,7 +121,7 @@ typedef struct dmb_buckling_options {
     double factor_max;    /* [unit of the factor] not looked beyond, > 0; default 1e12 */
     double tolerance;     /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
     double step;          /* [unit of the factor] difference that the change of the stiffness is taken over; 0
-                             (default): what moves the string by a millionth of an element */
+                             (default): moves the string by a millionth of an element */
     double slip_axial;    /* [m/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
     double slip_rotation; /* [rad/s] */
 } dmb_buckling_options;
@@ -129,7 +129,7 @@ DMB_SIZED_STRUCT(dmb_buckling_options)
 /* Reason for the end of the way along the equilibria. */
 enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
-    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable */
+    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable */
     DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
     DMB_BUCKLING_STABLE = 3,       /* none: det K keeps its sign up to `reached` */
     DMB_BUCKLING_DIP = 4           /* no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less
@@ -149,17 +149,17 @@ typedef struct dmb_buckling_info {
     uint32_t count;     /* [-] factors */
     uint32_t confirmed; /* [-] of them, the lowest: half the step length along the equilibria ends at the same first
                            factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one
-                           linearisation to the other; the rest are extrapolations. The mesh is not halved: compare
+                           linearisation to the other; the others are extrapolations. The mesh is not halved: compare
                            with one of twice the elements */
-    uint32_t linearisations; /* [-] of states on the way, the present one included */
-    uint32_t points;         /* [-] equilibria found on the way */
+    uint32_t linearisations; /* [-] of states on the path, the present one included */
+    uint32_t points;         /* [-] equilibria found on the path */
     int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
-                          det K = 0; what flutters does so before (`flutter`) */
+                          det K = 0; flutter comes before (`flutter`) */
     int32_t end;       /* DMB_BUCKLING_... */
     int32_t flutter;   /* DMB_FLUTTER_... */
     double estimate;   /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
     double linearised_at;   /* [unit of the factor] state that the shapes and further factors were linearised about */
-    double reached;         /* [unit of the factor] last equilibrium on the way before the end */
+    double reached;         /* [unit of the factor] last equilibrium on the path before the end */
     double flutter_factor;  /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
     double flutter_root[2]; /* [1/s] its root there, real and imaginary part, 0 without swinging, shape (2) */
     double dip; /* [-] of DMB_BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string;
@@ -176,24 +176,24 @@ typedef struct dmb_buckling dmb_buckling;
  * state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots
  * (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real
  * eigenvalues by Krylov subspaces: loads at which it diverges. It may flutter before, by a mode that grows while det K
- * keeps its sign; so the damped modes are looked at on the way (`flutter`). That two eigenvalues of K become real and
- * negative together is no event: at which load they do depends on the weights that they are measured by.
- * A linearisation is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria
- * are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness
- * passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and
- * further factors are linearised just before; or where the lowest eigenvalue of a symmetric stiffness has a deep
- * minimum (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half
- * the length, up to two times, until two runs end alike. dmb_buckling_get_info tells. The sim is not changed.
- * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message
- * says how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not
- * confirmed. Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there
- * is no such factor, up to a factor_max below 1e12 or to where the equilibria could be followed. DMB_NOTE_INCOMPLETE
- * where that could not be judged though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
- * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE
- * (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that
- * slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK,
- * _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of
- * elements); memory: the sim's twice more and 3 matrices, from its allocator.
+ * keeps its sign; so damped modes are computed along the path (`flutter`). A complex pair of eigenvalues of K that
+ * becomes real and negative is no stability limit: its load depends on the weights of the coordinates. A linearisation
+ * is an extrapolation, good where sections turn and contacts shift little. So the equilibria are followed
+ * (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the
+ * lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors
+ * are linearised just before; or where the lowest eigenvalue of a symmetric stiffness has a deep minimum
+ * (DMB_BUCKLING_DIP; one factor, shape of that eigenvalue). The path is then followed again in steps of half the
+ * length, up to two times, until two runs agree. dmb_buckling_get_info reports it. The sim is not changed.
+ * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be found (beyond a limit point none can;
+ * message says how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors
+ * are not confirmed. Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also
+ * where there is no such factor, up to a factor_max below 1e12 or to where the equilibria could be followed.
+ * DMB_NOTE_INCOMPLETE where that could not be assessed though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the
+ * state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free),
+ * _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a
+ * joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY,
+ * _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations of the path, each
+ * O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator.
  */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
@@ -212,7 +212,7 @@ DMB_API int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, 
 enum {
     DMB_PATH_REGULAR = 0,
     DMB_PATH_LIMIT = 1,       /* the factor is at a maximum or minimum of the path */
-    DMB_PATH_BIFURCATION = 2, /* another path crosses: the stiffness is singular and the factor goes on */
+    DMB_PATH_BIFURCATION = 2, /* another path crosses: the stiffness is singular and the factor continues */
     DMB_PATH_BRANCH = 3       /* first point of the path that crossed */
 };
 typedef struct dmb_path_point {
@@ -224,7 +224,7 @@ typedef struct dmb_path_point {
     int32_t stiffness;   /* DMB_STIFFNESS_... */
     double factor;       /* [unit of the factor] */
     double rate;         /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
-    double arc;          /* [m] length of the path so far, root of the mean square of what the nodes move */
+    double arc;          /* [m] length of the path so far, root of the mean square of the motion of the nodes */
     double displacement; /* [m] of the watched place and component since time 0; 0: none is watched */
 } dmb_path_point;
 DMB_SIZED_STRUCT(dmb_path_point)
@@ -237,7 +237,7 @@ typedef struct dmb_path_options {
     uint32_t max_iterations; /* [-] of one point, 2 .. 1000; default 15 */
     int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
     dmb_id part;             /* load or drive of DMB_SCALE_PART */
-    dmb_place place;         /* what is watched; part {0, 0} (default): nothing */
+    dmb_place place;         /* place that is watched; part {0, 0} (default): none */
     int32_t component;       /* of its displacement in the world, DMB_X (default) .. DMB_Z */
     int32_t branch;          /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
     double factor_end;       /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
@@ -270,11 +270,11 @@ DMB_SIZED_STRUCT(dmb_path_report)
  * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric, a
  * step is a twentieth of factor_end at most: an eigenvalue that leaves and one that comes back closer together may be
  * passed by. Two that a complex pair becomes change `negative` and are no bifurcation: det K keeps its sign. The sim is
- * not changed. options and report may be NULL; where the path was lost the report tells how far it came.
+ * not changed. options and report may be NULL; where the path was lost the report states how far it came.
  * DMB_NOTE_STOPPED after max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
  * equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message
- * says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling),
- * _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more. */
+ * says where the path was lost), _ROTATION (above 2.5 rad in an element; message says where), _UNSUPPORTED (as of
+ * buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
@@ -322,7 +322,7 @@ DMB_SIZED_STRUCT(dmb_check_report)
 DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report);
 /* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by
  * name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated;
- * *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL
+ * *needed (may be NULL) is the size of the whole text, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL
  * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 
@@ -340,9 +340,9 @@ DMB_API int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double 
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------
  * The wall in small motion about a state (modes.h, response.h). */
 enum {
-    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
-    DMB_CONTACT_OPEN = 1,  /* there is no wall; what it presses with in the state stays as a dead load */
-    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
+    DMB_CONTACT_AS_IS = 0, /* contact rings that touch the wall press on it, others do not */
+    DMB_CONTACT_OPEN = 1,  /* there is no wall; its forces in the state stay as dead loads */
+    DMB_CONTACT_CLOSED = 2 /* contact rings up to `contact_gap` from the wall are held across it too */
 };
 
 #ifdef __cplusplus

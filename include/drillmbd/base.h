@@ -37,8 +37,8 @@ DMB_API int32_t dmb_has(int32_t what);
 DMB_API const char *dmb_build_info(void);
 
 /* ---- Status ------------------------------------------------------------------------------------------------------
- * Every function that can fail returns an int32_t: 0 done, > 0 done with something to know, < 0 refused or failed with
- * nothing changed. dmb_model_message and dmb_sim_message tell the part, the field, the value and the bound. */
+ * Every function that can fail returns an int32_t: 0 done, > 0 done with a note, < 0 refused or failed with
+ * nothing changed. dmb_model_message and dmb_sim_message state the part, the field, the value and the bound. */
 /* clang-format off */
 #define DMB_STATUS_LIST(X)                                                                                            \
     X(DMB_OK, 0, "done")                                                                                              \
@@ -93,7 +93,7 @@ typedef struct dmb_id {
     uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
 } dmb_id;
 
-/* Where the number of a part, pipe or place is asked for: none of them. */
+/* Where the number of a part, pipe or place is required: none of them. */
 #define DMB_NONE UINT32_MAX
 
 /* Frozen. A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
@@ -115,11 +115,11 @@ static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 }
 
 /* ---- Structs that cross the border ------------------------------------------------------------------------------
- * Each begins with struct_size and is filled by its T_init, which writes no more than the size it is told: a caller
+ * Each begins with struct_size and is filled by its T_init, which writes no more than the given size: a caller
  * compiled against an older header still works. T_default() returns a filled struct by value. T_init returns DMB_OK,
  * DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, not a multiple of 8, or more than 1024
- * bytes above the size this library knows). A longer struct than the library's is accepted where what it does not know
- * is zero. Pure and thread-safe. */
+ * bytes above the size in this library). A longer struct than the library's is accepted if the additional bytes
+ * are zero. Pure and thread-safe. */
 #define DMB_SIZED_STRUCT(T)                          \
     DMB_API int32_t T##_init(T *out, uint32_t size); \
     static inline T T##_default(void)                \
@@ -135,16 +135,16 @@ typedef struct dmb_allocator {
     uint32_t reserved;
     void *context;                                                              /* handed to both functions */
     void *(*allocate)(void *context, size_t size, size_t alignment);            /* [byte]; NULL on failure */
-    void (*release)(void *context, void *block, size_t size, size_t alignment); /* what allocate gave, same sizes */
+    void (*release)(void *context, void *block, size_t size, size_t alignment); /* a block of allocate, same sizes */
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
 /* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory:
  * 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit,
- * neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release, whatever *allocator was.
- * Calling it again on the same memory forgets all that was given out. Errors: DMB_ERR_NULL, DMB_ERR_VALUE (less than
- * 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool has no room left, calls
- * that need memory fail with DMB_ERR_NO_MEMORY and change nothing. */
+ * neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release; *allocator may be
+ * uninitialised. Calling it again on the same memory forgets all that was given out. Errors: DMB_ERR_NULL,
+ * DMB_ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool
+ * has no room left, calls that need memory fail with DMB_ERR_NO_MEMORY and change nothing. */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
 /* [byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail. */
 DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);

@@ -11,11 +11,11 @@ extern "C" {
 
 /* A place that can be stuck in the hole: a jammed bit, tool joint, key seat. While it is stuck, springs and dampers
  * hold it at the pose where it got stuck, in the axes that its section had there: k s + c s', s along the axis, about
- * it, and sideways. It lets go by itself at the time at which the axial force reaches `overpull` or the torque
- * `overtorque` (found within 1e-10 of it by shorter steps; with bounded work at the end of the step); what the springs
- * had stored is then lost (`impact` of the energies). While it is not stuck it costs one check a step. It connects no
+ * it, and sideways. It is released at the time at which the axial force reaches `overpull` or the torque
+ * `overtorque` (found within 1e-10 of it by shorter steps; with bounded work at the end of the step); the energy of the
+ * springs is then lost (`impact` of the energies). While it is not stuck it costs one check a step. It connects no
  * parts. Stuck or not is part of snapshots and hashes. An input of target DMB_TARGET_STUCK (control.h) sets it, 0 or 1;
- * it is 0 again once the place has let go by itself. */
+ * it is 0 again once the place was released by overpull. */
 enum { DMB_STUCK_AXIAL = 1, DMB_STUCK_ROTATION = 2, DMB_STUCK_LATERAL = 4 };
 typedef struct dmb_stuck_def {
     uint32_t struct_size;
@@ -26,7 +26,7 @@ typedef struct dmb_stuck_def {
     int32_t reserved;
     double stiffness[3]; /* [N/m, N m/rad, N/m] along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9 */
     double damping[3];   /* [N s/m, N m s, N s/m] >= 0; not there without DMB_FEATURE_DAMPING; default 0 */
-    double overpull;     /* [N] axial force, pull or push, at which it lets go, > 0; default 0: never */
+    double overpull;     /* [N] axial force, pull or push, at which it is released, > 0; default 0: never */
     double overtorque;   /* [N m] torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad */
 } dmb_stuck_def;
 DMB_SIZED_STRUCT(dmb_stuck_def)
@@ -38,7 +38,7 @@ typedef struct dmb_stuck_state {
     int32_t stuck;    /* 1: held */
     double offset[4]; /* [m, m, m, rad] from where it got stuck: along, sideways y and z, turned; 0 where it is not */
     double force[4];  /* [N, N, N, N m] that holds it, on the string, in the same order */
-    double share;     /* [-] largest of |axial force|/overpull and |torque|/overtorque; it lets go at 1 */
+    double share;     /* [-] largest of |axial force|/overpull and |torque|/overtorque; it is released at 1 */
     double energy;    /* [J] stored in the springs */
 } dmb_stuck_state;
 DMB_SIZED_STRUCT(dmb_stuck_state)
@@ -55,13 +55,13 @@ DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_stat
 typedef struct dmb_motor {
     uint32_t struct_size;
     int32_t brakes; /* 1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there */
-    double stall_torque; /* [N m] at w = 0, and the most it gives, > 0 */
-    double displacement; /* [m3] of mud a revolution, > 0 */
-    double flow;         /* [m3/s] through the motor, > 0 */
-    double pressure;   /* [Pa] drop across it at stall, > 0 in the place of stall_torque, which is 0 then; with a table
-                          > 0 or 0: table_pressure */
-    double efficiency; /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
-    double table_flow; /* [m3/s] of the table, > 0; 0 (default): flow */
+    double stall_torque;   /* [N m] at w = 0, and the most it gives, > 0 */
+    double displacement;   /* [m3] of mud a revolution, > 0 */
+    double flow;           /* [m3/s] through the motor, > 0 */
+    double pressure;       /* [Pa] drop across it at stall, > 0 instead of stall_torque, which is 0 then; with a table
+                              > 0 or 0: table_pressure */
+    double efficiency;     /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
+    double table_flow;     /* [m3/s] of the table, > 0; 0 (default): flow */
     double table_pressure; /* [Pa] of the table, > 0; 0 (default): pressure */
     uint32_t table_count;  /* [-] 0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are
                               0  then */
@@ -70,12 +70,12 @@ typedef struct dmb_motor {
     double table_torque[15]; /* [N m] >= 0, > 0 at the first, 0 at the last, shape (table_count) */
 } dmb_motor;
 DMB_SIZED_STRUCT(dmb_motor)
-/* Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2 pi over
- * efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else w0/flow; part,
- * time function and name stay) and tells w0 [rad/s], the constant value of its time function. Another flow while it
- * runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor,
- * stays then (a positive displacement motor; Tiraspolsky). Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE;
- * nothing is written then.
+/* Fills the fields of the drive for this motor (kind CONTROL, component RX, gain or its table, limits, mud_pressure: 2
+ * pi over efficiency and displacement, or of a table with pressures the pressure over the torque at stall, else
+ * w0/flow; part, time function and name stay) and returns w0 [rad/s], the constant value of its time function. Another
+ * flow while it runs: an input of the set point w0, which is in proportion to it; the torque by w0 - w, the leakage
+ * past the rotor, stays then (a positive displacement motor; Tiraspolsky). Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE,
+ * _NOT_FINITE; nothing is written then.
  */
 DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
 

@@ -1,5 +1,5 @@
-/* libdrillmbd - torque and drag: what a string needs at the rig to be moved steadily in its hole, at any depth. The
- * soft string of Johancsik, Friesen, Dawson 1984 in three dimensions: weight, wall and axial force in balance, no
+/* libdrillmbd - torque and drag: forces and torque at the rig that move a string steadily in its hole, at any depth.
+ * The soft string of Johancsik, Friesen, Dawson 1984 in three dimensions: weight, wall and axial force in balance, no
  * bending stiffness, full friction against the motion. For the stiff string ask dmb_analysis_static with slip_axial and
  * slip_rotation. Pressures of circulation and tripping. Fatigue of places during a run. */
 #ifndef DRILLMBD_DRILLING_H
@@ -51,8 +51,8 @@ DMB_SIZED_STRUCT(dmb_torque_drag_options)
 
 typedef struct dmb_torque_drag_row {
     uint32_t struct_size;
-    int32_t locked;      /* 1: compression grows beyond 1 % of EA on the way up: no push at the rig does this; hook
-                            load, torque and what is looked for along the string are NaN */
+    int32_t locked;      /* 1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load,
+                            torque and the values along the string are NaN */
     double depth;        /* [m] measured depth of the far end */
     double hook_load;    /* [N] effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes */
     double torque;       /* [N m] at the rig end, against friction and bit */
@@ -61,7 +61,7 @@ typedef struct dmb_torque_drag_row {
     double lowest_at;    /* [m] measured depth where */
     double sinusoidal_share; /* [-] largest share of the load of sinusoidal buckling, as of a profile; NaN where a
                                 compressed part is not pressed to the wall */
-    double helical_share;    /* [-] likewise of helical buckling */
+    double helical_share;    /* [-] the same of helical buckling */
     double buckled_at;       /* [m] measured depth where that is */
     double helix_length;     /* [m] of string above the load of helical buckling */
     double yield_share;      /* [-] largest von Mises stress over yield_strength, bending to the hole's curvature
@@ -73,15 +73,15 @@ typedef struct dmb_torque_drag_row {
 } dmb_torque_drag_row;
 DMB_SIZED_STRUCT(dmb_torque_drag_row)
 
-/* One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The
- * string hangs together with its described pipes counted from the far end: at a depth less than where it is described
- * the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the
- * survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures
- * are left out of yield_share. The sim is asked for its model only and does not change.
- * Errors: DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has stabilisers, or below its rig
- * end a joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place described stuck;
- * DMB_ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs +
- * stations + length / 2 m)). */
+/* One row for each depth and operation, shape (depth_count, operation_count), the struct_size of the first holds for
+ * all. The string hangs together with its described pipes counted from the far end: at a depth less than where it is
+ * described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places
+ * beyond the survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth;
+ * pressures are left out of yield_share. Of the sim only the model is used; it does not change. Errors:
+ * DMB_ERR_UNSUPPORTED without a hole, for a string that does not follow it, has stabilisers, or below its rig end a
+ * joint that holds something (not DMB_JOINT_FREE), a load, spring or force, or a place described stuck; DMB_ERR_VALUE,
+ * _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2
+ * m)). */
 DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *options,
                                          const dmb_operation *operations, uint32_t operation_count,
                                          dmb_torque_drag_row *rows);
@@ -96,8 +96,8 @@ DMB_API int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_
 
 enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
 /* The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m]
- * measured at the rig in one operation at the first of the depths. DMB_ERR_VALUE where none does: the message tells the
- * range. About 60 times the work of a row. */
+ * measured at the rig in one operation at the first of the depths. DMB_ERR_VALUE where none does: the message states
+ * the range. About 60 times the work of a row. */
 DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options,
                                              const dmb_operation *operation, int32_t measured, double value,
                                              double *friction);
@@ -127,8 +127,8 @@ DMB_API int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_
 /* ---- Fatigue -----------------------------------------------------------------------------------------------------
  * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the
  * rainflow method in memory that does not grow, and summed to a damage (Palmgren 1924; Miner 1945) by the S-N curve
- * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are told
- * apart by `classes` levels, which ranges are compared by too; a cycle counts with the stress at its own. */
+ * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are
+ * distinguished by `classes` levels, which ranges are compared by too; a cycle counts with the stress at its own. */
 typedef struct dmb_fatigue dmb_fatigue;
 typedef struct dmb_fatigue_options {
     uint32_t struct_size;
@@ -156,18 +156,18 @@ typedef struct dmb_fatigue_result {
     double cycles;    /* [-] at that point, halves included */
     double largest_range; /* [Pa] of them */
     double lowest;        /* [Pa] stress at that point, concentration included */
-    double highest;       /* [Pa] likewise */
+    double highest;       /* [Pa] highest stress there */
     double time;          /* [s] between the first and the last sample */
     double life;          /* [s] time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one */
 } dmb_fatigue_result;
 DMB_SIZED_STRUCT(dmb_fatigue_result)
 
 /* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 24
- * bytes a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes;
- * axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then. */
+ * bytes a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message says why), _NOT_FINITE, _ID, _UNSUPPORTED (rigid
+ * pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then. */
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);
-/* Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted.
+/* Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted.
  * Another sim of the same model may be given. Allocates nothing. O(places x points). */
 DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
 DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);

@@ -29,7 +29,7 @@ typedef struct dmb_spring_def {
     double damping;             /* [N s/m] >= 0; not there without DMB_FEATURE_DAMPING; default 0 */
     double preload;             /* [N] tension at free_length, < 0 pushes; default 0 */
     const double *table_elongation; /* [m] strictly increasing, shape (table_count); copied */
-    const double *table_force; /* [N] shape (table_count); goes on along its last slopes; of a one-sided spring it must
+    const double *table_force; /* [N] shape (table_count); extended along its last slopes; of a one-sided spring it must
                                   not fall; copied */
     uint32_t table_count;      /* [-] 0 (default): none; 2 .. 2^16 */
     int32_t table_kind;        /* DMB_TABLE_LINES (default), or DMB_TABLE_CUBIC: monotone between points */
@@ -60,7 +60,7 @@ DMB_API int32_t dmb_query_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_s
  * rad/s]; forces[i]: force [N] and moment [N m] on the place, 0 when called. Of a joint's coordinate number 0 of each
  * counts: value, speed, force along it. tangent, shape (2, 6 place_count, 6 place_count), row-major, 0 when called, may
  * be NULL: derivatives of the forces by displacements of the places in the same axes, velocities there staying the
- * same; then by velocities. potential: [J] by poses and time, told as stored energy (`strain`); the rest of the power
+ * same; then by velocities. potential: [J] by poses and time, counted as stored energy (`strain`); the other power
  * is work of loads. Returns 0, or nonzero to stop. Pure, from any thread; asked a little beside the run's arguments
  * too. Followers and circulatory forces are respected. Load steps and factors of buckling leave it alone. */
 enum { DMB_PROVIDES_TANGENT = 1, DMB_PROVIDES_POTENTIAL = 2 };
@@ -82,7 +82,7 @@ typedef struct dmb_force_def {
 } dmb_force_def;
 DMB_SIZED_STRUCT(dmb_force_def)
 /* Errors as of a spring; DMB_ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady`
- * of statics) are refused where it acts on what moves. */
+ * of statics) are refused where it acts on moving parts. */
 DMB_API int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, dmb_id *force);
 
 /* Pose and motion of a point off a place: offset [m] in the axes of the place, shape (3). Errors as dmb_query_pose,

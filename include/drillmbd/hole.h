@@ -13,7 +13,7 @@ enum {
     DMB_HOLE_LINE = 1  /* they go in straight lines to those of the next section */
 };
 /* A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and
- * every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere.
+ * every field left at -1 is that of dmb_wall_def. The laws and all other values are those of dmb_wall_def everywhere.
  * All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint
  * between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its
  * diameter changes, and no energy is made. */
@@ -29,14 +29,14 @@ typedef struct dmb_hole_section {
     double damping;     /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1 */
     double mu_static;   /* [-] >= mu_dynamic for STRIBECK and BRISTLE; default -1 */
     double mu_dynamic;  /* [-] >= 0; default -1 */
-    double strength;    /* [Pa] unconfined compressive strength of what the wall is made of, >= 0; told by
+    double strength;    /* [Pa] unconfined compressive strength of the wall, >= 0; returned by
                            dmb_query_hole, no force depends on it; default 0 */
-    char name[24];      /* told by dmb_query_hole; default "" */
+    char name[24];      /* returned by dmb_query_hole; default "" */
 } dmb_hole_section;
 DMB_SIZED_STRUCT(dmb_hole_section)
 /* Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall
  * may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that
- * change too fast, and what is wider than its hole (DMB_ERR_GEOMETRY). Errors: DMB_ERR_VALUE, _NOT_FINITE,
+ * change too fast, and parts wider than the hole (DMB_ERR_GEOMETRY). Errors: DMB_ERR_VALUE, _NOT_FINITE,
  * _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections). */
 DMB_API int32_t dmb_model_add_hole_sections(dmb_model *model, const dmb_hole_section *sections, uint32_t count);
 

@@ -38,7 +38,7 @@ enum {
     DMB_JOINT_SCHOENFLIES = 15    /* X, Y, Z, RX free: x of b stays parallel to x of a */
 };
 enum {
-    DMB_JOINT_ACTIVE = 0, /* holds what its kind says */
+    DMB_JOINT_ACTIVE = 0, /* constrains as its kind says */
     DMB_JOINT_LOCKED = 1, /* holds all six coordinates where they were when it was locked */
     DMB_JOINT_OPEN = 2    /* holds nothing; its springs, dampers, stops and friction do not act */
 };
@@ -47,7 +47,7 @@ typedef struct dmb_joint_def {
     int32_t kind;          /* DMB_JOINT_..., default DMB_JOINT_FIXED */
     char name[24];         /* for messages and look-up (names.h), ends with 0; default "" */
     dmb_place place_a;     /* node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground */
-    dmb_place place_b;     /* likewise, not the ground */
+    dmb_place place_b;     /* node, body or bit as place_a, not the ground */
     double origin_a[3];    /* [m] of frame a, in the frame of place a (ground: world); default 0, shape (3) */
     double axis_a[3];      /* [-] its x axis, any length > 0; default (1, 0, 0), shape (3) */
     double normal_a[3];    /* [-] its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x

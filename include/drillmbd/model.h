@@ -1,6 +1,6 @@
 /* libdrillmbd - describe a scene and compile it.
  * Besides the bounds stated here, lengths must lie in 1e-6 .. 1e6 m, moduli in 1e-6 .. 1e15 Pa, and so on for every
- * quantity: far beyond any drill string, so that nothing overflows later; messages tell the bound.
+ * quantity: far beyond any drill string, so that nothing overflows later; messages state the bound.
  * World frame, right-handed: x north and along the default hole, away from the rig; y west; z up. Azimuth is clockwise
  * seen from above: 0 along +x, 90 deg (east) along -y. Body and section frames: origin on the axis of the pipe, x along
  * it towards the bit, rotating with the material; positive rotation is clockwise seen from the rig. Pipes count from
@@ -67,10 +67,10 @@ typedef struct dmb_environment_def {
     double axial_damping;   /* [N s/m2] the same along the pipe; default 0 */
     double torsional_damping; /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
     double inner_density;     /* [kg/m3] inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside */
-    double added_mass;  /* [-] of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 +
+    double added_mass;  /* [-] of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; -1: (D^2 +
                            d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud
-                           inside moves, too, tool joints are spread over their pipe, stabilisers have that of what they
-                           displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia */
+                           inside moves, too, tool joints are spread over their pipe, stabilisers have that of the mud
+                           they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia */
     double flow_rate;   /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
                            annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
                            nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests */
@@ -96,7 +96,7 @@ enum {
     DMB_SEGMENT_CALLBACK = 5  /* the caller's function */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0];
- * what `provides` does not announce is built by differences and quadrature. All within
+ * values that `provides` does not announce are computed by differences and quadrature. All within
  * +-1e30. Returns 0, or nonzero to stop the step. */
 typedef int32_t (*dmb_time_fn)(void *context, double time, double out[3]);
 enum { DMB_PROVIDES_RATE = 1, DMB_PROVIDES_INTEGRAL = 2 };
@@ -127,7 +127,7 @@ enum {
     DMB_NORMAL_HUNT_CROSSLEY = 1,       /* K d^n (1 + mu d'/v0), mu = 3(1-e)/2 */
     DMB_NORMAL_LANKARANI_NIKRAVESH = 2, /* mu = 3(1-e^2)/4 */
     DMB_NORMAL_FLORES = 3,              /* mu = 8(1-e)/(5e) */
-    DMB_NORMAL_EXACT = 4,               /* mu such that the restitution asked for is the one given */
+    DMB_NORMAL_EXACT = 4,               /* mu such that the restitution is the one given */
     DMB_NORMAL_IMPACT = 5               /* K d^n + STEP(d; 0, 0, impact_depth, damping) d', never pulling */
 };
 enum {
@@ -272,13 +272,13 @@ typedef struct dmb_body_def {
     double velocity[6]; /* [m/s, rad/s] of a free body at time 0, body frame; default 0, shape (6) */
     int32_t free_mask;  /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
     int32_t reserved;
-    double contact_diameter; /* [m] of the ring at the reference point that meets the wall; 0: none (default) */
+    double contact_diameter; /* [m] of the contact ring at the reference point; 0: none (default) */
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
     char name[24];           /* for messages and look-up (names.h), ends with 0; default "" */
     double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
     double added_mass[2]; /* [kg] of mud that goes along with it where it speeds up along body x, and across, at the x
-                             of the centre of mass: as of a body of revolution in mud at rest (a sphere: half of what it
-                             displaces; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2) */
+                             of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud
+                             displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2) */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -315,18 +315,18 @@ typedef struct dmb_bit_def {
     double side_cutting; /* [-] steerability: depth that a side force cuts a revolution over the depth that the same
                             force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own
                             axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills
-                            along its own axis. The hole that it leaves is not felt by what follows: give the bit no
+                            along its own axis. The string behind does not feel the hole that it leaves: give the bit no
                             `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
     double walk_angle; /* [rad] from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes
                           a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0 */
-    double displaced_volume; /* [m3] likewise of a body */
+    double displaced_volume; /* [m3] as of a body */
     dmb_id stabiliser;   /* {0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface
                       is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia,
                       diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance
                       of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit */
     double inner_radius; /* [m] b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit;
                             0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
-    double added_mass[2]; /* [kg] likewise of a body, at the bit's centre; not of a reamer, whose stabiliser has it;
+    double added_mass[2]; /* [kg] as of a body, at the bit's centre; not of a reamer, whose stabiliser has it;
                              default 0, shape (2) */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
@@ -351,7 +351,7 @@ typedef struct dmb_drive_def {
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
     char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
-    /* Actuator of a LOAD or CONTROL drive: its command (time function, or what the controller asks for within the
+    /* Actuator of a LOAD or CONTROL drive: its command (time function, or that of the controller within the
      * limits) becomes a force after `delay`, changing by at most `force_rate`, with a `lag`, within the torque-speed
      * curve, less the drag. All 0 (default): the force is the command. At the start it has come to its command. On a
      * joint that is open then nothing was commanded, and on one that opens it stays as it is until the joint closes. */
@@ -367,10 +367,10 @@ typedef struct dmb_drive_def {
     double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
     double curve_force[8]; /* [N, N m] >= 0: the most that it pushes towards > 0 at a speed, straight between points,
                               constant beyond; the same mirrored towards < 0; shape (curve_count) */
-    uint32_t gain_count;   /* [-] points of a table of CONTROL in the place of `gain`, then 0: 0 (none) or 2 .. 16 */
+    uint32_t gain_count;   /* [-] points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16 */
     int32_t reserved3;
     double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
-    double gain_force[16]; /* [N, N m] in the place of kp (v* - v), straight between points, constant beyond, shape
+    double gain_force[16]; /* [N, N m] instead of kp (v* - v), straight between points, constant beyond, shape
                               (gain_count) */
     double mud_pressure; /* [Pa/(N m)] by which the mud's pressure falls through a motor for each N m that it gives, >=
                             0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string.
@@ -408,16 +408,16 @@ enum {
 };
 typedef struct dmb_compile_options {
     uint32_t struct_size;
-    int32_t features;  /* mask of DMB_FEATURE_...; what is left out is not there in the step; default DMB_FEATURE_ALL */
+    int32_t features;  /* mask of DMB_FEATURE_...; others are not compiled; default DMB_FEATURE_ALL */
     int32_t pipe_kind; /* DMB_PIPE_... for every pipe, or -1 (default): as described */
     int32_t reserved;
 } dmb_compile_options;
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
- * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a support keeps off the wall.
- * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first
- * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements). */
+ * Warns (log, dmb_model_message, dmb_analysis_check) of contact rings of bodies and bits that a support keeps off the
+ * wall. Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the
+ * first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 
 typedef struct dmb_model_info {

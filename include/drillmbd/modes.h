@@ -16,7 +16,7 @@ enum { DMB_MODES_UNDAMPED = 0, /* M d'' + K d = 0 */ DMB_MODES_DAMPED = 1 /* wit
 enum { DMB_MODES_LOWEST = 0, DMB_MODES_ALL = 1, DMB_MODES_BAND = 2 };
 /* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin
  * and |w - spin|), or axes that do not take part in turning about the part's own x axis: frequencies as they are seen
- * from outside. The latter is for what is round: what is eccentric is out of balance. */
+ * from outside. The latter is for round parts: eccentric ones are out of balance. */
 enum { DMB_MODES_AXES_TURNING = 0, DMB_MODES_AXES_AT_REST = 1 };
 typedef struct dmb_modes_options {
     uint32_t struct_size;
@@ -43,16 +43,16 @@ typedef struct dmb_modes_info {
     uint32_t count;       /* [-] modes found, by rising frequency */
     uint32_t rigid;       /* [-] of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor
                              supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues;
-                             each is told once, with s = 0 */
+                             each is reported once, with s = 0 */
     uint32_t coordinates; /* [-] independent coordinates of the linear system */
     int32_t dense;        /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
     uint32_t solves;      /* [-] with those factors */
     double residual_of_state; /* [-] relative residual of the state without its body-frame accelerations */
     double asymmetry;         /* [-] of K; above 1e-9 it is treated as unsymmetric (friction, follower loads) */
     double residual;          /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
-    uint32_t double_roots;    /* [-] roots that were told as the mean of two or more with one shape (critical damping,
-                                 the edge of flutter, straight motion seen in axes that spin): rounding parts those by
-                                 its root, and a residual does not show it */
+    uint32_t double_roots; /* [-] roots that were reported as the mean of two or more with one shape (critical damping,
+                              the edge of flutter, straight motion seen in axes that spin): rounding parts those by
+                              its root, and a residual does not show it */
     uint32_t reserved;
 } dmb_modes_info;
 DMB_SIZED_STRUCT(dmb_modes_info)
@@ -65,7 +65,7 @@ typedef struct dmb_mode {
     double eigenvalue[2]; /* [1/s] s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and
                              one that decays. Without damping, divergence (s, -s) is one mode, s > 0 */
     double kinetic;       /* [J] |s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg) */
-    double strain;        /* [J] in elements alike, elastic part */
+    double strain;        /* [J] of elements, elastic part */
     double share[3];      /* [-] of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in
                              their own axes; of a rigid mode at unit |s|; sum 1, shape (3) */
     double participation[3];  /* [kg^0.5] d^T M e for a base that moves along world x, y, z, shape (3) */
@@ -91,16 +91,16 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or
  * shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is
  * divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the
- * modes; of damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a
- * quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are
+ * modes; damped ones in the same way where their roots lie along the imaginary axis (K symmetric, no joints, less than
+ * a quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are
  * refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot
  * be distinguished from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). Of the
  * LOWEST modes those before the first such one are returned, and those before a crowd of roots that do not converge
  * (damped motions of more than 400 coordinates, near 1/(2 pi damping_time)): DMB_NOTE_INCOMPLETE. Joints whose
  * equations change in `axes` while the state moves on (a rotor on a carrier in axes that turn; rolling), and strings
  * that turn on the wall in axes that turn with them, are refused (_UNSUPPORTED): coefficients are not constant. So are
- * modes whose coefficients change by more than 1e-4 while parts turn, which the state turned on by a radian tells: in
- * axes that turn what holds them unlike across (springs, the sag of a shaft held along), in axes at rest what is not
+ * modes whose coefficients change by more than 1e-4 while parts turn, tested with the state rotated by a radian: in
+ * rotating axes anisotropic supports (springs, the sag of a shaft held along), in axes at rest parts that are not
  * round. *modes is NULL on error: DMB_ERR_VALUE (option; more modes than
  * coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR,
  * _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE, _UNSUPPORTED. */
@@ -108,12 +108,12 @@ DMB_API int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *option
 /* Gives the memory back and sets *modes to NULL. NULL-safe. */
 DMB_API void dmb_modes_destroy(dmb_modes **modes);
 DMB_API int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info);
-/* Mode number index. O(number of elements). Errors of this and what follows: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID,
- * _VALUE (index, place, frame), _NOT_FINITE. */
+/* Mode number index. O(number of elements). Errors of this and the following functions: DMB_ERR_NULL, _HANDLE,
+ * _STRUCT_SIZE, _ID, _VALUE (index, place, frame), _NOT_FINITE. */
 DMB_API int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode);
 /* Shape at a place, between nodes by the element's own shape functions. O(1). */
 DMB_API int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place, dmb_mode_shape *shape);
-/* [J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its
+/* [J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of the parts fixed to its
  * two ends, in a whole string (pipe = DMB_NONE), or in a body or bit (pipe 0). O(elements of it). */
 DMB_API int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint32_t pipe, double *kinetic,
                                double *strain);

@@ -1,5 +1,5 @@
-/* libdrillmbd - what is read off a running sim: named outputs beyond those of query.h, among them what a driller
- * reads; a moving window over outputs; profiles at a coarser rate. */
+/* libdrillmbd - outputs of a running sim: named numbers beyond those of query.h, among them the readings of a
+ * driller; a moving window over outputs; profiles at a coarser rate. */
 #ifndef DRILLMBD_OUTPUT_H
 #define DRILLMBD_OUTPUT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------
- * Numbers of dmb_output.quantity that go on from those of query.h. Where six follow each other, the number is the one
+ * Numbers of dmb_output.quantity that continue those of query.h. Where six follow each other, the number is the one
  * given plus DMB_X .. DMB_RZ. Each is the answer of the query it is named after. Numbers 500 .. 999 and from 3000 on
  * are kept free. A stretch of numbers may grow at its end. */
 enum {
@@ -30,9 +30,9 @@ enum {
     DMB_OUTPUT_WIND_UP = 110,    /* [rad] elastic, of the rig end against the far end: less the sum of the twist */
     DMB_OUTPUT_OFF_BOTTOM = 111, /* [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over
                                      a window is the off-bottom share */
-    DMB_OUTPUT_RIG_FORCE = 112,  /* [N] that support and drives pull the rig end with: hook load and what the end itself
-                                     takes, inertia, weight, friction; 0 where a joint holds it */
-    DMB_OUTPUT_RIG_TORQUE = 113, /* [N m] likewise, > 0 along the string's x axis */
+    DMB_OUTPUT_RIG_FORCE = 112,  /* [N] that support and drives pull the rig end with: hook load, and of the end itself
+                                     inertia, weight, friction; 0 where a joint holds it */
+    DMB_OUTPUT_RIG_TORQUE = 113, /* [N m] by support and drives, > 0 along the string's x axis */
 
     /* place.part a bit: dmb_query_bit */
     DMB_OUTPUT_BIT_ADVANCE = 120,      /* [m] */
@@ -122,7 +122,7 @@ enum {
     /* place.part an input: dmb_sim_get_input */
     DMB_OUTPUT_INPUT_PRESENT = 230, /* [unit of the input] in force now */
     DMB_OUTPUT_INPUT_RATE = 231,    /* [unit of the input/s] of that */
-    DMB_OUTPUT_INPUT_VALUE = 232,   /* [unit of the input] what is set */
+    DMB_OUTPUT_INPUT_VALUE = 232,   /* [unit of the input] set point */
 
     /* place.part a joint: dmb_query_joint; six each but for the last three */
     DMB_OUTPUT_JOINT_POSITION = 300,      /* [m, rad] */
@@ -157,7 +157,7 @@ enum {
 };
 
 /* [unit of the output] The present value. Errors: those of the query behind it, DMB_ERR_VALUE for an unknown quantity
- * or a multiplier that is not there, DMB_ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a
+ * or a multiplier that is not there, DMB_ERR_UNSUPPORTED for a string without the part it needs (a bit, a rock law, a
  * flexible first pipe) and for outputs of a window. */
 DMB_API int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *value);
 /* "bit_speed", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change. */
@@ -166,17 +166,17 @@ DMB_API const char *dmb_output_name(int32_t quantity, const char **unit);
 DMB_API int32_t dmb_output_quantity(const char *name, int32_t *quantity);
 /* All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last. */
 DMB_API int32_t dmb_output_next(int32_t quantity);
-/* Whether each output can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should
- * be. Errors: as dmb_query_output. */
+/* Whether this sim has each output; dmb_sim_message names the first that cannot, and a valid place.
+ * Errors: as dmb_query_output. */
 DMB_API int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count);
 
 /* ---- A window over outputs --------------------------------------------------------------------------------------
  * Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is
- * divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between
+ * divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between
  * samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows. */
 typedef struct dmb_window_options {
     uint32_t struct_size;
-    uint32_t slots;       /* [-] 2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default
+    uint32_t slots;       /* [-] 2 .. 65536; the window covers (slots - 1)/slots to all of `length`; default
                              100 */
     double length;        /* [s] >= 0; 0 (default): all since the first sample */
     const double *levels; /* [unit of the output] of low_share, shape (output_count), >= 0; NULL (default): 0 */
@@ -218,7 +218,7 @@ DMB_API void dmb_window_destroy(dmb_window **window);
 typedef struct dmb_profile_recorder {
     uint32_t struct_size;
     uint32_t reserved;
-    const dmb_profile *profile; /* what each row holds; its `values` and strides count for nothing. The caller's, kept
+    const dmb_profile *profile; /* quantities of a row; its `values` and strides are ignored. The caller's, kept
                                    alive by it and not changed once there is a row */
     double *table;      /* the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape
                            (capacity, 1 + station_count quantity_count) */

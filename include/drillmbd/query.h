@@ -26,7 +26,7 @@ typedef struct dmb_motion {
     uint32_t struct_size;
     int32_t frame;          /* in: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
     double velocity[6];     /* [m/s, rad/s] of the section's centre, in `frame`, shape (6) */
-    double acceleration[6]; /* [m/s2, rad/s2] likewise, shape (6); in the body frame the rate of velocity there */
+    double acceleration[6]; /* [m/s2, rad/s2] there, in `frame`, shape (6); BODY: rate of velocity in that frame */
 } dmb_motion;
 DMB_SIZED_STRUCT(dmb_motion)
 DMB_API int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion);
@@ -61,13 +61,13 @@ typedef struct dmb_contact {
     double normal_force; /* [N] on the wall, >= 0 */
     double approach;     /* [m/s] normal speed towards the wall */
     double friction[2];  /* [N] on the pipe: along its axis, along axis x normal; after a static start that assumed a
-                            slip (dmb_static_options) what its equilibrium took, until the next step; shape (2) */
+                            slip (dmb_static_options) that of the equilibrium, until the next step; shape (2) */
     double slip[2];      /* [m/s] of the contact point on the wall, same directions, shape (2) */
     double along;        /* [N] on the pipe along its axis where the wall's diameter or stiffness changes (hole.h) */
 } dmb_contact;
 DMB_SIZED_STRUCT(dmb_contact)
-/* Contact of contact point `number`, counted along the strings (rings before the pipe at their nodes), then the bodies,
- * then points along elements (contact_points), then axial-torsional pipes. */
+/* Contact of contact point `number`, counted along the strings (stabilisers before the pipe at their nodes), then the
+ * bodies, then points along elements (contact_points), then axial-torsional pipes. */
 DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact);
 typedef struct dmb_contact_total {
     uint32_t struct_size;
@@ -80,7 +80,7 @@ DMB_SIZED_STRUCT(dmb_contact_total)
 /* O(number of contact points). */
 DMB_API int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum);
 
-/* [J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body. */
+/* [J] kinetic energy of one pipe of a string with half of the parts fixed to its two ends, or of a body. */
 DMB_API int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy);
 
 typedef struct dmb_energy {
@@ -92,13 +92,13 @@ typedef struct dmb_energy {
     double contact;     /* [J] now, stored in the wall's stiffness */
     double drives;      /* [J] work put in by all drives since the start */
     double loads;       /* [J] work of described loads, the bottom-hole load, the caller's constraints that move */
-    double friction;    /* [J] taken by friction on the wall and in joints, what bristles store included */
-    double impact;      /* [J] dissipated by the damping of the normal law and of stops, and what dmb_sim_set_joint
-                           takes: impulses, springs let go less those taken up, so it may be negative */
+    double friction;    /* [J] taken by friction on the wall and in joints, energy stored in bristles included */
+    double impact;      /* [J] dissipated by the damping of the normal law and of stops, and by dmb_sim_set_joint:
+                           impulses, springs released less those engaged, so it may be negative */
     double damping;     /* [J] dissipated by material and external damping and dampers of joints */
     double rock;        /* [J] spent at the bit */
-    double scheme;      /* [J] taken out by the time integration: what its discrete inertia and potential forces did
-                           less what the energies changed */
+    double scheme;      /* [J] taken out by the time integration: work of its discrete inertia and potential forces
+                           less the change of the energies */
     double input;       /* [J] integral of the sum of each drive's |power| and of |power| of all loads */
     double balance;     /* [J] input and changes of energy that physics leaves open: scheme + unexplained */
     double unexplained; /* [J] balance - scheme: from unconverged iterations only */
@@ -132,13 +132,13 @@ typedef struct dmb_drive_state {
     double force;    /* [N, N m] that the drive exerts on the part, along the component */
     double power;    /* [W] */
     double work;     /* [J] since the start; 0 without the energy ledger */
-    double command;  /* [N, N m] what a LOAD or CONTROL drive asks for now; of MOTION its force */
-    double made; /* [N, N m] what has become of it by delay, rate and lag of its actuator, before its curve and drag */
+    double command;  /* [N, N m] commanded by a LOAD or CONTROL drive now; of MOTION its force */
+    double made;     /* [N, N m] command after delay, rate limit and lag of the actuator, before its curve and drag */
 } dmb_drive_state;
 DMB_SIZED_STRUCT(dmb_drive_state)
 DMB_API int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state);
-/* [N, N m] force and moment of the support and the motion drives on the rig end of a string or on a guided body, body
- * frame, shape (6); 0 in components that are free. */
+/* [N, N m] force and moment of the support and the motion drives on the rig end of a string or on a supported body,
+ * body frame, shape (6); 0 in components that are free. */
 DMB_API int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
 
 typedef struct dmb_joint_state {
@@ -147,7 +147,7 @@ typedef struct dmb_joint_state {
                                  of the joint; there is none for frame a: DMB_ERR_VALUE */
     int32_t state;            /* DMB_JOINT_... */
     uint32_t constraint_rows; /* [-] equations it holds now */
-    uint32_t redundant;       /* [-] of them dropped because others already hold what they hold */
+    uint32_t redundant;       /* [-] of them dropped because others already imply them */
     uint32_t reserved;
     double position[6];     /* [m, rad] coordinates, RX and RY counted over full turns, shape (6) */
     double speed[6];        /* [m/s, rad/s] their rates, shape (6) */
@@ -190,7 +190,7 @@ typedef struct dmb_statistics {
     double largest_residual;  /* [-] relative, of an accepted step */
     double projection[2];     /* [m/s, rad/s] largest correction of initial velocities, shape (2) */
     double assembly[2];       /* [m, rad] largest correction of the described pose when joints were closed, shape (2) */
-    uint64_t switches;        /* [-] times the independent coordinates of a cluster were chosen anew */
+    uint64_t switches;        /* [-] times the independent coordinates of a cluster were chosen again */
     uint32_t dependent;       /* [-] coordinates that constraints determine now */
     uint32_t redundant;       /* [-] equations that are dropped now */
     double violation;         /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
@@ -222,7 +222,7 @@ typedef struct dmb_hole_point {
     double damping;     /* [N s/m2] per metre of pipe */
     double mu_static;   /* [-] */
     double mu_dynamic;  /* [-] */
-    double strength;    /* [Pa] of a section; 0: not told */
+    double strength;    /* [Pa] of a section; 0: not given */
     int32_t section;    /* number of the last section that begins at or above the depth; -1: none */
     uint32_t reserved;
     char section_name[24]; /* of that section, ends with 0; "" without one */
@@ -253,9 +253,9 @@ typedef struct dmb_flow_state {
 } dmb_flow_state;
 DMB_SIZED_STRUCT(dmb_flow_state)
 /* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for
- * pressure_stretch of mud at rest. Kinetic heads, steps between diameters, bodies, bits and rings in the annulus and
- * the motion of the string are neglected. The annulus has the flow_eccentricity of the environment, wherever the string
- * lies. O(elements). */
+ * pressure_stretch of mud at rest. Kinetic heads, steps between diameters, bodies, bits and stabilisers in the annulus
+ * and the motion of the string are neglected. The annulus has the flow_eccentricity of the environment, wherever the
+ * string lies. O(elements). */
 DMB_API int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow);
 
 /* ---- Profiles: a string's state over its length ------------------------------------------------------------------
@@ -268,8 +268,8 @@ enum {
     DMB_PROFILE_DISTANCE = 0,            /* [m] along the string from its rig end */
     DMB_PROFILE_DEPTH = 1,               /* [m] measured depth; 0 without a hole */
     DMB_PROFILE_X = 2,                   /* [m] position, world frame */
-    DMB_PROFILE_Y = 3,                   /* [m] likewise */
-    DMB_PROFILE_Z = 4,                   /* [m] likewise */
+    DMB_PROFILE_Y = 3,                   /* [m] position, world frame */
+    DMB_PROFILE_Z = 4,                   /* [m] position, world frame */
     DMB_PROFILE_DEVIATION = 5,           /* [m] distance from the hole's axis */
     DMB_PROFILE_DEVIATION_SIDE = 6,      /* [m] its horizontal part, along z_world x tangent: left looking ahead */
     DMB_PROFILE_DEVIATION_UP = 7,        /* [m] its other part: towards the high side */
@@ -280,8 +280,8 @@ enum {
     DMB_PROFILE_SHEAR_FORCE = 12,        /* [N] magnitude */
     DMB_PROFILE_CURVATURE = 13,          /* [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints */
     DMB_PROFILE_NORMAL_FORCE = 14,       /* [N/m] of the wall on the string, >= 0; that of the nearest contact point */
-    DMB_PROFILE_FRICTION_AXIAL = 15,     /* [N/m] of the wall on the string along its axis, likewise */
-    DMB_PROFILE_FRICTION_AROUND = 16,    /* [N/m] likewise along axis x outward normal */
+    DMB_PROFILE_FRICTION_AXIAL = 15,     /* [N/m] of the wall on the string along its axis */
+    DMB_PROFILE_FRICTION_AROUND = 16,    /* [N/m] of the wall on the string along axis x outward normal */
     DMB_PROFILE_VON_MISES = 17,          /* [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I
                                             together, T r/J (one fluid at rest leaves shape and yield alone); with an
                                             inner_density or flow_rate the largest of both surfaces, hoop stress too */
@@ -289,7 +289,7 @@ enum {
     DMB_PROFILE_SINUSOIDAL_SHARE = 19,   /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without
                                             a hole, and in compression where neither weight nor curvature presses the
                                             pipe to the wall */
-    DMB_PROFILE_HELICAL_SHARE = 20,      /* [-] likewise of helical buckling */
+    DMB_PROFILE_HELICAL_SHARE = 20,      /* [-] compression over the helical buckling load */
     DMB_PROFILE_VELOCITY_AXIAL = 21,     /* [m/s] along the pipe's axis */
     DMB_PROFILE_VELOCITY_LATERAL = 22,   /* [m/s] across, magnitude */
     DMB_PROFILE_SPIN = 23,               /* [rad/s] about the pipe's axis */
@@ -297,12 +297,12 @@ enum {
     DMB_PROFILE_ACCELERATION_LATERAL = 25, /* [m/s2] across, magnitude */
     DMB_PROFILE_ROTATION = 26,             /* [rad] about the pipe's axis since time 0, unwrapped */
     DMB_PROFILE_DISPLACEMENT_X = 27,       /* [m] since time 0 as described, world frame */
-    DMB_PROFILE_DISPLACEMENT_Y = 28,       /* [m] likewise */
-    DMB_PROFILE_DISPLACEMENT_Z = 29,       /* [m] likewise */
+    DMB_PROFILE_DISPLACEMENT_Y = 28,       /* [m] since time 0 as described, world frame */
+    DMB_PROFILE_DISPLACEMENT_Z = 29,       /* [m] since time 0 as described, world frame */
     DMB_PROFILE_SHEAR_Y = 30,              /* [N] section frame, as dmb_query_section */
-    DMB_PROFILE_SHEAR_Z = 31,              /* [N] likewise */
-    DMB_PROFILE_MOMENT_Y = 32,             /* [N m] bending about y, likewise */
-    DMB_PROFILE_MOMENT_Z = 33,             /* [N m] likewise */
+    DMB_PROFILE_SHEAR_Z = 31,              /* [N] section frame, as dmb_query_section */
+    DMB_PROFILE_MOMENT_Y = 32,             /* [N m] bending about y, section frame */
+    DMB_PROFILE_MOMENT_Z = 33,             /* [N m] bending about z, section frame */
     DMB_PROFILE_GAP = 34,                  /* [m] of the nearest contact point to the wall, < 0 when penetrating; NaN
                                               without one */
     DMB_PROFILE_COUNT = 35
@@ -357,10 +357,10 @@ enum {
     DMB_OUTPUT_DRIVE_SPEED = 17,    /* [m/s, rad/s] place.part is a drive */
     DMB_OUTPUT_BIT_WEIGHT = 18,     /* [N] place.part is a bit, bottom-hole load included */
     DMB_OUTPUT_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
-    DMB_OUTPUT_COUNT = 20           /* of these; output.h goes on from number 100 */
+    DMB_OUTPUT_COUNT = 20           /* of these; output.h continues from number 100 */
 };
 /* Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a
- * pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells
+ * pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives
  * its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there. */
 typedef struct dmb_output {
     dmb_place place;  /* where the quantity is one of a place */
@@ -389,7 +389,7 @@ DMB_API int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char 
 /* VTK XML poly-data for ParaView: the strings as lines with fields (displacement, velocity, diameter, axial force,
  * torque, bending moment, normal force), `per_element` points an element (1 .. 64). DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path);
-/* The hole as a tube of `around` facets (3 .. 360) with a ring each `spacing` [m] from depth0 to depth1 [m]. */
+/* The hole as a tube of `around` facets (3 .. 360) with a circle each `spacing` [m] from depth0 to depth1 [m]. */
 DMB_API int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing,
                                    uint32_t around, const char *path);
 

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* ---- What shakes -------------------------------------------------------------------------------------------------
+/* ---- Excitation --------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
     DMB_EXCITATION_DRIVE = 0,     /* time function of the drive place.part [its unit]: speed of MOTION, force of LOAD,
@@ -22,11 +22,11 @@ enum {
                                 held across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
                                 factor, turning with the frequency about the axes of their pipes, from y to z, as they
                                 lie in the state at t = 0 */
-    DMB_EXCITATION_FRICTION = 6, /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal
-                               force in the state, along the hole (component DMB_X) or around it (DMB_RX) */
-    DMB_EXCITATION_SETTING = 7   /* the input place.part of control.h [its unit]: a set point, load factor or bit load;
-                               limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the
-                               scene: DMB_ERR_UNSUPPORTED; one that still changes is DMB_ERR_VALUE */
+    DMB_EXCITATION_FRICTION = 6,     /* [-] coefficient: every contact ring on the wall is rubbed by it times its normal
+                                   force in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_EXCITATION_SETTING = 7 /* the input place.part of control.h [its unit]: a set point, load factor or bit load;
+                             limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the
+                             scene: DMB_ERR_UNSUPPORTED; one that still changes is DMB_ERR_VALUE */
 };
 typedef struct dmb_excitation {
     uint32_t struct_size;
@@ -39,13 +39,13 @@ typedef struct dmb_excitation {
 } dmb_excitation;
 DMB_SIZED_STRUCT(dmb_excitation)
 
-/* ---- What is asked ----------------------------------------------------------------------------------------------- */
+/* ---- Response --------------------------------------------------------------------------------------------------- */
 enum {
     DMB_RESPONSE_DISPLACEMENT = 0,   /* [m, rad] of `place`, components along the axes of `frame` */
     DMB_RESPONSE_VELOCITY = 1,       /* [m/s, rad/s] its rate */
     DMB_RESPONSE_ACCELERATION = 2,   /* [m/s2, rad/s2] the rate of that */
     DMB_RESPONSE_SECTION_FORCE = 3,  /* [N, N m] as dmb_query_section, section frame */
-    DMB_RESPONSE_SECTION_STRAIN = 4, /* [-, rad/m] likewise */
+    DMB_RESPONSE_SECTION_STRAIN = 4, /* [-, rad/m] as dmb_query_section, section frame */
     DMB_RESPONSE_CONTACT = 5,  /* [N] at contact point number place.pipe: DMB_X, DMB_Y friction, 0 and 1 of dmb_contact
                                 (bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
     DMB_RESPONSE_DRIVE = 6,    /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
@@ -73,7 +73,7 @@ DMB_SIZED_STRUCT(dmb_response_output)
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
 /* Axes of small motions, of the frames of places, and so of frequencies: those of the parts, which turn with them, or
  * axes that do not take part in turning about the part's own x axis, as for modes (modes.h): frequencies as they are
- * seen from outside. The latter is for what is round; there an unbalance of a string that turns at W acts at W. */
+ * seen from outside. The latter is for round parts; there an unbalance of a string that turns at W acts at W. */
 enum { DMB_RESPONSE_AXES_TURNING = 0, DMB_RESPONSE_AXES_AT_REST = 1 };
 typedef struct dmb_response_options {
     uint32_t struct_size;
@@ -99,10 +99,10 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
 /* Transfer functions from every excitation to every output about the accepted state of a sim, which must be an
  * equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency. Of a state that
  * spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the
- * state, and section forces are told in axes that do not spin. Structural damping there is that of what does not turn.
- * DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or a
- * string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of straight
- * parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
+ * state, and section forces are given in axes that do not spin. Structural damping there is that of parts that do not
+ * turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or
+ * a string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of
+ * straight parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
  * (excitation_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
  * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
  * band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part
@@ -131,7 +131,7 @@ DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t exc
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
 
 /* ---- Stepped sine ------------------------------------------------------------------------------------------------
- * Response in time to what the scene's own time functions do at one frequency, where the linear one does not hold:
+ * Response in time to the scene's own time functions at one frequency, where the linear one does not hold:
  * contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a
  * HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next.
  * Calls on different sims share nothing and may run in parallel with the same bits. */
@@ -143,7 +143,7 @@ typedef struct dmb_stepped_sine_options {
     uint32_t windows;          /* [-] at most, 3 .. 1e6; default 500 */
     uint32_t harmonics;        /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
     uint32_t reserved;
-    double tolerance; /* [-] settled: what is still to come, by how the last windows differed, is below this part
+    double tolerance; /* [-] settled: the remaining change, extrapolated from the last windows, is below this part
                          of the largest harmonic of each output; default 1e-3 */
     double floor;     /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
 } dmb_stepped_sine_options;
@@ -181,7 +181,7 @@ typedef struct dmb_order {
     uint32_t struct_size;
     uint32_t reserved;
     double order;              /* [-] frequency over rotary speed, > 0; default 1 */
-    dmb_excitation excitation; /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
+    dmb_excitation excitation; /* with its amplitude; default: the scene's eccentric masses, as they are */
 } dmb_order;
 DMB_SIZED_STRUCT(dmb_order)
 
@@ -190,7 +190,7 @@ typedef struct dmb_speeds_report {
     uint32_t bands;         /* [-] that were found, those without room included */
     uint32_t silent_orders; /* [-] orders whose excitation moves no output at any speed */
     int32_t undamped;       /* 1: nothing damps, so that heights at resonances mean nothing */
-    int32_t truncated;      /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
+    int32_t truncated;      /* 1: a band continues below speed_low, 2: above speed_high, 3: both, 0: none */
     int32_t reserved;
 } dmb_speeds_report;
 DMB_SIZED_STRUCT(dmb_speeds_report)
@@ -225,20 +225,20 @@ typedef struct dmb_speed_band {
     double speed;      /* [rad/s] the worst in it */
     double severity;   /* [-] there */
     double frequency;  /* [Hz] of that order there */
-    int32_t truncated; /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
+    int32_t truncated; /* 1: continues below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
     int32_t reserved1; /* 0 */
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
 
 /* Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the
- * largest amplitude of an output over its limit, by the linear response at order times speed in axes at rest, where the
- * orders of what turns are counted, about the state as it turns; 1 is the limit even where all orders add up. limits:
- * [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first
- * says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found than there was room.
- * severity, shape (points), may be NULL: largest within half a step of the grid around each speed. DMB_NOTE_INCOMPLETE
- * (dmb_sim_message and the report tell): an order excites nothing, nothing damps, a band is truncated at an end of the
- * range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as dmb_analysis_response,
- * with nothing written. Cost: that of order_count responses. */
+ * largest amplitude of an output over its limit, by the linear response at order times speed in axes at rest, where
+ * orders are counted, about the rotating state; 1 is the limit even where all orders add up. limits:
+ * [unit of the output] > 0, shape (output_count). bands: *band_count on entry is the capacity, the struct_size of the
+ * first holds for all; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found. severity,
+ * shape (points), may be NULL: largest within half a step of the grid around each speed. DMB_NOTE_INCOMPLETE
+ * (dmb_sim_message and the report give the reason): an order excites nothing, nothing damps, a band is truncated at an
+ * end of the range, or as of dmb_analysis_response. Call it for a sim of each depth or state. Errors: as
+ * dmb_analysis_response, with nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_response_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,

@@ -23,16 +23,16 @@ typedef struct dmb_parameter {
                             Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in
                             rounding, of more the third power is felt */
     const dmb_sim *low;  /* only read, and only by dmb_sensitivity_create */
-    const dmb_sim *high; /* likewise */
+    const dmb_sim *high; /* as `low` */
     char name[24];       /* for messages, ends with 0; default "" */
 } dmb_parameter;
 DMB_SIZED_STRUCT(dmb_parameter)
 
 /* Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state.
- * parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds
+ * parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive the object, which holds
  * its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): DMB_ERR_NULL, _HANDLE,
  * _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs
- * that are not numbers, or an input (control.h) is on its way to what is set; _UNSUPPORTED: joints with
+ * that are not numbers, or an input (control.h) is changing towards its set point; _UNSUPPORTED: joints with
  * DMB_METHOD_MULTIPLIERS, actuators with a delay, time functions whose times differ; _TOO_LARGE: clusters that are
  * solved by sparse matrices; _NO_MEMORY. O(count * size of the state). */
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,

@@ -34,7 +34,7 @@ typedef void (*dmb_part_fn)(void *work, uint32_t index);
  * numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions,
  * constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A
  * part that is still running when it returns, or that runs twice at once, is the caller's error and not always found.
- * It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
+ * It is faster with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
 typedef int32_t (*dmb_parallel_fn)(void *context, uint32_t count, dmb_part_fn part, void *work);
 
 typedef struct dmb_sim_options {
@@ -74,12 +74,11 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 /* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
- * velocities did not fit the allowed motion, or joints were closed; dmb_sim_message tells by how much. To close joints,
- * rigid bodies are moved over any distance and rotation, then strings as rigid bodies within what their supports leave
- * free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why):
- * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be
- * closed, or only by more than assembly_energy); *sim is NULL then. The
- * sim holds the model until it is destroyed. O(number of elements). */
+ * velocities did not fit the allowed motion, or joints were closed; dmb_sim_message states by how much. To close
+ * joints, rigid bodies are moved over any distance and rotation, then strings as rigid bodies as far as their supports
+ * leave them free, and only then pipes are strained (assembly_energy). Errors (dmb_model_message says why): _ORDER,
+ * _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed, or only by more than
+ * assembly_energy); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
@@ -129,7 +128,7 @@ DMB_API int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uin
  * The errors of the steps add up over a run, to some thousand times the tolerance in 10 s; repeat the run with a tenth
  * of the tolerances to estimate the error at its end.
  * DMB_NOTE_TOLERANCE where a step of step_min was too long for them; before that DMB_NOTE_STOPPED after max_steps,
- * DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.
+ * DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time returns.
  */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function
@@ -138,36 +137,36 @@ DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *repo
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
- * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew.
- * That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of
- * an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a
- * coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves
- * cannot be locked. Errors, which change nothing: DMB_ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not
- * fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed
- * cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE. */
+ * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message states by how much), accelerations follow.
+ * That energy, and the energy stored in springs and stops that are released or engaged, goes to `impact`. Couplings and
+ * drives of an open joint do not act: a drive follows the coordinate and continues from where it is when the joint
+ * closes; a coupling keeps its offset, so a gear that has slipped meanwhile cannot close. A joint that a motion drive
+ * moves cannot be locked. Errors, which change nothing: DMB_ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings
+ * do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's
+ * speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE. */
 DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 
-/* Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its
- * strings, rods added or taken off; where the model describes its strings to begin, and what its time functions say
- * from now on, may differ. The head lets go, draws back and grips the new rig end: support, drives and bodies fixed to
- * the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are;
- * added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the
- * wall; dmb_analysis_static settles the string, but begins the ledger anew). Supports hold the new rig end where it is;
- * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message tells by how much.
- * Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what
- * pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses
- * the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. Random
- * numbers of pipes go by their place in the string counted from the rig, so they are drawn anew. Fails unless all else
- * is of the same kind and number: DMB_ERR_VALUE, with what differs; DMB_ERR_GEOMETRY: a joint that is not open does not
- * fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not
- * changed. O(number of elements). */
+/* Continues from the state of `from`, in a sim of another model: the same but for pipes more or fewer at the rig end of
+ * its strings, rods added or taken off; where the model describes its strings to begin, and its time functions from now
+ * on, may differ. The head releases the string, draws back and grips the new rig end: support, drives and bodies fixed
+ * to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they
+ * are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the
+ * wall; dmb_analysis_static settles the string, but restarts the ledger). Supports hold the new rig end where it is;
+ * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message states by how much.
+ * Time, statistics, drives, contacts, joints and cut rock continue. So does the energy ledger: energies change by those
+ * of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses
+ * the new model describes; revolutions continue, but for the difference about the axis in a hole that bends. Random
+ * numbers of pipes follow their place in the string counted from the rig, so they are drawn again. Fails unless all
+ * else is of the same kind and number: DMB_ERR_VALUE, with the difference; DMB_ERR_GEOMETRY: a joint that is not open
+ * does not fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is
+ * not changed. O(number of elements). */
 DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
  * same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused
- * (DMB_ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored
- * sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with
- * joints). */
+ * (DMB_ERR_VALUE, the message states field, value and bound); accepted bytes cannot lead a step out of bounds. Restored
+ * sims continue bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none
+ * with joints). */
 DMB_API int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size);
 DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
 DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);

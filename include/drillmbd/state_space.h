@@ -80,7 +80,7 @@ DMB_API int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_opt
                                          dmb_state_space **space);
 /* Sets *space to NULL. NULL-safe. */
 DMB_API void dmb_state_space_destroy(dmb_state_space **space);
-/* Errors of this and what follows: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE. */
+/* Errors of this and the following functions: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE. */
 DMB_API int32_t dmb_state_space_get_info(const dmb_state_space *space, dmb_state_space_info *info);
 
 enum {
@@ -98,7 +98,7 @@ enum {
 /* One of A, B, C, D, row by row. */
 DMB_API int32_t dmb_state_space_dense(const dmb_state_space *space, int32_t matrix, double *values);
 /* One of the sparse matrices as triplets, row by row, none twice. All three arrays NULL: *count is their length. Else
- * *count on entry is the room and on return what was written; too little is DMB_ERR_VALUE. */
+ * *count on entry is the capacity and on return the number written; too little is DMB_ERR_VALUE. */
 DMB_API int32_t dmb_state_space_sparse(const dmb_state_space *space, int32_t matrix, uint32_t *rows, uint32_t *columns,
                                        double *values, uint64_t *count);
 /* Shapes of the coordinates of A by rows, shape (coordinates, rows): unit motions of DMB_STATE_FULL, the basis of
@@ -116,11 +116,11 @@ enum {
     DMB_ARRAY_QUATERNION = 3,   /* [-] body to world, scalar first, shape (nodes, 4) */
     DMB_ARRAY_MULTIPLIER = 4,   /* [N, ...] of the rows of DMB_MATRIX_JACOBIAN: residual + J^T multiplier = 0 */
     DMB_ARRAY_RESIDUAL = 5 /* [N, N m] of the equations of motion without forces of constraint, at the present pose,
-                              speeds and accelerations, shape (rows): M v' + ... - f; what supports hold is left in
+                              speeds and accelerations, shape (rows): M v' + ... - f; rows of supports keep their
                               their rows */
 };
-/* values NULL: *count is the length of the array. Else *count on entry is the room (too little is DMB_ERR_VALUE) and on
- * return what was written. The sim takes a message for a failing residual (those of dmb_sim_step). */
+/* values NULL: *count is the length of the array. Else *count on entry is the capacity (too little is DMB_ERR_VALUE)
+ * and on return the number written. The sim takes a message for a failing residual (those of dmb_sim_step). */
 DMB_API int32_t dmb_analysis_array(dmb_sim *sim, int32_t array, double *values, uint64_t *count);
 
 enum { DMB_ROW_FREE = 0, DMB_ROW_HELD = 1, DMB_ROW_DRIVEN = 2 };

@@ -43,7 +43,7 @@ class Allocator(Sized):
     field_docs = {
         "context": ("", "handed to both functions"),
         "allocate": ("byte", "NULL on failure"),
-        "release": ("", "what allocate gave, same sizes"),
+        "release": ("", "a block of allocate, same sizes"),
     }
 
 
@@ -90,7 +90,7 @@ class EnvironmentDef(Sized):
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "inside, fluid_density is that outside then; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside pipes over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, stabilisers have that of what they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
+        "added_mass": ("-", "of the mud outside pipes over the displaced mass (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside moves, too, tool joints are spread over their pipe, stabilisers have that of the mud they displace beyond the pipe; bodies and bits have own fields. 0 (default): no inertia"),
         "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
         "consistency": ("Pa s", "K: shear stress = yield_stress + K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, Bingham's fluid with a yield_stress"),
@@ -249,7 +249,7 @@ class CompileOptions(Sized):
         ("reserved", c_int32),
     ]
     field_docs = {
-        "features": ("", "mask of FEATURE_...; what is left out is not there in the step; default FEATURE_ALL"),
+        "features": ("", "mask of FEATURE_...; others are not compiled; default FEATURE_ALL"),
         "pipe_kind": ("", "PIPE_... for every pipe, or -1 (default): as described"),
     }
 
@@ -395,7 +395,7 @@ class Motion(Sized):
     field_docs = {
         "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY"),
         "velocity": ("m/s, rad/s", "of the section's centre, in `frame`, shape (6)"),
-        "acceleration": ("m/s2, rad/s2", "likewise, shape (6); in the body frame the rate of velocity there"),
+        "acceleration": ("m/s2, rad/s2", "there, in `frame`, shape (6); BODY: rate of velocity in that frame"),
     }
 
 
@@ -494,11 +494,11 @@ class Energy(Sized):
         "contact": ("J", "now, stored in the wall's stiffness"),
         "drives": ("J", "work put in by all drives since the start"),
         "loads": ("J", "work of described loads, the bottom-hole load, the caller's constraints that move"),
-        "friction": ("J", "taken by friction on the wall and in joints, what bristles store included"),
-        "impact": ("J", "dissipated by the damping of the normal law and of stops, and what dmb_sim_set_joint takes: impulses, springs let go less those taken up, so it may be negative"),
+        "friction": ("J", "taken by friction on the wall and in joints, energy stored in bristles included"),
+        "impact": ("J", "dissipated by the damping of the normal law and of stops, and by dmb_sim_set_joint: impulses, springs released less those engaged, so it may be negative"),
         "damping": ("J", "dissipated by material and external damping and dampers of joints"),
         "rock": ("J", "spent at the bit"),
-        "scheme": ("J", "taken out by the time integration: what its discrete inertia and potential forces did less what the energies changed"),
+        "scheme": ("J", "taken out by the time integration: work of its discrete inertia and potential forces less the change of the energies"),
         "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads"),
         "balance": ("J", "input and changes of energy that physics leaves open: scheme + unexplained"),
         "unexplained": ("J", "balance - scheme: from unconverged iterations only"),
@@ -567,8 +567,8 @@ class DriveState(Sized):
         "force": ("N, N m", "that the drive exerts on the part, along the component"),
         "power": ("W", ""),
         "work": ("J", "since the start; 0 without the energy ledger"),
-        "command": ("N, N m", "what a LOAD or CONTROL drive asks for now; of MOTION its force"),
-        "made": ("N, N m", "what has become of it by delay, rate and lag of its actuator, before its curve and drag"),
+        "command": ("N, N m", "commanded by a LOAD or CONTROL drive now; of MOTION its force"),
+        "made": ("N, N m", "command after delay, rate limit and lag of the actuator, before its curve and drag"),
     }
 
 
@@ -606,7 +606,7 @@ class JointState(Sized):
         "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; there is none for frame a: ERR_VALUE"),
         "state": ("", "JOINT_..."),
         "constraint_rows": ("-", "equations it holds now"),
-        "redundant": ("-", "of them dropped because others already hold what they hold"),
+        "redundant": ("-", "of them dropped because others already imply them"),
         "position": ("m, rad", "coordinates, RX and RY counted over full turns, shape (6)"),
         "speed": ("m/s, rad/s", "their rates, shape (6)"),
         "acceleration": ("m/s2, rad/s2", "the rates of those, shape (6)"),
@@ -701,7 +701,7 @@ class Statistics(Sized):
         "largest_residual": ("-", "relative, of an accepted step"),
         "projection": ("m/s, rad/s", "largest correction of initial velocities, shape (2)"),
         "assembly": ("m, rad", "largest correction of the described pose when joints were closed, shape (2)"),
-        "switches": ("-", "times the independent coordinates of a cluster were chosen anew"),
+        "switches": ("-", "times the independent coordinates of a cluster were chosen again"),
         "dependent": ("-", "coordinates that constraints determine now"),
         "redundant": ("-", "equations that are dropped now"),
         "violation": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
@@ -768,7 +768,7 @@ class HolePoint(Sized):
         "damping": ("N s/m2", "per metre of pipe"),
         "mu_static": ("-", ""),
         "mu_dynamic": ("-", ""),
-        "strength": ("Pa", "of a section; 0: not told"),
+        "strength": ("Pa", "of a section; 0: not given"),
         "section": ("", "number of the last section that begins at or above the depth; -1: none"),
         "section_name": ("", "of that section, ends with 0; \"\" without one"),
     }
@@ -907,8 +907,8 @@ class StaticReport(Sized):
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
         "negative": ("-", "negative eigenvalues of the stiffness, by which the equilibrium is unstable. SYMMETRIC: exact for all eigenvalues that exceed 10 eps times the norm of the stiffness; -1: none is known to be negative and `unresolved` are of rounding size. UNSYMMETRIC: the real negative ones: all up to 400 coordinates, else all within reach of the symmetric part, or if there are any, those among the 108 nearest 0; -1: none was found, and others could not be excluded. Of a state that moves (`steady`): of the stiffness in its moving axes with centrifugal forces; gyroscopic ones may hold it, or damping not (dmb_analysis_modes)"),
-        "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
-        "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
+        "stiffness": ("", "STIFFNESS_...: the kind that was assessed"),
+        "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: kind of the state"),
         "free_spins": ("-", "rotations of strings about their own axes that nothing resists, strings that turn together counted once: every angle is an equilibrium, and the starting one is kept"),
         "unresolved": ("-", "eigenvalues of rounding size, whose signs the count does not resolve: motions that nothing resists, or a mesh too fine for double precision; SYMMETRIC only"),
         "resolution": ("N/m", "largest eigenvalue, rotations over the square of the mean element length, that may be of rounding size: 4 eps of the largest stiffness"),
@@ -953,15 +953,15 @@ class BucklingInfo(Sized):
     ]
     field_docs = {
         "count": ("-", "factors"),
-        "confirmed": ("-", "of them, the lowest: half the step length along the equilibria ends at the same first factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one linearisation to the other; the rest are extrapolations. The mesh is not halved: compare with one of twice the elements"),
-        "linearisations": ("-", "of states on the way, the present one included"),
-        "points": ("-", "equilibria found on the way"),
-        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; what flutters does so before (`flutter`)"),
+        "confirmed": ("-", "of them, the lowest: half the step length along the equilibria ends at the same first factor (1e-5 of it, of a dip 1e-3), others are the same or have not changed from one linearisation to the other; the others are extrapolations. The mesh is not halved: compare with one of twice the elements"),
+        "linearisations": ("-", "of states on the path, the present one included"),
+        "points": ("-", "equilibria found on the path"),
+        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; flutter comes before (`flutter`)"),
         "end": ("", "BUCKLING_..."),
         "flutter": ("", "FLUTTER_..."),
         "estimate": ("unit of the factor", "the lowest factor, from the present state alone; infinite: none"),
         "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about"),
-        "reached": ("unit of the factor", "last equilibrium on the way before the end"),
+        "reached": ("unit of the factor", "last equilibrium on the path before the end"),
         "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
         "flutter_root": ("1/s", "its root there, real and imaginary part, 0 without swinging, shape (2)"),
         "dip": ("-", "of BUCKLING_DIP: 1 - lowest eigenvalue over its largest value before; 1: a perfect string; below 0.92 it bends off gradually, and another mesh may give another minimum; 0: another end"),
@@ -1003,7 +1003,7 @@ class PathPoint(Sized):
         "stiffness": ("", "STIFFNESS_..."),
         "factor": ("unit of the factor", ""),
         "rate": ("unit of the factor/m", "of the factor along the path, < 0 where it falls"),
-        "arc": ("m", "length of the path so far, root of the mean square of what the nodes move"),
+        "arc": ("m", "length of the path so far, root of the mean square of the motion of the nodes"),
         "displacement": ("m", "of the watched place and component since time 0; 0: none is watched"),
     }
 
@@ -1147,7 +1147,7 @@ class CheckReport(Sized):
 
 
 class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
     struct_size: int
     slots: int
     length: float
@@ -1161,7 +1161,7 @@ class WindowOptions(Sized):
         ("levels", POINTER(c_double)),
     ]
     field_docs = {
-        "slots": ("-", "2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default 100"),
+        "slots": ("-", "2 .. 65536; the window covers (slots - 1)/slots to all of `length`; default 100"),
         "length": ("s", ">= 0; 0 (default): all since the first sample"),
         "levels": ("unit of the output", "of low_share, shape (output_count), >= 0; NULL (default): 0"),
     }
@@ -1225,9 +1225,9 @@ class InputState(Sized):
     ]
     field_docs = {
         "is_set": ("", "0: its time function is in force, since it was not set yet"),
-        "value": ("unit", "what is set; of a time function its value now"),
-        "present": ("unit, unit/s", "in force now, on the way to `value`"),
-        "rate": ("unit, unit/s", "in force now, on the way to `value`"),
+        "value": ("unit", "set point; of a time function its value now"),
+        "present": ("unit, unit/s", "in force now, changing towards `value`"),
+        "rate": ("unit, unit/s", "in force now, changing towards `value`"),
         "arrives": ("s", "time at which it is or was there; 0 of a time function"),
     }
 
@@ -1269,10 +1269,10 @@ class EventReport(Sized):
         ("located", c_double),
     ]
     field_docs = {
-        "count": ("-", "events told: those within the tolerance of the first count as at once with it"),
-        "events": ("-", "bit i: event number i in the order of description is told"),
+        "count": ("-", "events reported: those within the tolerance of the first count as simultaneous"),
+        "events": ("-", "bit i: event number i in the order of description is reported"),
         "time": ("s", "reached"),
-        "located": ("s", "at most so long after the crossing; 0 where none is told, and where a `hold` ends"),
+        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends"),
     }
 
 
@@ -1298,7 +1298,7 @@ class StuckState(Sized):
         "stuck": ("", "1: held"),
         "offset": ("m, m, m, rad", "from where it got stuck: along, sideways y and z, turned; 0 where it is not"),
         "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
-        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it lets go at 1"),
+        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it is released at 1"),
         "energy": ("J", "stored in the springs"),
     }
 
@@ -1340,7 +1340,7 @@ class Motor(MotorPart, Sized):
         "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
         "displacement": ("m3", "of mud a revolution, > 0"),
         "flow": ("m3/s", "through the motor, > 0"),
-        "pressure": ("Pa", "drop across it at stall, > 0 in the place of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
+        "pressure": ("Pa", "drop across it at stall, > 0 instead of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
         "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
         "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow"),
         "table_pressure": ("Pa", "of the table, > 0; 0 (default): pressure"),
@@ -1417,7 +1417,7 @@ class TorqueDragRow(Sized):
         ("wall_force", c_double),
     ]
     field_docs = {
-        "locked": ("", "1: compression grows beyond 1 % of EA on the way up: no push at the rig does this; hook load, torque and what is looked for along the string are NaN"),
+        "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load, torque and the values along the string are NaN"),
         "depth": ("m", "measured depth of the far end"),
         "hook_load": ("N", "effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes"),
         "torque": ("N m", "at the rig end, against friction and bit"),
@@ -1425,7 +1425,7 @@ class TorqueDragRow(Sized):
         "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
         "lowest_at": ("m", "measured depth where"),
         "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile; NaN where a compressed part is not pressed to the wall"),
-        "helical_share": ("-", "likewise of helical buckling"),
+        "helical_share": ("-", "the same of helical buckling"),
         "buckled_at": ("m", "measured depth where that is"),
         "helix_length": ("m", "of string above the load of helical buckling"),
         "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength"),
@@ -1560,7 +1560,7 @@ class FatigueResult(Sized):
         "cycles": ("-", "at that point, halves included"),
         "largest_range": ("Pa", "of them"),
         "lowest": ("Pa", "stress at that point, concentration included"),
-        "highest": ("Pa", "likewise"),
+        "highest": ("Pa", "highest stress there"),
         "time": ("s", "between the first and the last sample"),
         "life": ("s", "time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one"),
     }
@@ -1611,7 +1611,7 @@ class SpringState(Sized):
 
 
 class HoleSection(Sized):
-    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws and all other values are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
     struct_size: int
     shape: int
     depth: float
@@ -1650,8 +1650,8 @@ class HoleSection(Sized):
         "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1"),
         "mu_static": ("-", ">= mu_dynamic for STRIBECK and BRISTLE; default -1"),
         "mu_dynamic": ("-", ">= 0; default -1"),
-        "strength": ("Pa", "unconfined compressive strength of what the wall is made of, >= 0; told by dmb_query_hole, no force depends on it; default 0"),
-        "name": ("", "told by dmb_query_hole; default \"\""),
+        "strength": ("Pa", "unconfined compressive strength of the wall, >= 0; returned by dmb_query_hole, no force depends on it; default 0"),
+        "name": ("", "returned by dmb_query_hole; default \"\""),
     }
 
 
@@ -1729,14 +1729,14 @@ class ModesInfo(Sized):
     ]
     field_docs = {
         "count": ("-", "modes found, by rising frequency"),
-        "rigid": ("-", "of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues; each is told once, with s = 0"),
+        "rigid": ("-", "of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor supports nor any force hold, K d = 0. They are found as such, not as small eigenvalues; each is reported once, with s = 0"),
         "coordinates": ("-", "independent coordinates of the linear system"),
         "dense": ("", "1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors"),
         "solves": ("-", "with those factors"),
         "residual_of_state": ("-", "relative residual of the state without its body-frame accelerations"),
         "asymmetry": ("-", "of K; above 1e-9 it is treated as unsymmetric (friction, follower loads)"),
         "residual": ("-", "largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it"),
-        "double_roots": ("-", "roots that were told as the mean of two or more with one shape (critical damping, the edge of flutter, straight motion seen in axes that spin): rounding parts those by its root, and a residual does not show it"),
+        "double_roots": ("-", "roots that were reported as the mean of two or more with one shape (critical damping, the edge of flutter, straight motion seen in axes that spin): rounding parts those by its root, and a residual does not show it"),
     }
 
 
@@ -1776,7 +1776,7 @@ class Mode(Sized):
         "damping": ("-", "-Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one"),
         "eigenvalue": ("1/s", "s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and one that decays. Without damping, divergence (s, -s) is one mode, s > 0"),
         "kinetic": ("J", "|s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg)"),
-        "strain": ("J", "in elements alike, elastic part"),
+        "strain": ("J", "of elements, elastic part"),
         "share": ("-", "of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in their own axes; of a rigid mode at unit |s|; sum 1, shape (3)"),
         "participation": ("kg^0.5", "d^T M e for a base that moves along world x, y, z, shape (3)"),
         "effective_mass": ("kg", "their squares: sum over all modes = mass that is free to move, shape (3)"),
@@ -1860,7 +1860,7 @@ class ResponseOptions(Sized):
 
 
 class SteppedSineOptions(Sized):
-    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own time functions do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
+    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to the scene's own time functions at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC time function, a drive's speed), and transfer the state (dmb_sim_transfer_state) from one to the next. Calls on different sims share nothing and may run in parallel with the same bits."
     struct_size: int
     steps_per_period: int
     periods: int
@@ -1886,7 +1886,7 @@ class SteppedSineOptions(Sized):
         "periods": ("-", "of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited; default 4"),
         "windows": ("-", "at most, 3 .. 1e6; default 500"),
         "harmonics": ("-", "1 .. 16, at most an eighth of steps_per_period; default 3"),
-        "tolerance": ("-", "settled: what is still to come, by how the last windows differed, is below this part of the largest harmonic of each output; default 1e-3"),
+        "tolerance": ("-", "settled: the remaining change, extrapolated from the last windows, is below this part of the largest harmonic of each output; default 1e-3"),
         "floor": ("unit of the output", "changes of a harmonic below it count as none, > 0; default 1e-12"),
     }
 
@@ -1946,7 +1946,7 @@ class SpeedsReport(Sized):
         "bands": ("-", "that were found, those without room included"),
         "silent_orders": ("-", "orders whose excitation moves no output at any speed"),
         "undamped": ("", "1: nothing damps, so that heights at resonances mean nothing"),
-        "truncated": ("", "1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none"),
+        "truncated": ("", "1: a band continues below speed_low, 2: above speed_high, 3: both, 0: none"),
     }
 
 
@@ -1986,7 +1986,7 @@ class SpeedBand(Sized):
         "speed": ("rad/s", "the worst in it"),
         "severity": ("-", "there"),
         "frequency": ("Hz", "of that order there"),
-        "truncated": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
+        "truncated": ("", "1: continues below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
     }
 
 
@@ -2012,7 +2012,7 @@ class Parameter(Sized):
         "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
         "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
         "low": ("", "only read, and only by dmb_sensitivity_create"),
-        "high": ("", "likewise"),
+        "high": ("", "as `low`"),
         "name": ("", "for messages, ends with 0; default \"\""),
     }
 
@@ -2114,7 +2114,7 @@ LOG_FN.__doc__ = "Called with a line of text, never during a step. The text live
 
 
 TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
-TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; what `provides` does not announce is built by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
+TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
 
 
 PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
@@ -2372,11 +2372,11 @@ class BodyDef(Sized):
         "rotation": ("rad", "rotation vector of a free body; default 0, shape (3)"),
         "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0, shape (6)"),
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
-        "contact_diameter": ("m", "of the ring at the reference point that meets the wall; 0: none (default)"),
+        "contact_diameter": ("m", "of the contact ring at the reference point; 0: none (default)"),
         "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
-        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half of what it displaces; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
+        "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
     }
 
 
@@ -2455,12 +2455,12 @@ class BitDef(Sized):
         "blades": ("-", "1 .. 64; default 4"),
         "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
+        "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
-        "displaced_volume": ("m3", "likewise of a body"),
+        "displaced_volume": ("m3", "as of a body"),
         "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
         "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
-        "added_mass": ("kg", "likewise of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
+        "added_mass": ("kg", "as of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
     }
 
 
@@ -2544,9 +2544,9 @@ class DriveDef(DrivePart, Sized):
         "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
         "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
-        "gain_count": ("-", "points of a table of CONTROL in the place of `gain`, then 0: 0 (none) or 2 .. 16"),
+        "gain_count": ("-", "points of a table of CONTROL instead of `gain`, then 0: 0 (none) or 2 .. 16"),
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
-        "gain_force": ("N, N m", "in the place of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
+        "gain_force": ("N, N m", "instead of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
         "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
     }
 
@@ -2598,7 +2598,7 @@ class Contact(Sized):
         "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
         "normal_force": ("N", "on the wall, >= 0"),
         "approach": ("m/s", "normal speed towards the wall"),
-        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) what its equilibrium took, until the next step; shape (2)"),
+        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) that of the equilibrium, until the next step; shape (2)"),
         "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
         "along": ("N", "on the pipe along its axis where the wall's diameter or stiffness changes (hole.h)"),
     }
@@ -2675,7 +2675,7 @@ class BucklingOptions(Sized):
         "part": ("", "load or drive of SCALE_PART"),
         "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
         "tolerance": ("-", "relative, of the factors, 1e-15 .. 0.1; default 1e-10"),
-        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): what moves the string by a millionth of an element"),
+        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): moves the string by a millionth of an element"),
         "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
         "slip_rotation": ("rad/s", ""),
     }
@@ -2717,7 +2717,7 @@ class InputDef(Sized):
         "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "rate_limit": ("unit/s", "of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
-        "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then gets to what is set in the least time that both limits allow"),
+        "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then reaches the set point in the least time that both limits allow"),
         "outside": ("", "OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound"),
     }
 
@@ -2750,8 +2750,8 @@ class InputInfo(Sized):
     ]
     field_docs = {
         "target": ("", "TARGET_..."),
-        "input": ("", "its own id, and what it acts on"),
-        "part": ("", "its own id, and what it acts on"),
+        "input": ("", "its own id, and the part it acts on"),
+        "part": ("", "its own id, and the part it acts on"),
         "name": ("", "ends with 0"),
         "unit": ("", "\"rad/s\", \"-\", ... ends with 0"),
         "low": ("", "bounds in force: the narrower of its own and those of the target"),
@@ -2892,7 +2892,7 @@ class SpeedsOptions(Sized):
 
 
 class StabiliserDef(Sized):
-    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other ring at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
     struct_size: int
     pipe: int
     string: Id
@@ -2923,13 +2923,13 @@ class StabiliserDef(Sized):
         "pipe": ("-", "number along the string; default 0"),
         "string": ("", "{0, 0}: the model's first string"),
         "fraction": ("-", "0 .. 1 of the pipe's length: its middle; default 0.5"),
-        "outer_diameter": ("m", "that meets the wall, >= outer diameter of what it sits on, <= hole; default 0.09"),
+        "outer_diameter": ("m", "that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09"),
         "length": ("m", "> 0; default 0.3"),
         "mass": ("kg", "0 (default): of a hollow cylinder around the pipe, of `density`"),
         "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
         "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
         "name": ("", "for messages, ends with 0; default \"\""),
-        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of what it displaces beyond the pipe, its ends left out; shape (2)"),
+        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out; shape (2)"),
     }
 
 
@@ -2963,7 +2963,7 @@ class Row(Sized):
 
 
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
-PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It pays off with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
+PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It is faster with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
@@ -3078,7 +3078,7 @@ class SimOptions(Sized):
 
 
 class Output(Record):
-    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
+    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
     place: Place
     quantity: int
     reserved: int
@@ -3140,7 +3140,7 @@ class PathOptions(Sized):
         "max_iterations": ("-", "of one point, 2 .. 1000; default 15"),
         "scale": ("", "SCALE_..., default SCALE_LOADS"),
         "part": ("", "load or drive of SCALE_PART"),
-        "place": ("", "what is watched; part {0, 0} (default): nothing"),
+        "place": ("", "place that is watched; part {0, 0} (default): none"),
         "component": ("", "of its displacement in the world, X (default) .. Z"),
         "branch": ("", "1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays"),
         "factor_end": ("unit of the factor", "ends there; the path begins towards it; not 0; default 1"),
@@ -3177,7 +3177,7 @@ class ProfileRecorderStruct(Sized):
         ("interval", c_double),
     ]
     field_docs = {
-        "profile": ("", "what each row holds; its `values` and strides count for nothing. The caller's, kept alive by it and not changed once there is a row"),
+        "profile": ("", "quantities of a row; its `values` and strides are ignored. The caller's, kept alive by it and not changed once there is a row"),
         "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
         "capacity": ("-", "rows of table"),
         "row_count": ("-", "rows written; start with 0"),
@@ -3249,7 +3249,7 @@ class JointDef(Sized):
         "kind": ("", "JOINT_..., default JOINT_FIXED"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
-        "place_b": ("", "likewise, not the ground"),
+        "place_b": ("", "node, body or bit as place_a, not the ground"),
         "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
         "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
         "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
@@ -3345,7 +3345,7 @@ class StuckDef(Sized):
         "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
         "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
         "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
-        "overpull": ("N", "axial force, pull or push, at which it lets go, > 0; default 0: never"),
+        "overpull": ("N", "axial force, pull or push, at which it is released, > 0; default 0: never"),
         "overtorque": ("N m", "torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad"),
     }
 
@@ -3427,7 +3427,7 @@ class SpringDef(SpringPart, Sized):
         "damping": ("N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
         "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
         "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
-        "table_force": ("N", "shape (table_count); goes on along its last slopes; of a one-sided spring it must not fall; copied"),
+        "table_force": ("N", "shape (table_count); extended along its last slopes; of a one-sided spring it must not fall; copied"),
         "table_count": ("-", "0 (default): none; 2 .. 2^16"),
         "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points"),
     }
@@ -3588,9 +3588,9 @@ class EventDef(Sized):
     field_docs = {
         "direction": ("", "EVENT_..., default EVENT_RISING"),
         "name": ("", "required, of its own among the events, ends with 0"),
-        "output": ("", "as of a recorder; what the scene does not have dmb_sim_create refuses"),
+        "output": ("", "as of a recorder; dmb_sim_create fails if the scene does not have it"),
         "level": ("unit of the output", "default 0"),
-        "hold": ("s", "told when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
+        "hold": ("s", "reported when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
         "tolerance": ("s", "1e-12 .. 1, default 1e-9; no less than the rounding of time allows"),
     }
 
@@ -3643,7 +3643,7 @@ class Order(Sized):
     ]
     field_docs = {
         "order": ("-", "frequency over rotary speed, > 0; default 1"),
-        "excitation": ("", "what acts, with its amplitude; default: the scene's eccentric masses, as they are"),
+        "excitation": ("", "with its amplitude; default: the scene's eccentric masses, as they are"),
     }
 
 

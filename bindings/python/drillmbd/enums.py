@@ -257,7 +257,7 @@ class NormalLaw(IntEnum):
     HUNT_CROSSLEY: K d^n (1 + mu d'/v0), mu = 3(1-e)/2
     LANKARANI_NIKRAVESH: mu = 3(1-e^2)/4
     FLORES: mu = 8(1-e)/(5e)
-    EXACT: mu such that the restitution asked for is the one given
+    EXACT: mu such that the restitution is the one given
     IMPACT: K d^n + STEP(d; 0, 0, impact_depth, damping) d', never pulling
     """
     NONE = -1
@@ -433,8 +433,8 @@ class ProfileQuantity(IntEnum):
     DISTANCE: [m] along the string from its rig end
     DEPTH: [m] measured depth; 0 without a hole
     X: [m] position, world frame
-    Y: [m] likewise
-    Z: [m] likewise
+    Y: [m] position, world frame
+    Z: [m] position, world frame
     DEVIATION: [m] distance from the hole's axis
     DEVIATION_SIDE: [m] its horizontal part, along z_world x tangent: left looking ahead
     DEVIATION_UP: [m] its other part: towards the high side
@@ -445,12 +445,12 @@ class ProfileQuantity(IntEnum):
     SHEAR_FORCE: [N] magnitude
     CURVATURE: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
     NORMAL_FORCE: [N/m] of the wall on the string, >= 0; that of the nearest contact point
-    FRICTION_AXIAL: [N/m] of the wall on the string along its axis, likewise
-    FRICTION_AROUND: [N/m] likewise along axis x outward normal
+    FRICTION_AXIAL: [N/m] of the wall on the string along its axis
+    FRICTION_AROUND: [N/m] of the wall on the string along axis x outward normal
     VON_MISES: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
     YIELD_SHARE: [-] of `yield_strength`; NaN where the pipe has none
     SINUSOIDAL_SHARE: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole, and in compression where neither weight nor curvature presses the pipe to the wall
-    HELICAL_SHARE: [-] likewise of helical buckling
+    HELICAL_SHARE: [-] compression over the helical buckling load
     VELOCITY_AXIAL: [m/s] along the pipe's axis
     VELOCITY_LATERAL: [m/s] across, magnitude
     SPIN: [rad/s] about the pipe's axis
@@ -458,12 +458,12 @@ class ProfileQuantity(IntEnum):
     ACCELERATION_LATERAL: [m/s2] across, magnitude
     ROTATION: [rad] about the pipe's axis since time 0, unwrapped
     DISPLACEMENT_X: [m] since time 0 as described, world frame
-    DISPLACEMENT_Y: [m] likewise
-    DISPLACEMENT_Z: [m] likewise
+    DISPLACEMENT_Y: [m] since time 0 as described, world frame
+    DISPLACEMENT_Z: [m] since time 0 as described, world frame
     SHEAR_Y: [N] section frame, as dmb_query_section
-    SHEAR_Z: [N] likewise
-    MOMENT_Y: [N m] bending about y, likewise
-    MOMENT_Z: [N m] likewise
+    SHEAR_Z: [N] section frame, as dmb_query_section
+    MOMENT_Y: [N m] bending about y, section frame
+    MOMENT_Z: [N m] bending about z, section frame
     GAP: [m] of the nearest contact point to the wall, < 0 when penetrating; NaN without one
     """
     DISTANCE = 0
@@ -559,7 +559,7 @@ class Quantity(IntEnum):
     DRIVE_SPEED: [m/s, rad/s] place.part is a drive
     BIT_WEIGHT: [N] place.part is a bit, bottom-hole load included
     ENERGY_ERROR: [-] of the ledger; place is ignored
-    COUNT: of these; output.h goes on from number 100
+    COUNT: of these; output.h continues from number 100
     """
     DISPLACEMENT_X = 0
     DISPLACEMENT_Y = 1
@@ -611,7 +611,7 @@ class Steady(IntEnum):
     """Values DMB_STEADY_... of the headers.
 
     AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
-    AT_REST: all is at rest; only what motion drives move takes their speed
+    AT_REST: all is at rest; only components of motion drives have their speed
     SLIDING: axes at rest; strings slide along the hole and turn about their axis as drives say
     RIGID: all turns about one fixed axis like a rigid body, under centrifugal forces
     """
@@ -672,7 +672,7 @@ class BucklingEnd(IntEnum):
     """Values DMB_BUCKLING_... of the headers.
 
     EXTRAPOLATED: there was none: follow = 0, or nothing buckles about the present state
-    BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable
+    BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable
     LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
     STABLE: none: det K keeps its sign up to `reached`
     DIP: no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do
@@ -712,7 +712,7 @@ class PathKind(IntEnum):
     """Values DMB_PATH_... of the headers.
 
     LIMIT: the factor is at a maximum or minimum of the path
-    BIFURCATION: another path crosses: the stiffness is singular and the factor goes on
+    BIFURCATION: another path crosses: the stiffness is singular and the factor continues
     BRANCH: first point of the path that crossed
     """
     REGULAR = 0
@@ -730,9 +730,9 @@ PATH_BRANCH = PathKind.BRANCH
 class ContactState(IntEnum):
     """Values DMB_CONTACT_... of the headers.
 
-    AS_IS: rings that touch the wall press on it, others do not
-    OPEN: there is no wall; what it presses with in the state stays as a dead load
-    CLOSED: rings up to `contact_gap` from the wall are held across it too
+    AS_IS: contact rings that touch the wall press on it, others do not
+    OPEN: there is no wall; its forces in the state stay as dead loads
+    CLOSED: contact rings up to `contact_gap` from the wall are held across it too
     """
     AS_IS = 0
     OPEN = 1
@@ -759,8 +759,8 @@ class Reading(IntEnum):
     STRETCH: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
     WIND_UP: [rad] elastic, of the rig end against the far end: less the sum of the twist
     OFF_BOTTOM: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
-    RIG_FORCE: [N] that support and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
-    RIG_TORQUE: [N m] likewise, > 0 along the string's x axis
+    RIG_FORCE: [N] that support and drives pull the rig end with: hook load, and of the end itself inertia, weight, friction; 0 where a joint holds it
+    RIG_TORQUE: [N m] by support and drives, > 0 along the string's x axis
     BIT_ADVANCE: [m]
     BIT_BOTTOM: [m]
     BIT_DEPTH_OF_CUT: [m]
@@ -807,7 +807,7 @@ class Reading(IntEnum):
     SPRING_ENERGY: [J]
     INPUT_PRESENT: [unit of the input] in force now
     INPUT_RATE: [unit of the input/s] of that
-    INPUT_VALUE: [unit of the input] what is set
+    INPUT_VALUE: [unit of the input] set point
     JOINT_POSITION: [m, rad]
     JOINT_SPEED: [m/s, rad/s]
     JOINT_ACCELERATION: [m/s2, rad/s2]
@@ -1058,7 +1058,7 @@ OUTPUT_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 class InputTarget(IntEnum):
     """Values DMB_TARGET_... of the headers.
 
-    SET_POINT: of a drive, in the place of its time function; its excitation goes on
+    SET_POINT: of a drive, instead of its time function; its excitation continues
     INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
     LIMIT_HIGH: [N, N m] the first below the second
     BIT_LOAD: [-] of a load, [N] of a bit, replaces its time function
@@ -1066,7 +1066,7 @@ class InputTarget(IntEnum):
     AXIAL_DAMPING: [N s/m2]
     TORSIONAL_DAMPING: [N s]
     STUCK: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
-    COUNT: of the targets above, as programs know them that were built before there were more
+    COUNT: of the targets above, for programs that were built before others were added
     FLOW_RATE: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
     """
     SET_POINT = 0
@@ -1191,7 +1191,7 @@ JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
 class JointMode(IntEnum):
     """Values DMB_JOINT_... of the headers.
 
-    ACTIVE: holds what its kind says
+    ACTIVE: constrains as its kind says
     LOCKED: holds all six coordinates where they were when it was locked
     OPEN: holds nothing; its springs, dampers, stops and friction do not act
     """
@@ -1412,7 +1412,7 @@ class ExcitationKind(IntEnum):
     FORCE: [N, N m] `component` of a force or moment at `place`, in `frame`
     UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
-    FRICTION: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
+    FRICTION: [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
     SETTING: the input place.part of control.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
     """
     DRIVE = 0
@@ -1442,7 +1442,7 @@ class ResponseKind(IntEnum):
     VELOCITY: [m/s, rad/s] its rate
     ACCELERATION: [m/s2, rad/s2] the rate of that
     SECTION_FORCE: [N, N m] as dmb_query_section, section frame
-    SECTION_STRAIN: [-, rad/m] likewise
+    SECTION_STRAIN: [-, rad/m] as dmb_query_section, section frame
     CONTACT: [N] at contact point number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
     DRIVE: [N, N m] force of the drive place.part, as dmb_query_drive; no component
     REACTION: [N, N m] on the part place.part, as dmb_query_reaction
@@ -1571,7 +1571,7 @@ class Array(IntEnum):
     POSITION: [m] of the nodes, world, shape (nodes, 3)
     QUATERNION: [-] body to world, scalar first, shape (nodes, 4)
     MULTIPLIER: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
-    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what supports hold is left in their rows
+    RESIDUAL: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; rows of supports keep their their rows
     """
     VELOCITY = 0
     ACCELERATION = 1
