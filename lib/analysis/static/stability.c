@@ -1,5 +1,13 @@
-/* Whether a static state is stable; how far an iteration matrix of statics is from a symmetric one, and its symmetric
- * part. */
+/* Stability of a static state: criteria in their order. Each is tried only if the previous ones leave the result open.
+ *
+ *   symmetric K      signs of K (inertia of the factors), with unresolved eigenvalues if `thorough`
+ *   non-symmetric K  1. look_for_none: symmetric part H + rho D positive definite, then the same of W K with friction
+ *                       turned (stability_friction.c): no negative eigenvalue
+ *                    2. the 12, 36, 108 eigenvalues nearest 0, until their count is complete, or agrees with the sign
+ *                       of det K (`thorough`: for more than 36 only)
+ *                    3. `thorough` only: all eigenvalues, up to 400 coordinates; beyond, -1 if none was negative
+ *
+ * The functions also measure the asymmetry of an iteration matrix of statics and form its symmetric part. */
 #include "analysis/static/static.h"
 
 #include <math.h>
@@ -11,12 +19,12 @@
 #include "sim/access.h"
 #include "system/solve/solve.h"
 
-/* Part of the largest stiffness, rotations over the length scale, that counts as 0 of an unsymmetric one. */
+/* Fraction of the largest stiffness, rotations over the length scale, that counts as 0 for a non-symmetric one. */
 #define DMB_STIFFNESS_ROUNDING 1e-14
 
 /* ---- Symmetric part ---------------------------------------------------------------------------------------------- */
 
-/* U and L^T of shape (n, m) become their mean, and L its transpose. */
+/* Replaces U and L^T of shape (n, m) by their mean. */
 static void average_link(uint32_t n, uint32_t m, double *U, double *L)
 {
     for (uint32_t i = 0; i < n; i++)
@@ -54,7 +62,8 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values)
 
 /* ---- Asymmetry --------------------------------------------------------------------------------------------------- */
 
-/* Of entries ij of A, shape (n, m), and ji of B, shape (m, n); D: diagonal blocks of i and j. */
+/* Largest relative difference of entries ij of A, shape (n, m), and ji of B, shape (m, n); D: diagonal blocks of i and
+ * j. */
 static double worst_pair(uint32_t n, uint32_t m, const double *A, const double *B, const double *const D[2],
                          double rounding)
 {
@@ -115,8 +124,7 @@ double dmb_asymmetry_of(const dmb_sim *sim, double rounding)
     return worst;
 }
 
-/* ---- Iteration matrix raised by rho D ------------------------------------------------------------------------------
- */
+/* ---- Iteration matrix raised by rho D ---------------------------------------------------------------------------- */
 
 static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
 {
@@ -131,9 +139,9 @@ static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
     }
 }
 
-/* *none: 1 if K has no real eigenvalue below -rho, since H + rho D (friction_turned: that of W K, rho less by 1 -
- * |f|/2) has no negative one; 0: it has some, a block is singular before its turn, or no friction can be turned. The
- * blocks are used up. Errors: those of dmb_static_evaluate, DMB_ERR_NO_MEMORY. */
+/* *none: 1 if K has no real eigenvalue below -rho, since H + rho D (friction_turned: that of W K, rho reduced by 1 -
+ * |f|/2) has no negative one; 0: it has some, a block is singular during elimination, or no friction can be turned. The
+ * blocks are overwritten. Errors: those of dmb_static_evaluate, DMB_ERR_NO_MEMORY. */
 static int32_t look_at_symmetric_part(dmb_static_search *state, double rho, int friction_turned, int *none)
 {
     dmb_sim *sim = state->sim;
@@ -162,8 +170,7 @@ static int32_t look_at_symmetric_part(dmb_static_search *state, double rho, int 
     return DMB_OK;
 }
 
-/* ---- Real eigenvalues nearest 0 ------------------------------------------------------------------------------------
- */
+/* ---- Real eigenvalues nearest 0 ---------------------------------------------------------------------------------- */
 
 /* y = D x */
 static void metric(void *context, const double *x, double *y)
@@ -177,7 +184,7 @@ static void metric(void *context, const double *x, double *y)
     }
 }
 
-/* y = K^-1 D x by the factors at hand, which solve for -K^-1 */
+/* y = K^-1 D x by the present factors, which solve for -K^-1 */
 static void apply(void *context, const double *x, const double *Dx, double *y)
 {
     dmb_sim *sim = context;
@@ -186,7 +193,7 @@ static void apply(void *context, const double *x, const double *Dx, double *y)
     dmb_solve_for(sim, y, y);
 }
 
-/* A displacement that random forces give, so that it is one that supports and joints allow. */
+/* Random start vector: the displacement under random forces, so that supports and joints permit it. */
 static void draw(void *context, uint64_t *seed, double *x)
 {
     dmb_sim *sim = context;
@@ -212,7 +219,7 @@ static uint32_t coordinates_of(const dmb_sim *sim)
     return count - rank;
 }
 
-/* y = E x, E the displacements across the axis alone: twist and stretch of a long string are softer than it is across,
+/* y = E x, E the lateral displacements alone: twist and stretch of a long string are softer than its lateral stiffness,
  * and do not change with its load. */
 static void across(void *context, const double *x, double *y)
 {
@@ -236,10 +243,10 @@ static uint32_t coordinates_across(const dmb_sim *sim)
     return count < all ? count : all;
 }
 
-/* A search that begins with a guess. */
+/* Eigenvalue iteration with an initial guess. */
 typedef struct softest {
     dmb_sim *sim;
-    const double *guess; /* (rows) NULL: none, or it was drawn */
+    const double *guess; /* (rows) NULL: none, or already used */
 } softest;
 
 static void softest_apply(void *context, const double *x, const double *Ex, double *y)
@@ -254,7 +261,7 @@ static void softest_metric(void *context, const double *x, double *y)
     across(s->sim, x, y);
 }
 
-/* K^-1 E guess, so that supports and joints allow it, the first time; random motions after that. */
+/* First call: K^-1 E guess, so that supports and joints permit it; later calls: random displacements. */
 static void softest_draw(void *context, uint64_t *seed, double *x)
 {
     softest *s = context;
@@ -273,9 +280,10 @@ static int32_t softest_go_on(void *context)
     return dmb_progress_pulse(s->sim);
 }
 
-/* Values sought for the softest one: those beside it are close where a string lies in its hole. With a guess it is the
- * first that converges, and the random vector that the search then throws in finds one that has come to lie below it.
- * The error of a value is at most the square of the tolerance over its distance from the next one. */
+/* Number of eigenvalues computed for the softest one: neighbouring ones are close if a string lies in its hole. With a
+ * guess the first converged one is sufficient, and the random vector that the iteration then adds finds one that has
+ * become lower. The error of an eigenvalue is at most the square of the tolerance over its distance from the next
+ * one. */
 #define DMB_SOFTEST_WANTED 8
 #define DMB_SOFTEST_GUESSED 1
 #define DMB_SOFTEST_TOLERANCE 1e-5
@@ -304,10 +312,10 @@ int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *
     return DMB_OK;
 }
 
-/* A real double value is split by rounding into two, or into a pair this close to the real axis. */
+/* [-] Rounding splits a real double eigenvalue into two, or into a pair this close to the real axis. */
 #define DMB_REAL_PAIR 1e-5
 
-/* Negative ones among 1/value, those down to -rounding apart. */
+/* Number of real negative values among 1/value, without those within the rounding level. */
 static int32_t count_negative(const dmb_krylov *found, double rounding)
 {
     int32_t negative = 0;
@@ -319,10 +327,10 @@ static int32_t count_negative(const dmb_krylov *found, double rounding)
     return negative;
 }
 
-/* ---- Sign of the determinant ---------------------------------------------------------------------------------------
- */
+/* ---- Sign of the determinant ------------------------------------------------------------------------------------- */
 
-/* Exchanges of rows and negative pivots change the sign; factors have the reciprocal pivots on their diagonals. */
+/* 1: negative determinant. Row exchanges and negative pivots change the sign; factors have the reciprocal pivots on
+ * their diagonals. */
 static int is_negative(uint32_t n, const double *LU, int exchanged)
 {
     int odd = exchanged;
@@ -352,25 +360,24 @@ static int determinant_is_negative(const dmb_sim *sim)
     return odd ^ (scene->cluster_count ? (int)(dmb_reduced_sparse_rows(sim) & 1) : 0);
 }
 
-/* ---- Divergence ----------------------------------------------------------------------------------------------------
- */
+/* ---- Divergence -------------------------------------------------------------------------------------------------- */
 
 #define DMB_DIVERGENCE_FIRST 12
 #define DMB_DIVERGENCE_THOROUGH 36
 #define DMB_DIVERGENCE_MOST 108
-#define DMB_DIVERGENCE_ALL 400 /* coordinates of which all eigenvalues are found, if the nearest ones leave it open */
+#define DMB_DIVERGENCE_ALL 400 /* largest number of coordinates for which all eigenvalues are computed */
 #define DMB_DIVERGENCE_TOLERANCE 1e-8
 
 typedef struct search {
     dmb_static_search *state;
     double rounding;
     int32_t odd;  /* 1: det K < 0 */
-    int complete; /* 1: there are no other negative ones */
+    int complete; /* 1: no other negative eigenvalues exist */
     int32_t negative;
     uint32_t wanted, dimension;
 } search;
 
-/* Products that making vectors orthogonal may take, by the square of their number times their length. */
+/* Limit of products for the orthogonalisation, by the square of the number of vectors times their length. */
 #define DMB_DIVERGENCE_WORK 5e8
 #define DMB_DIVERGENCE_LEAST 48
 
@@ -379,14 +386,14 @@ static size_t most_vectors(uint32_t rows)
     return (size_t)fmax(DMB_DIVERGENCE_LEAST, sqrt(DMB_DIVERGENCE_WORK / rows));
 }
 
-/* Whether a symmetric part says that there is none below -rho; the factors are gone then. */
+/* *none 1: a symmetric part excludes eigenvalues below -rho. The factors are overwritten. */
 static int32_t look_for_none(dmb_static_search *state, double rho, int *none)
 {
     const int32_t status = look_at_symmetric_part(state, rho, 0, none);
     return status < 0 || *none ? status : look_at_symmetric_part(state, rho, 1, none);
 }
 
-/* The iteration matrix and its factors once more. */
+/* Restores the iteration matrix and its factors. */
 static int32_t factor_again(dmb_static_search *state)
 {
     dmb_block_weakest unused;
@@ -423,7 +430,7 @@ static int32_t look(search *s)
     return looked < 0 ? looked : factor_again(s->state);
 }
 
-/* All eigenvalues. */
+/* Computes all eigenvalues. */
 static int32_t look_at_all(search *s)
 {
     s->wanted = s->dimension;
@@ -460,10 +467,9 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
     return status;
 }
 
-/* ---- Judgement -----------------------------------------------------------------------------------------------------
- */
+/* ---- Assessment -------------------------------------------------------------------------------------------------- */
 
-/* The signs of a symmetric K, and its factors. */
+/* Signs of a symmetric K, and its factors. */
 static int32_t judge_symmetric(dmb_sim *sim, int thorough, dmb_block_weakest *weakest, int64_t *bad, dmb_stability *out)
 {
     dmb_signs signs;

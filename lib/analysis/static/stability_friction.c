@@ -6,15 +6,15 @@
 #include "base/memory.h"
 #include "system/assemble/assemble.h"
 
-/* |f| that is allowed. */
+/* Largest |f| for which the criterion applies. */
 #define DMB_FRICTION_MOST 1.8
 
 enum { ENTRIES = 18 };
 
-/* f n^T of each node, n in its translations; mean of its rings. */
+/* f n^T of each node, n in its translations; mean over its rings. */
 typedef struct friction_field {
     double *E;       /* shape (node, 6, 3) */
-    uint32_t *rings; /* of each node */
+    uint32_t *rings; /* number of rings of each node */
     double most;     /* largest |f| */
 } friction_field;
 
@@ -31,7 +31,7 @@ static void add_stabiliser(const dmb_evaluation *evaluation, uint32_t s, frictio
         for (int j = 0; j < 3; j++) E[3 * i + j] += f[i] * n[j];
 }
 
-/* Between rings in proportion, beyond the last ones as there. */
+/* Interpolates linearly between rings; constant beyond the first and last ring. */
 static void fill_chain(const dmb_chain *chain, friction_field *field)
 {
     const uint32_t end = chain->first + chain->count;
@@ -61,7 +61,7 @@ static void gather_rings(const dmb_evaluation *evaluation, friction_field *field
     for (uint32_t c = 0; c < scene->chain_count; c++) fill_chain(scene->chains + c, field);
 }
 
-/* A <- A - E A, A of 6 rows of the node; what is held keeps its rows, and has none to give. */
+/* A <- A - E A, A of 6 rows of the node; constrained rows are unchanged and contribute nothing. */
 static void turn_rows(const dmb_scene *scene, uint32_t node, const double *E, uint32_t columns, double *A)
 {
     const uint8_t *solved = scene->solved_row + scene->layout.row[node];

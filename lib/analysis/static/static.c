@@ -1,3 +1,20 @@
+/* Static analysis: strategies in their order. A strategy is tried only if the previous one failed with an error that
+ * is not final (no memory, callback, cancelled: the analysis ends at once).
+ *
+ *   find_state             1. the steady motion of the drives (steady_choice.c), or rest
+ *                          2. AUTO only: at rest with DMB_NOTE_NOT_STEADY, if 1 proves not to be steady
+ *   search_holding_spins   1. with unconstrained rotations constrained (static_spin.c)
+ *                          2. without, if their torques do not sum to 0 and a spring, stop or force may resist
+ *   search_equilibrium     1. search_by_newton
+ *                          2. search_through_friction, with friction: 1 and 3 without it, then growing friction
+ *                          3. search_further
+ *   search_by_newton       1. soft-string initial guess on soft walls, if elements are long in a curved hole
+ *                          2. Newton in the requested number of load steps (default 1)
+ *                          3. soft-string initial guess, if not done in 1 and the matrix of 2 was not singular
+ *   search_further         1. growing load steps with line search, unless the matrix was singular
+ *                          2. relaxation, with corrections limited 1, 3, 9, 27, 81 times more strictly
+ *   leave_unstable         up to 3 perturbed restarts of the relaxation, after an unstable state (of Newton: only if
+ *                          a part has rotated far) and after any relaxation with non-symmetric stiffness */
 #include "analysis/static/static.h"
 
 #include <string.h>
@@ -92,10 +109,10 @@ static int may_try_again(int32_t status)
     return status < 0 && !dmb_is_final(status);
 }
 
-/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. Between walls
- * they are short enough. */
+/* After divergence the relaxation restarts with corrections limited more strictly, but not for an unconstrained part.
+ * Between walls the corrections are already short enough. */
 #define DMB_CAUTION_MAX 100.0
-#define DMB_CAUTION_ENOUGH 10.0 /* where neither joints limit the way nor elements bend too far */
+#define DMB_CAUTION_ENOUGH 10.0 /* sufficient without joints and without excessive element rotation */
 
 static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
 {
@@ -110,8 +127,8 @@ static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
     return status;
 }
 
-/* The starting state is `now` again. Joints may have chosen their partition anew on the way, which goes back with it.
- */
+/* Restores the starting state as `now`. The iteration may have changed the partition of joints, which is restored
+ * too. */
 static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
 {
     dmb_sim *sim = search->sim;
@@ -121,8 +138,8 @@ static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
     return status < 0 ? status : dmb_static_evaluate(search);
 }
 
-/* 1: a string is pulled round a bend by elements too long for Newton from the low side of the hole; < 0: the caller
- * ends it. */
+/* 1: tension in a curved hole with elements too long for Newton from the low side of the hole; < 0: error that ends the
+ * analysis. */
 static int32_t is_pulled_coarsely(dmb_static_search *search)
 {
     dmb_static_pull pull;
@@ -131,8 +148,8 @@ static int32_t is_pulled_coarsely(dmb_static_search *search)
     return found > 0 ? pull.element > DMB_SHORT_ELEMENT * pull.bending : found;
 }
 
-/* Newton in the load steps asked for, or at once where they are the library's choice, and from where the pull in a bend
- * lays strings: before it where elements are long for that, else after it. */
+/* Newton in the requested load steps, or in one step by default, and from the soft-string initial guess: before it if
+ * elements are long for the tension, else after it. */
 static int32_t search_by_newton(dmb_static_search *search)
 {
     const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
@@ -145,8 +162,9 @@ static int32_t search_by_newton(dmb_static_search *search)
     return pulled >= 0 || dmb_is_final(pulled) ? pulled : status;
 }
 
-/* In steps that grow, then the relaxation, after Newton ended with `status`. A part that nothing holds in its starting
- * pose may yet fall onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
+/* Growing load steps, then the relaxation, after Newton ended with `status`. A part that is unconstrained in its
+ * starting pose may still fall onto the wall; therefore the relaxation follows a singular matrix directly. If it fails
+ * too, the part is unconstrained. */
 static int32_t search_further(dmb_static_search *search, int32_t status, int32_t *method)
 {
     const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
@@ -170,8 +188,8 @@ static int has_friction(const dmb_static_search *search)
            (search->steady != NULL || search->evaluation.slipping);
 }
 
-/* The equilibrium without friction, which then grows: friction moves rings round the hole by up to atan(mu), which at
- * once opens and closes contacts on a stiff wall in turn. */
+/* Equilibrium without friction, followed by growing friction. Friction moves rings around the hole by up to atan(mu);
+ * applied at once, it opens and closes contacts of a stiff wall in turn. */
 static int32_t search_through_friction(dmb_static_search *search, int32_t *method)
 {
     dmb_steady *steady = search->steady;
@@ -199,8 +217,8 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     return search_further(search, status, method);
 }
 
-/* Torques about axes that are held sum to 0, if need be after one more correction: the row left out adds its rounding.
- */
+/* Checks that the torques about constrained axes sum to 0, if necessary after one more correction: the omitted row adds
+ * its rounding. */
 static int32_t check_spins(dmb_static_search *search)
 {
     int32_t status = dmb_static_check_spins(search);
@@ -209,8 +227,8 @@ static int32_t check_spins(dmb_static_search *search)
     return status < 0 ? status : dmb_static_check_spins(search);
 }
 
-/* Rotations that nothing resists are held. If torques about them do not sum to 0, the string turns until a spring, stop
- * or force of the caller resists it; there is no equilibrium without one. */
+/* Equilibrium with unconstrained rotations constrained. If their torques do not sum to 0, the string rotates until a
+ * spring, stop or caller's force resists it; without one there is no equilibrium. */
 static int32_t search_holding_spins(dmb_static_search *search, int32_t *method)
 {
     int32_t status = dmb_static_begin(search);
@@ -241,19 +259,19 @@ static double largest_displacement(const dmb_sim *sim)
     return most;
 }
 
-/* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as
- * none. Relative residuals above this are those forces, not what rounding leaves of others. */
+/* An unconstrained part moves so far that rounding of its poses hides the force on it, which then counts as 0. Relative
+ * residuals above this bound are such forces, not rounding of other forces. */
 #define DMB_UNBALANCED 1e-3
-#define DMB_GONE_FAR 1e3   /* [-] lengths of the scene or of its elements */
+#define DMB_GONE_FAR 1e3   /* [-] multiples of the scene length or the length scale */
 #define DMB_TURNED_FAR 1e4 /* [rad] */
 
-/* Has a node gone much further than the scene is long, or turned for ever? */
+/* 1: a node has moved far beyond the length of the scene, or rotated without bound. */
 static int has_gone(const dmb_sim *sim, uint32_t *node)
 {
     const double far = DMB_GONE_FAR * fmax(sim->scene->length, sim->scene->length_scale);
     for (*node = 0; *node < sim->scene->node_count; ++*node) {
         if (displacement_of(sim, *node) > far) return 1;
-        const uint32_t size = sim->scene->layout.size[*node]; /* rotations are the upper half of its rows */
+        const uint32_t size = sim->scene->layout.size[*node]; /* rotations: second half of its rows */
         const double *turned = sim->increment + sim->scene->layout.row[*node] + size / 2;
         for (uint32_t c = 0; c < size / 2; c++)
             if (fabs(turned[c]) > DMB_TURNED_FAR) return 1;
@@ -278,8 +296,8 @@ static double largest_residual(const dmb_sim *sim)
     return most;
 }
 
-/* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces.
- * Reactions, drive forces and friction are those of the static state until the first step. */
+/* Keeps reactions, drive forces and friction of the static state until the first step: friction of an assumed slip
+ * vanishes with the velocities, therefore other forces balance the state at rest. */
 static int32_t keep_static_reactions(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -294,7 +312,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     return DMB_OK;
 }
 
-/* Velocities of the state: none, or those of the steady motion, with what contacts remember of it. */
+/* Velocities of the state: 0, or those of the steady motion, with the contact history of that motion. */
 static int32_t take_motion(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -316,8 +334,8 @@ static int32_t take_motion(dmb_static_search *search)
     return status;
 }
 
-/* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there.
- * Under bits that drill it is as they have left it. */
+/* Sets the rock ahead of the bit: at time 0 as the description defines it, because the forces of the restart require
+ * it. Bits that drill keep the rock they have cut. */
 static void lay_rock(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -328,7 +346,7 @@ static void lay_rock(dmb_static_search *search)
     }
 }
 
-/* An equilibrium in which a stuck place bears more than it can is none. */
+/* Refuses an equilibrium in which a stuck point carries more than its release force or torque. */
 static int32_t refuse_torn(const dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -346,7 +364,7 @@ static int32_t refuse_torn(const dmb_static_search *search)
     return DMB_OK;
 }
 
-/* The found pose becomes the state. */
+/* Accepts the solution as the state. */
 static int32_t settle(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -378,7 +396,7 @@ static void tell(const dmb_static_search *search, dmb_static_report *out)
     out->lateral_move = largest_displacement(search->sim);
 }
 
-/* The state just found, by its true tangent. */
+/* Stability of the equilibrium, by its true tangent. */
 static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_block_weakest weakest;
@@ -397,13 +415,13 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     return status;
 }
 
-/* The relaxation went downhill, but from a symmetric start it ends on a saddle, and next to a stiff compressed string
- * what is left of the residual is rounding. It begins anew a little aside of an unstable state, which it then leaves;
- * the unstable state is reported if it finds no other. */
+/* The relaxation descends, but from a symmetric start it ends on a saddle, and next to a stiff compressed string the
+ * remaining residual is rounding. It restarts from a slightly perturbed unstable state, which it then leaves; the
+ * unstable state is reported if no other is found. */
 #define DMB_LEAVING_TRIES 3
 
-/* Newton that turns a part this far from its start, to where it is unstable, has missed the equilibrium it was to find.
- */
+/* A Newton solution that rotates a part by more than this from its start to an unstable state has missed the intended
+ * equilibrium. */
 #define DMB_TURNED_TOO_FAR 0.3 /* [rad] */
 
 static int has_turned(const dmb_sim *sim)
@@ -415,7 +433,8 @@ static int has_turned(const dmb_sim *sim)
     return 0;
 }
 
-/* Of a stiffness that is not symmetric only the eigenvalues nearest 0 are counted: it is tried. */
+/* 1: a perturbed restart is useful. For a non-symmetric stiffness only the eigenvalues nearest 0 are counted, therefore
+ * it is always tried. */
 static int may_leave(const dmb_static_search *search, const dmb_static_report *out)
 {
     if (search->steady != NULL || search->evaluation.slipping) return 0;
@@ -458,7 +477,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
     int32_t status = refuse_loose(search, search_holding_spins(search, &out->method));
     if (status < 0) {
         dmb_static_explain(search, status);
-        dmb_state_restore(sim); /* the partition of joints may have changed on the way */
+        dmb_state_restore(sim); /* the partition of joints may have changed */
         return status;
     }
     status = judge_stability(search, out);
@@ -472,7 +491,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
     return settle(search);
 }
 
-/* In the steady state that drives and options ask for. */
+/* Solution in the steady state selected by drives and options. */
 static int32_t find_state(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_sim *sim = search->sim;
@@ -489,7 +508,7 @@ static int32_t find_state(dmb_static_search *search, dmb_static_report *out)
         status = find(search, out);
     }
     if (status == DMB_ERR_UNSUPPORTED && options->steady == DMB_STEADY_AUTO && search->steady != NULL) {
-        dmb_static_set_up(search, sim, options); /* found not to be steady */
+        dmb_static_set_up(search, sim, options); /* the motion proved not to be steady */
         status = find(search, out);
         chosen = DMB_NOTE_NOT_STEADY;
     }
@@ -523,7 +542,7 @@ static int32_t tell_unresolved(dmb_sim *sim, const dmb_static_report *out)
     return DMB_NOTE_INCOMPLETE;
 }
 
-/* Status of a state that was found. */
+/* Status and message of a solution by its stability. */
 static int32_t tell_stability(dmb_sim *sim, const dmb_static_report *out)
 {
     if (out->steady != DMB_STEADY_AT_REST || out->negative == 0) return DMB_OK;

@@ -1,4 +1,4 @@
-/* States at rest and in steady motion: their equations, the search for them, and whether they are stable. */
+/* Steady states (static equilibria and relative equilibria): equations, nonlinear solution, and stability. */
 #ifndef DMB_ANALYSIS_STATIC_STATIC_H
 #define DMB_ANALYSIS_STATIC_STATIC_H
 
@@ -9,92 +9,93 @@
 
 /* ---- Steady states ----------------------------------------------------------------------------------------------- */
 
-/* Steady states of scenes whose motion drives move: relative equilibria, in which every node keeps its body-frame
+/* Steady states of scenes with moving motion drives: relative equilibria, in which every node keeps its body-frame
  * velocity.
  *
- * SLIDING, the axes at rest: a node of a string moves by v along the hole (without a hole along its own axis) and turns
+ * SLIDING, inertial axes: a node of a string moves by v along the hole (without a hole along its own axis) and rotates
  * by Omega about its own axis. With t the tangent of the hole, k its curvature vector, R the node's rotation and ad as
  * in math/mat6.h,
  *
  *     V = (R^T v t; R^T (v t x k) + Omega e_x) = g + w,   w = (0; Omega e_x)        V' = -ad(w) g (eq:sliding.motion)
  *
- * which no force feels the turn of as long as all that turns is round (Sonneville et al. 2014 for the residual; a
- * string on a hole is the relative equilibrium of Simo, Lewis, Marsden 1991 with the material symmetry as its group).
- * RIGID: all turns about a fixed axis, and may move along it, like one rigid body with the world twist X = (vo; omega):
+ * No force depends on the rotation angle if all rotating parts are axisymmetric (Sonneville et al. 2014 for the
+ * residual; a string on a hole is the relative equilibrium of Simo, Lewis, Marsden 1991 with the material symmetry as
+ * its group). RIGID: the whole scene rotates about a fixed axis, and may move along it, like one rigid body with the
+ * world twist X = (vo; omega):
  *
  *     V = Ad(H^-1) X = g                V' = 0
  *
- * The equations of statics are those of motion with these V and V', so that the centrifugal force -ad(V)^T M V,
- * friction by the slip that there is, damping, drag and cutting of rock act. Under d, H = H0 exp(d), V changes by ad(g)
- * d, so the tangent is (eq:sliding.tangent)
+ * The equations of statics are those of motion with these V and V'. They include the centrifugal force -ad(V)^T M V,
+ * friction at the actual slip, damping, drag and rock cutting. Under d, H = H0 exp(d), V changes by ad(g) d, so the
+ * tangent is (eq:sliding.tangent)
  *
- *     K = dr/dH + (dr/dV) ad(g)          (RIGID: exact; SLIDING: without the change of V', of the order M v Omega)  */
+ *     K = dr/dH + (dr/dV) ad(g)          (RIGID: exact; SLIDING: without the change of V', of the order M v Omega) */
 
 typedef struct dmb_steady {
     int32_t kind; /* DMB_STEADY_AT_REST, _SLIDING, _RIGID */
     int32_t reserved;
     double twist[6];           /* [m/s, rad/s] RIGID: X; world axes, velocity of the world's origin */
     double *speed;             /* [m/s, rad/s] SLIDING: v and Omega of each string, shape (string_count, 2) */
-    uint32_t *string;          /* of each node; DMB_NONE: of a body, shape (node_count) */
+    uint32_t *string;          /* string of each node, shape (node_count); DMB_NONE: node of a body */
     double *frame_velocity;    /* g, shape (rows) */
-    double *before;            /* velocities before joints, shape (rows) */
-    double violation;          /* [-] what joints change of the given speeds, over the largest */
-    double *increment;         /* the sum of moves, while poses are taken as they are, shape (rows) */
+    double *before;            /* velocities before projection on the joints, shape (rows) */
+    double violation;          /* [-] largest change of the prescribed velocities by the joints, relative */
+    double *increment;         /* copy of the sim's increment during an evaluation, shape (rows) */
     dmb_linear_matrix damping; /* dr/dV */
     dmb_allocator allocator;
     void *block;
     size_t block_size;
 } dmb_steady;
 
-/* The steady state that `wanted` (DMB_STEADY_...) and the motion drives at the sim's present time ask for. assumed: the
- * caller assumes a slip. Where AUTO finds none, it is AT_REST, with DMB_NOTE_NOT_STEADY and a message if drives move
- * all the same. DMB_ERR_UNSUPPORTED, _VALUE with a message; _CALLBACK, _NO_MEMORY. dmb_steady_release gives memory
- * back. */
+/* Steady state selected by `wanted` (DMB_STEADY_...) and by the motion drives at the sim's present time. assumed: the
+ * caller assumes a slip. If AUTO finds no steady motion, the state is AT_REST; if drives move nevertheless, the result
+ * is DMB_NOTE_NOT_STEADY with a message. DMB_ERR_UNSUPPORTED, _VALUE with a message; _CALLBACK, _NO_MEMORY.
+ * dmb_steady_release frees the memory. */
 int32_t dmb_steady_choose(dmb_sim *sim, int32_t wanted, int assumed, dmb_steady *out);
 void dmb_steady_release(dmb_steady *steady);
 
-/* Velocities and accelerations of the trial's nodes, for its poses; RIGID: `factor` times as fast. Bodies that slide
- * with strings, as joints let them. DMB_ERR_CALLBACK, and those of dmb_clusters_settle. */
+/* Velocities [m/s, rad/s] and accelerations of the trial's nodes in body frames, for the trial's poses; RIGID: scaled
+ * by `factor`. Velocities of bodies that slide with strings follow from the joints. DMB_ERR_CALLBACK, and errors of
+ * dmb_clusters_settle. */
 int32_t dmb_steady_move(dmb_steady *steady, dmb_evaluation *evaluation, double factor);
-/* Residual and, if asked for, tangent by poses of the trial in its steady motion, as dmb_system_evaluate leaves them.
- */
+/* Residual and, on request, tangent by poses of the trial in its steady motion, stored as by dmb_system_evaluate. */
 int32_t dmb_steady_evaluate(dmb_steady *steady, dmb_evaluation *evaluation);
-/* DMB_ERR_UNSUPPORTED with a message where a spring of a joint changes its length in the motion of the trial. */
+/* DMB_ERR_UNSUPPORTED with a message if the length of a joint spring changes in the motion of the trial. */
 int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation);
-/* DMB_ERR_UNSUPPORTED with a message of `who` in `sim` where `work`, a copy of it, is in the steady motion of its
- * drives: what judges a stiffness at rest does not judge that one. The trial of `work` is room. Else DMB_OK, or
- * _CALLBACK, _NO_MEMORY. */
+/* DMB_ERR_UNSUPPORTED with a message of `who` in `sim` if `work`, a copy of it, is in the steady motion of its drives:
+ * stability criteria for a state at rest do not apply to a moving state. The trial of `work` is workspace. Else DMB_OK,
+ * or _CALLBACK, _NO_MEMORY. */
 int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who);
 
-/* Functions shared by the files of steady states. */
+/* Functions shared by the source files of steady states. */
 
-/* [-] Directions and speeds that differ by no more than this are one. */
+/* [-] Relative difference below which two directions or speeds count as equal. */
 #define DMB_STEADY_SAME 1e-9
 
 #define DMB_STEADY_REFUSE(sim, ...) (dmb_message_set(&(sim)->message, "static: " __VA_ARGS__), DMB_ERR_UNSUPPORTED)
 
-/* Speed that a motion drive prescribes; the trial holds those of the present time (dmb_system_prescribe). */
+/* Speed prescribed by a motion drive [m/s or rad/s] at the present time, from the trial (dmb_system_prescribe). */
 static inline double dmb_steady_target(const dmb_sim *sim, uint32_t drive)
 {
     return sim->trial.drive_target[drive];
 }
 
-/* Speeds of the strings, from the drives. DMB_ERR_UNSUPPORTED with a message, DMB_ERR_NO_MEMORY. */
+/* Speeds of the strings, from the drives. Errors: DMB_ERR_UNSUPPORTED with a message, DMB_ERR_NO_MEMORY. */
 int32_t dmb_steady_choose_sliding(dmb_sim *sim, dmb_steady *steady);
-/* Joints and the accepted state's poses allow the velocities; or DMB_ERR_UNSUPPORTED with a message. */
+/* Checks that joints and the accepted state's poses permit the velocities; else DMB_ERR_UNSUPPORTED with a message. */
 int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation);
 
-/* ---- The search -------------------------------------------------------------------------------------------------- */
+/* ---- Nonlinear solution ------------------------------------------------------------------------------------------ */
 
-/* Iterations towards equilibrium, on the trial configuration. */
+/* Iteration towards equilibrium, on the trial configuration. */
 
-/* A rotation of a string about its own axis that nothing resists (static_spin.c). */
-#define DMB_STATIC_SPINS 8 /* strings beyond these are not looked at */
+/* An unconstrained rotation of a string about its own axis (static_spin.c). */
+#define DMB_STATIC_SPINS 8 /* largest number of strings examined */
 typedef struct dmb_static_spin {
-    uint32_t node; /* whose rotation about its axis is held */
+    uint32_t node; /* node whose rotation about its axis is constrained */
     uint32_t reserved;
-    double stiffness; /* [N m] added to the tangent there */
-    double torque;    /* [N m] of the last evaluation in that row: the unbalanced torque about the axis */
+    double stiffness; /* [N m] added to the tangent in that row */
+    double torque;    /* [N m] unbalanced torque about the axis: residual of that row in the last evaluation */
 } dmb_static_spin;
 
 typedef struct dmb_static_search {
@@ -102,80 +103,81 @@ typedef struct dmb_static_search {
     const dmb_static_options *options;
     dmb_evaluation evaluation;
     dmb_steady *steady;  /* NULL: at rest */
-    uint32_t iterations; /* in all */
-    uint32_t load_steps; /* of the last try */
-    uint32_t cuts;       /* load steps that were cut */
+    uint32_t iterations; /* total */
+    uint32_t load_steps; /* of the last attempt */
+    uint32_t cuts;       /* number of halved load steps */
     uint32_t line_searches;
-    int32_t searching; /* 1: corrections that overshoot are shortened */
-    int32_t winding;   /* 1: pipes spin about their axes of before, in a hole */
-    int32_t rolling;   /* 1: rings that touch go round the wall, where pipes turn and so climb it */
+    int32_t searching; /* 1: line search after corrections that overshoot */
+    int32_t winding;   /* 1: pipes in a hole rotate about their axes before the move (eq:static.move) */
+    int32_t rolling;   /* 1: rings in contact roll around the wall, as rotating pipes climb it */
     uint32_t block;    /* block found singular */
-    int32_t loose;     /* 1: nothing seems to hold loose_block in the starting pose */
+    int32_t loose;     /* 1: loose_block seems unconstrained in the starting pose */
     uint32_t loose_block;
     double residual;      /* [-] relative, last */
-    double moved;         /* [-] largest correction before it, in length scales */
-    double moved_before;  /* [-] the one before that */
-    uint32_t at_rounding; /* iterations in a row whose residual is of rounding size */
+    double moved;         /* [-] largest component of the last correction, in length scales */
+    double moved_before;  /* [-] the same of the correction before the last */
+    uint32_t at_rounding; /* consecutive iterations whose residual is at the rounding level */
     uint32_t reserved;
-    double caution;      /* [-] the relaxation's corrections are this much shorter */
-    double edge;         /* [-] 1 - cos RZ, largest on the way of joints whose RX and RY are needed; 0: of none */
-    uint32_t edge_joint; /* which one it was */
-    uint32_t spin_count; /* rotations held in evaluations */
-    uint32_t unbalanced; /* number of the spin whose torques do not sum to 0; DMB_NONE: none */
+    double caution;      /* [-] divisor of the correction size in the relaxation */
+    double edge;         /* [-] 1 - cos RZ, largest so far of joints whose RX and RY are needed; 0: none */
+    uint32_t edge_joint; /* index of that joint */
+    uint32_t spin_count; /* number of constrained rotations in evaluations */
+    uint32_t unbalanced; /* index of the spin whose torques do not sum to 0; DMB_NONE: none */
     dmb_static_spin spins[DMB_STATIC_SPINS];
 } dmb_static_search;
 
-/* At the sim's present time, without friction; options may be NULL where nothing iterates. */
+/* Initialises at the sim's present time, without friction; options may be NULL if no iteration follows. */
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options);
-/* Friction acts as at these speeds, both 0: not at all. */
+/* Slip speeds [m/s, rad/s] that friction assumes; both 0: no friction. */
 void dmb_static_slip(dmb_static_search *search, double axial, double rotation);
 
-/* Residual and tangent of the trial at rest, or in its steady motion. */
+/* Residual and tangent of the trial, at rest or in its steady motion. */
 int32_t dmb_static_evaluate(dmb_static_search *search);
 
-/* Finds the rotations of strings that nothing resists at the trial, which evaluations hold from now on. Errors as
+/* Finds the unconstrained rotations of strings at the trial; later evaluations constrain them. Errors as
  * dmb_static_evaluate. */
 int32_t dmb_static_find_spins(dmb_static_search *search);
 /* In an evaluation: stiffness and residual of the nodes that are held. In a correction: the rotation of whole strings
  * is taken out. */
 void dmb_static_apply_spins(dmb_static_search *search);
 void dmb_static_correct_spins(dmb_static_search *search);
-/* DMB_OK if torques about the axes that are held sum to 0; DMB_ERR_SINGULAR with `unbalanced` and `block`; errors as
+/* DMB_OK if the torques about the constrained axes sum to 0; DMB_ERR_SINGULAR with `unbalanced` and `block`; errors as
  * dmb_static_evaluate. */
 int32_t dmb_static_check_spins(dmb_static_search *search);
-/* 1: a part that turns or moves far may meet a spring, stop or force of the caller. */
+/* 1: a far rotation or displacement may engage a spring, a stop or a caller's force. */
 int dmb_static_may_be_caught(const dmb_scene *scene);
 
 typedef int32_t (*dmb_static_method)(dmb_static_search *search);
 
-/* Trial at the starting pose, drives and loads at their present values. */
+/* Sets the trial to the starting pose, with drives and loads at their present values. */
 int32_t dmb_static_begin(dmb_static_search *search);
-/* From the start to the whole load in equal steps, or in steps that are halved and doubled, with the line search. The
- * latter keeps the step reached as `now`, whose accepted state has to be in the backup. */
+/* From the starting pose to the full load in equal steps, or in steps that are halved and doubled, with the line
+ * search. The latter stores the reached step in `now`; the caller must have backed up its accepted state. */
 int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps);
 int32_t dmb_static_growing_steps(dmb_static_search *search);
-/* From the trial, which is in equilibrium without the friction of rings, to all of it in such steps. */
+/* From the trial, which is in equilibrium without ring friction, to full friction in halved and doubled steps. */
 int32_t dmb_static_growing_friction(dmb_static_search *search);
-/* Poses of the trial onto the joints, with a partition that suits the place. */
+/* Projects the poses of the trial onto the joints and ensures a well-conditioned partition there. */
 int32_t dmb_static_settle(dmb_static_search *search);
-/* Displaces the trial to the low side of the hole, where there is gravity and a wall. */
+/* Displaces the trial to the low side of the hole if the scene has gravity and a wall. */
 void dmb_static_lay_on_wall(dmb_sim *sim);
-/* The largest pull in a string whose hole bends. */
+/* Largest tension of a string in a curved hole. */
 typedef struct dmb_static_pull {
     double tension; /* [N] */
-    double bending; /* [m] sqrt(EI/T): over this length it bends where it meets the wall */
-    double element; /* [m] its length */
+    double bending; /* [m] sqrt(EI/T): bending length at the wall */
+    double element; /* [m] element length */
     uint32_t string;
 } dmb_static_pull;
-/* Elements that are long beside the length over which a pulled string bends open and close a stiff wall in turn. */
-#define DMB_SHORT_ELEMENT 4.0 /* [-] lengths sqrt(EI/T) */
-/* By the forces of the starting pose, from which the search begins anew. 1 if there is one, < 0: the caller ends it. */
+/* Limit of element length: longer elements of a tensioned string open and close contacts of a stiff wall in turn. */
+#define DMB_SHORT_ELEMENT 4.0 /* [-] multiples of sqrt(EI/T) */
+/* Largest tension by the forces of the starting pose, at which the iteration restarts. 1: found, 0: none, < 0: error
+ * that ends the analysis. */
 int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
-/* The equilibrium from where a soft string lies under its pull, on a soft wall, then on harder ones. DMB_OK, or why it
- * failed. */
+/* Equilibrium from the soft-string initial guess, first with a soft wall, then with stiffer walls. DMB_OK, or the
+ * reason of failure. */
 int32_t dmb_static_from_pull(dmb_static_search *search);
-/* By nodes, before an iteration begins, where its correction will be (a node has two rows at least): [N] pull of the
- * element after each, [m] stretch up to each. */
+/* Workspace by nodes, before an iteration begins, in the array of its correction (a node has at least two rows): [N]
+ * tension of the element after each node, [m] elongation up to each node. */
 static inline double *dmb_static_pulls(const dmb_sim *sim)
 {
     return sim->correction;
@@ -184,119 +186,124 @@ static inline double *dmb_static_stretches(const dmb_sim *sim)
 {
     return sim->correction + sim->scene->node_count;
 }
-/* The pulls of a string that meets the wall, by the residual of the starting pose; 0: it is not known,
- * since the string is free at both ends or at none. */
+/* Tensions [N] of a string in wall contact, by the residual of the starting pose. 0: not determined, because the string
+ * is free along at both ends or at neither. */
 int dmb_static_tensions(dmb_sim *sim, uint32_t string);
 int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node);
-/* Of a full node, in y and z: what something holds sideways is neither laid nor rolled. */
+/* 1: a full node is free in y and z; laterally constrained nodes get no initial guess on the wall and do not roll. */
 int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node);
-/* After a full node was moved beside its equations: where it is held or driven along its axis, that part of the way
- * `back` [m] is gone. */
+/* After a displacement of a full node outside the equations: removes the part of the move `back` [m] along its axis if
+ * the node is constrained or driven there. */
 void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3]);
-/* From the starting pose, after its evaluation. */
+/* Soft-string initial guess from the starting pose, after its evaluation. */
 void dmb_static_lay_by_pull(dmb_static_search *search);
-/* [-] How much softer the wall must be for the pull to press a ring into it by `part` of its clearance, 1 ..
- * DMB_SOFTEST. */
+/* [-] Factor by which the wall must be softened for the tension to press a ring into it by `part` of its clearance, 1
+ * .. DMB_SOFTEST. */
 #define DMB_SOFTEST 1e6
 double dmb_static_softness(const dmb_static_search *search, const dmb_static_pull *pull, double part);
-/* A wall that the weight presses a ring into by less than this part of its clearance opens and closes contacts in turn.
- */
+/* Stiff wall: penetration under weight below this fraction of the clearance; contacts then open and close in turn. */
 #define DMB_STIFF_WALL 1e-2
 typedef struct dmb_static_stiff_wall {
-    double depth;     /* [m] under the weight of a ring */
+    double depth;     /* [m] penetration under the weight at a ring */
     double clearance; /* [m] of that ring */
-    double element;   /* [m] length of the element before it */
-    double softer;    /* [N/m^(n+1)] stiffness with which the depth is a tenth of the clearance */
+    double element;   /* [m] length of the preceding element */
+    double softer;    /* [N/m^(n+1)] stiffness at which the penetration is a tenth of the clearance */
 } dmb_static_stiff_wall;
-/* The ring for which the wall is stiffest; 1 if there is one. */
+/* Finds the ring with the smallest penetration relative to its clearance; 1 if one exists below DMB_STIFF_WALL. */
 int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *out);
-/* Shortens the last move, by `direction` (row_count), which ended where the residual was just
- * evaluated; `before` is direction . residual at its start. Leaves the residual and tangent of where it ends. */
+/* Shortens the last move along `direction` (row_count), at whose end the residual was just evaluated; `before` is
+ * direction . residual at its start. Residual and tangent are those of the final position. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);
-/* The trial displaced by body-frame increments: as it comes, and as the search moves it (winding, rolling), closed
- * at its joints. */
+/* Displaces the trial by body-frame increments: plainly, or as the solution does it (winding, rolling) with joints
+ * closed. */
 void dmb_static_displace(dmb_sim *sim, const double *correction, double factor);
 int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor);
-/* Back to where such a move came from, joints as they come. */
+/* Reverses such a move, without closing the joints. */
 void dmb_static_move_back(dmb_static_search *search, const double *correction, double factor);
-/* Work of the residual along the move by `direction`, after this part of it. */
+/* Work [J] of the residual per unit step along `direction`, after the fraction `part` of the move. */
 double dmb_static_work(const dmb_static_search *search, const double *direction, double part);
-/* The tangent of the residual in axes of the nodes becomes that in axes which do not spin with them. */
+/* Transforms the tangent of the residual from axes of the nodes to axes that do not spin with them. */
 void dmb_static_fix_axes(dmb_sim *sim);
-/* Newton with the extrapolated element stress (eq:static.extrapolated) at the search's load factor. DMB_OK, or why it
- * failed. */
+/* Newton iteration with the extrapolated element stress (eq:static.extrapolated) at the present load factor. DMB_OK, or
+ * the reason of failure. */
 int32_t dmb_static_newton(dmb_static_search *search);
-/* One such correction. */
+/* A single such correction. */
 int32_t dmb_static_correct(dmb_static_search *search);
-/* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections
- * (eq:static.relaxation); slower and surer. */
+/* Pseudo-transient continuation: (K + D/tau^2) z = -residual with increasing tau and limited corrections
+ * (eq:static.relaxation); slower and more robust than Newton. */
 int32_t dmb_static_relaxation(dmb_static_search *search);
-/* Moves the trial aside by random displacements, the same for each number. */
+/* Perturbs the trial by random displacements that are the same for each number. */
 int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number);
-/* Strings that nothing holds along their hole go back to where their rig end was, if they rest there too. */
+/* Returns strings without axial constraint to the initial position of their rig end, if they are in equilibrium
+ * there. */
 int32_t dmb_static_take_back(dmb_static_search *search);
 
-/* Puts the message of a search that failed: the part, the figure and its bound, and what may help. */
+/* Sets the message of a failed analysis: the part, the value with its bound, and the remedy. */
 void dmb_static_explain(dmb_static_search *search, int32_t status);
 
-/* Options of the static start, checked. */
+/* Options of the static analysis, checked. */
 
-/* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
+/* Defaults overlaid with `given` (may be NULL); an invalid value is refused with a message that names the field. */
 int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
 
 /* ---- Stability --------------------------------------------------------------------------------------------------- */
 
-/* Asymmetry, as of dmb_asymmetry_of, above which a stiffness counts as unsymmetric. Rounding leaves 1e-12. */
+/* [-] Asymmetry (dmb_asymmetry_of) above which a stiffness counts as non-symmetric. Rounding causes 1e-12. */
 #define DMB_UNSYMMETRIC 1e-9
 
-/* [-] largest |A_ij - A_ji| / sqrt(A_ii A_jj) of the iteration matrix in the stiffness_ blocks, not factored; with
- * joints of the reduced system in reduced_value, just assembled. `rounding` [N/m]: a difference that counts as 0, per
+/* [-] largest |A_ij - A_ji| / sqrt(A_ii A_jj) of the unfactored iteration matrix in the stiffness_ blocks; with joints
+ * that of the reduced system in reduced_value, just assembled. `rounding` [N/m]: a difference that counts as 0, per
  * unit of the weights 1 of displacements and length_scale^2 of rotations. */
 double dmb_asymmetry_of(const dmb_sim *sim, double rounding);
 
-/* Blocks of the scene's layout, and values of its pattern at the sim's present sizes, become their symmetric part. */
+/* Replaces the blocks of the scene's layout, and the values of its pattern at the sim's present sizes, by their
+ * symmetric part. */
 void dmb_make_blocks_symmetric(const dmb_block_layout *layout, double *diagonal, double *lower, double *upper);
 void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
 
-/* Whether a static state is stable: by the signs of its stiffness K where that is symmetric, and where it is not by the
- * real negative eigenvalues of K x = mu D x, D the weights 1 of displacements and length_scale^2 of rotations. A single
- * one comes or goes through det K = 0, whatever D; two together may come of a complex pair, at a place that depends on
- * D (analysis/buckling/buckling.h). They are looked for among the eigenvalues nearest 0, unless a positive definite
- * symmetric part, with or without what friction adds to it (analysis/static/stability_friction.c), says that there is
- * none: by Krylov subspaces on x -> K^-1 D x, as many vectors as some hundreds of millions of products allow, until the
- * symmetric part H leaves none further out: mu >= -rho where H + rho D is positive definite, x.Hx = mu x.Dx; or so many
- * have been seen, and the sign of det K agrees with their number. The sign alone would not do: what is round diverges
- * in two directions at once. Of a state that was asked for, up to 400 coordinates have all their eigenvalues found;
- * beyond, none found among the nearest is not counted (-1) unless the symmetric part excludes others. Flutter is not
- * looked for: it depends on mass and damping (modes). */
+/* Stability of a static state: by the signs of its stiffness K if that is symmetric, and otherwise by the real negative
+ * eigenvalues of K x = mu D x, D the weights 1 of displacements and length_scale^2 of rotations. A single real
+ * eigenvalue changes sign through det K = 0, whatever D; two real negative eigenvalues may arise together from a
+ * complex pair, at a place that depends on D (analysis/buckling/buckling.h).
+ *
+ * Non-symmetric K: no eigenvalue is computed if a positive definite symmetric part, with or without the contribution of
+ * friction (analysis/static/stability_friction.c), excludes negative ones. Otherwise the eigenvalues nearest 0 are
+ * computed by Krylov subspaces on x -> K^-1 D x, with as many vectors as some hundreds of millions of products permit.
+ * The number of eigenvalues increases until one of two conditions is met: the symmetric part H excludes further
+ * negative ones (mu >= -rho if H + rho D is positive definite, x.Hx = mu x.Dx), or the maximum number is reached and
+ * the sign of det K agrees with the count. The sign alone is not sufficient: an axisymmetric structure diverges in two
+ * directions at once. For a state that the caller requested, all eigenvalues are computed up to 400 coordinates;
+ * beyond, the result -1 (not counted) is returned if none is found among the nearest and the symmetric part does not
+ * exclude others. Flutter is not examined: it depends on mass and damping (modes). */
 
 typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */
-    int32_t negative;   /* eigenvalues as above, those of rounding size apart; -1: they could not be counted */
-    int32_t unresolved; /* eigenvalues of rounding size, whose signs are not known; looked for where `thorough` */
+    int32_t negative;   /* negative eigenvalues beyond the rounding level; -1: they could not be counted */
+    int32_t unresolved; /* eigenvalues at the rounding level, of unknown sign; computed if `thorough` */
     int32_t reserved;
-    double bound;     /* [N/m] largest size of those, rotations over the square of the length scale */
+    double bound;     /* [N/m] largest magnitude of the unresolved eigenvalues, rotations over the square of the length
+                         scale */
     double asymmetry; /* [-] dmb_asymmetry_of */
-    double rounding;  /* [N/m] of eigenvalues in D, K being unsymmetric */
-    double *amount;   /* (rows) in: NULL or room; out: rounding of the rows (eq:signs.amount) */
+    double rounding;  /* [N/m] rounding level of eigenvalues in D for non-symmetric K */
+    double *amount;   /* (rows) in: NULL or workspace; out: rounding level of the rows (eq:signs.amount) */
 } dmb_stability;
 
-/* After an evaluation with the true tangent: forms the iteration matrix, judges it and leaves it factored as
- * dmb_factor_stiffness, whose result *bad is; not judged where that is >= 0. `thorough` 1: of a state that was asked
- * for, with the eigenvalues of rounding size; 0: of one on a path, where what counts is that the same is
- * counted at each point. The residual is left as it was. Errors: DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
+/* After an evaluation with the true tangent: forms the iteration matrix, assesses its stability and leaves it factored
+ * as dmb_factor_stiffness, whose result *bad is; not assessed if *bad >= 0. `thorough` 1: a state requested by the
+ * caller, with the eigenvalues at the rounding level; 0: a state on a path, which requires only the same counting rule
+ * at every point. The residual is unchanged. Errors: DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
 int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out);
 
-/* Eigenvalue of K x = mu E x nearest 0 [N/m], K symmetric, E the displacements across the axes of the nodes, by the
- * factors at hand, and its shape (rows), of length 1 in E. `guessed` 1: shape is that of a state nearby.
- * DMB_ERR_NO_CONVERGENCE also where nothing moves across; other errors of dmb_krylov_largest. */
+/* Eigenvalue of K x = mu E x nearest 0 [N/m], K symmetric, E the lateral displacements of the nodes, by the present
+ * factors, and its shape (rows), of unit length in E. `guessed` 1: shape is that of a nearby state.
+ * DMB_ERR_NO_CONVERGENCE also if nothing moves laterally; other errors of dmb_krylov_largest. */
 int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *shape);
 
-/* Whether rings that slip leave a state without divergence, without an eigenvalue being sought.
+/* Sufficient condition for the absence of divergence with slipping rings, without eigenvalues.
  *
- * A ring with the stiffness k of the wall behind it adds k (n + f) n^T to K: n its normal, f friction for a unit of
- * normal force. The symmetric part of this alone has a negative eigenvalue, however little friction there is. With
+ * A ring with the wall stiffness k adds k (n + f) n^T to K: n its normal, f friction for a unit of normal force. The
+ * symmetric part of this term alone has a negative eigenvalue, however small the friction. With
  *
  *     W = I - f n^T,      W (n + f) n^T = n n^T,               (eq:static.friction-turned)
  *
@@ -304,12 +311,12 @@ int32_t dmb_stability_softest(dmb_sim *sim, int guessed, double *value, double *
  *
  *     sym(W K) + rho D     is positive definite, |f| < 2 in the weights D:
  *
- * sym(W D) >= (1 - |f|/2) D, so sym(W (K + s D)) is positive definite for s beyond that, and K + s D is regular. f n^T
- * of nodes without contact is taken between those of their neighbours, since a W that is the same for neighbours leaves
- * the stiffness between them nearly symmetric. */
+ * sym(W D) >= (1 - |f|/2) D, so sym(W (K + s D)) is positive definite for s beyond that, and K + s D is regular. For
+ * nodes without contact f n^T is interpolated between neighbouring contacts, since a W that is equal for neighbours
+ * leaves the stiffness between them nearly symmetric. */
 
-/* Multiplies the rows of chains without joints in the iteration matrix, which is not factored, by W. 1: done, *most is
- * the largest |f|; 0: no ring slips, or |f| is too large, and the matrix is left as it is; DMB_ERR_NO_MEMORY. */
+/* Multiplies the rows of chains without joints in the unfactored iteration matrix by W. 1: done, *most is the largest
+ * |f|; 0: no ring slips, or |f| is too large, and the matrix is unchanged; DMB_ERR_NO_MEMORY. */
 int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation, double *most);
 
 #endif

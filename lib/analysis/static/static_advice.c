@@ -1,4 +1,4 @@
-/* Messages of searches that failed: the part, the figure and its bound, and what may help. */
+/* Messages of failed static analyses: the part, the value with its bound, and the remedy. */
 #include <math.h>
 
 #include "analysis/static/static.h"
@@ -14,10 +14,11 @@ static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_
     for (uint32_t k = 0; k < scene->bit_count; k++)
         if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
             return 1;
-    return scene->chains[scene->node_chain[string->first_node]].jointed; /* joints may hold it */
+    return scene->chains[scene->node_chain[string->first_node]].jointed; /* joints may constrain it */
 }
 
-/* A string that moves along for ever shows as poses that do not converge, or bend too far on the way: it is named. */
+/* Names a string without axial constraint: it moves along without bound, which appears as poses that do not converge or
+ * as excessive element rotation. */
 static void name_free_string(dmb_sim *sim, int32_t status)
 {
     const dmb_scene *scene = sim->scene;
@@ -34,7 +35,7 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     }
 }
 
-/* In which direction the part of a node may go. */
+/* Possible motion of the part of a node, as text. */
 static const char *way_out(const dmb_scene *scene, uint32_t node)
 {
     for (uint32_t i = 0; i < scene->string_count; i++) {
@@ -48,7 +49,8 @@ static const char *way_out(const dmb_scene *scene, uint32_t node)
     return "it may move";
 }
 
-/* At rest a controller gives the force it has come to: it holds no position, and at its limit not even more. */
+/* Advice on a force controller: at rest it returns its present force, constrains no position, and cannot exceed its
+ * limit. */
 static const char *controller(const dmb_sim *sim, int limited_only, dmb_message *text)
 {
     dmb_message name;
@@ -69,8 +71,8 @@ static const char *controller(const dmb_sim *sim, int limited_only, dmb_message 
     return NULL;
 }
 
-/* Springs, drives and couplings of angles that are not defined at a right angle of RZ jump there, and what rests near
- * it has no equilibrium to converge to. */
+/* Advice on joints near a gimbal singularity: springs, drives and couplings of angles that are undefined at a right
+ * angle of RZ jump there, and no equilibrium exists near it. */
 #define DMB_NEAR_EDGE 0.9 /* of 1 - cos RZ: 84 degrees */
 
 static const char *edge_of_joint(const dmb_static_search *search, dmb_message *text)
@@ -127,7 +129,7 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
         dmb_message_set(&sim->message, "static: %s: its callback failed or gave a value beyond +-1e30 at time %g",
                         owner_text.text, search->evaluation.time);
     } else if (status == DMB_ERR_GEOMETRY) {
-        (void)dmb_joints_refuse_folds(sim); /* the trial still stands there */
+        (void)dmb_joints_refuse_folds(sim); /* the trial still contains that pose */
     } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
     } else if (status == DMB_ERR_SINGULAR && search->unbalanced != DMB_NONE) {

@@ -1,5 +1,6 @@
-/* The start of a search: strings lie on the low side of their hole, or where their pull presses them in a bend. The
- * wall is closed from the first iteration on then; Newton does not meet the softness of a string that hangs free. */
+/* Initial guess: strings lie on the low side of their hole, or on the side to which their tension presses them in a
+ * curved hole. Contacts are then closed from the first iteration on, and Newton does not encounter the softness of a
+ * string that hangs freely. */
 #include <math.h>
 
 #include "analysis/static/static.h"
@@ -31,7 +32,7 @@ void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3])
     dmb_vec3_axpy(dmb_vec3_dot(back, axis), axis, sim->trial.displacement + 3 * (size_t)node);
 }
 
-/* A node lies with its first ring, where that stands at the node. */
+/* 1: the initial guess places the node by this ring, the first ring of its node, at the node itself. */
 static int lies(const dmb_scene *scene, uint32_t s)
 {
     const dmb_site *site = scene->sites + s;
@@ -72,15 +73,14 @@ void dmb_static_lay_on_wall(dmb_sim *sim)
         if (lies(scene, s)) lay_site(sim, scene->sites + s);
 }
 
-/* ---- The pull along strings ---------------------------------------------------------------------------------------
- */
+/* ---- Tension of strings ------------------------------------------------------------------------------------------ */
 
 int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node)
 {
     return scene->solved_row[scene->layout.row[node] + DMB_X] != 0;
 }
 
-/* The tension of an element is the sum of the forces along beyond it, from the end that is free; the residual is their
+/* The tension of an element is the sum of the axial forces beyond it, from the free end; the residual is their
  * negative. */
 int dmb_static_tensions(dmb_sim *sim, uint32_t string)
 {
@@ -133,8 +133,8 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
 
 /* ---- By weight and tension --------------------------------------------------------------------------------------- */
 
-/* Torque and drag of a soft string (Johancsik, Friesen, Dawson 1984): a node at this depth lies on the side to which
- * weight and tension in the bend press it, u = w + T k l, and the wall bears |u|. */
+/* Soft-string torque and drag (Johancsik, Friesen, Dawson 1984; eq:drilling.soft-string): a node at this depth lies on
+ * the side to which weight and tension in the curved hole press it, u = w + T k l, and the wall carries |u|. */
 static void lay_pressed(const dmb_static_search *search, const dmb_site *site, double depth, double tension)
 {
     dmb_sim *sim = search->sim;
@@ -155,7 +155,7 @@ static void lay_pressed(const dmb_static_search *search, const dmb_site *site, d
     dmb_static_stay_along(sim, node, back);
 }
 
-/* Stretch from the end that is held: how far each node goes along. */
+/* Elongation from the constrained end: axial displacement of each node [m]. */
 static void stretch(dmb_sim *sim, const dmb_string_map *string)
 {
     const dmb_scene *scene = sim->scene;
@@ -210,10 +210,10 @@ double dmb_static_softness(const dmb_static_search *search, const dmb_static_pul
     return fmin(most, DMB_SOFTEST);
 }
 
-/* ---- The search from there --------------------------------------------------------------------------------------- */
+/* ---- Solution from the initial guess ----------------------------------------------------------------------------- */
 
-/* On a wall as soft as tension presses rings into it by this many times their clearance moves of that size open and
- * close none; then it gets harder by a factor with each state found. */
+/* The wall is first so soft that the tension presses rings into it by this multiple of their clearance: moves of that
+ * size then open and close no contacts. Each solution is the start of the next one on a wall stiffer by DMB_HARDER. */
 static const double pressed_in[] = {10.0, 1.0};
 #define DMB_HARDER 10.0
 

@@ -1,5 +1,5 @@
-/* The trial is moved by a correction. All ways agree to first order; in a hole the finite move keeps what the equations
- * do not change under, so that strings that wind up by radians and climb round the wall converge as fast as others. */
+/* Moves of the trial by a correction. All variants agree to first order; in a hole the finite move keeps the invariants
+ * of the equations, therefore strings that wind up by radians and climb around the wall converge as fast as others. */
 #include "analysis/static/static.h"
 #include "math/se3.h"
 #include "math/vec3.h"
@@ -24,8 +24,8 @@ static void note_edge(dmb_static_search *search)
     search->edge_joint = joint;
 }
 
-/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once.
- */
+/* Closes the joints, and chooses a new partition if the present one is ill-conditioned. A large move may have made it
+ * singular, which is treated first. */
 int32_t dmb_static_settle(dmb_static_search *search)
 {
     int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
@@ -66,7 +66,7 @@ static void displace_node(dmb_sim *sim, uint32_t node, const double z[6])
     }
 }
 
-/* The sum in `increment` follows the turns. */
+/* Adds the increments; the sum in `increment` includes all rotations. */
 void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
 {
     double z[6];
@@ -77,10 +77,9 @@ void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
     }
 }
 
-/* The correction of a pipe that winds up by radians moves it sideways along its axes of before: H <- H exp(z less its
- * spin) exp(spin) (eq:static.move), and back in the other order. In the one exponential of z the way sideways would
- * turn with the spin.
- */
+/* Rotation of a node about its own axis [rad]. The correction of a pipe that winds up by radians moves it sideways
+ * along its axes before the move: H <- H exp(z less its spin) exp(spin) (eq:static.move), and back in the reverse
+ * order. In the single exponential of z the lateral displacement would rotate with the spin. */
 static void spin(dmb_sim *sim, uint32_t node, double angle)
 {
     double *q = sim->trial.quaternion + 4 * (size_t)node;
@@ -88,13 +87,13 @@ static void spin(dmb_sim *sim, uint32_t node, double angle)
     dmb_quat_mul(q, turn, q);
 }
 
-#define DMB_LONGEST_ROLL 1.5 /* [rad] round the hole by one correction: beyond, it is taken straight */
+#define DMB_LONGEST_ROLL 1.5 /* [rad] around the hole by one correction: larger moves are straight */
 
-/* A ring that touches the wall goes round and along the hole where it would go straight: with e n its place off the
- * axis before, d = (along, out, a e) in the hole's frame t, n, b = t x n, and k the curvature vector, it comes to (e +
- * out) r,   r = cos(a) n + sin(a) b  made orthogonal to t + along k, off the axis, which itself went to along t +
- * along^2/2 k. `more` [m] is the difference from d, without the rounding of places. Without it a pipe that climbs round
- * a hole is pressed into the wall by the square of its way over 2 e. */
+/* Rolling of a ring in wall contact: it moves around and along the hole instead of straight. With e n its position off
+ * the axis before, d = (along, out, a e) in the hole's frame t, n, b = t x n, and k the curvature vector, it moves to
+ * (e + out) r,   r = cos(a) n + sin(a) b  made orthogonal to t + along k, off the axis, which itself moved to along t +
+ * along^2/2 k. `more` [m] is the difference from d, without the rounding of positions. Without it a pipe that climbs
+ * around a hole penetrates the wall by the square of its displacement over 2 e. */
 static void roll(const dmb_sim *sim, uint32_t s, const double before[3], const double d[3], double more[3])
 {
     const dmb_scene *scene = sim->scene;
@@ -120,8 +119,8 @@ static void roll(const dmb_sim *sim, uint32_t s, const double before[3], const d
     for (int i = 0; i < 3; i++) more[i] = (r[i] - out * n[i] - a * e * b[i]) + 0.5 * along * along * k[i];
 }
 
-/* Ring at a node, which it rolls with, from the ring `s` on; rings stand in the order of their nodes. DMB_NONE, also of
- * a node that something holds sideways, whose way is straight. */
+/* Ring at a node, with which the node rolls, from the ring `s` on; rings are in the order of their nodes. DMB_NONE also
+ * for a laterally constrained node, which moves straight. */
 static uint32_t ring_of(const dmb_scene *scene, uint32_t node, uint32_t *s)
 {
     while (*s < scene->site_count && scene->sites[*s].node < node) ++*s;
@@ -129,7 +128,7 @@ static uint32_t ring_of(const dmb_scene *scene, uint32_t node, uint32_t *s)
     return at_node && dmb_static_is_free_across(scene, node) ? *s : DMB_NONE;
 }
 
-/* side 1: from where the node is; -1: back to where it came from by this z (rolling: to third order). */
+/* side 1: move from the present pose; -1: reverse move by this z (rolling: to third order). */
 static void wind(dmb_sim *sim, uint32_t node, uint32_t ring, int side, double z[6])
 {
     double *u = sim->trial.displacement + 3 * (size_t)node, before[3], d[3], more[3];
@@ -209,11 +208,11 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
     return sum;
 }
 
-/* The residual r is told in axes of the node. A spin phi turns these by itself, dr = -phi e_x x r + (what the forces
- * change by), and far from equilibrium a correction with a large spin would work on that. It goes on where the residual
- * is 0: without it the tangent is that of the residual in axes at rest, K e_x + e_x x r in the columns of spin
- * (eq:static.fixed-axes). A held
- * row's residual is a reaction, which does not vanish, so that its pair keeps what it has. */
+/* Tangent in axes that do not spin. The residual r is expressed in axes of the node. A spin phi rotates these, dr =
+ * -phi e_x x r + (change of the forces), and far from equilibrium a correction with a large spin would reduce r by that
+ * term alone. The root of the residual is the same without it: the tangent becomes that of the residual in inertial
+ * axes, K e_x + e_x x r in the columns of spin (eq:static.fixed-axes). The residual of a constrained row is a reaction,
+ * which does not vanish, so that the pair of such a row is unchanged. */
 void dmb_static_fix_axes(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

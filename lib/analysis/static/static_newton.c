@@ -1,3 +1,15 @@
+/* Nonlinear solution of statics. Methods, tried in the order given in static.c:
+ *
+ *   dmb_static_newton            full corrections with extrapolated stress; from the 13th iteration on, three of four
+ *                                corrections are halved
+ *   dmb_static_equal_steps       the method (Newton or relaxation) in equal load steps
+ *   dmb_static_growing_steps     Newton in load steps: first 1/4, halved after failure, doubled after at most
+ *                                12 iterations; the shortest steps use the line search
+ *   dmb_static_growing_friction  the same with the friction of rings in place of the load
+ *   dmb_static_relaxation        pseudo-transient continuation with limited corrections
+ *
+ * Extra steps: dmb_static_push_aside (perturbation of an unstable state), dmb_static_take_back (axial position of
+ * unconstrained strings), dmb_static_line_search. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -14,7 +26,7 @@ static void scale_correction(dmb_sim *sim, double factor)
     for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->correction[i] *= factor;
 }
 
-/* Largest correction, rotations times the length scale. */
+/* Largest correction [m], rotations times the length scale. */
 static double largest_move(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -27,12 +39,13 @@ static double largest_move(const dmb_sim *sim)
     return most;
 }
 
-/* A residual of rounding size is equilibrium once corrections are this small, in length scales; next to stiff elements
- * it can hide a soft part that still moves. A part so soft that rounding itself moves it gets this many corrections. */
+/* A residual at the rounding level is an equilibrium once corrections are below DMB_NO_MOVE [length scales]; next to
+ * stiff elements it can hide a soft part that still moves. If a part is so soft that rounding moves it, the iteration
+ * ends after DMB_MOVES_ENOUGH corrections at the rounding level. */
 #define DMB_NO_MOVE 1e-9
 #define DMB_MOVES_ENOUGH 20
-/* Ten times as large they may be where they shrink so fast, once small, that the next one, their square over the one
- * before, is this small. */
+/* Corrections may be ten times as large if they are small and converge so fast that the next one, their square over the
+ * previous one, is below DMB_NO_MOVE_LEFT. */
 #define DMB_NO_MOVE_LEFT 1e-12
 #define DMB_SMALL_MOVE 1e-3
 
@@ -43,8 +56,8 @@ static int is_still(const dmb_static_search *search)
     return now <= 10.0 * DMB_NO_MOVE && before <= DMB_SMALL_MOVE && now * now <= DMB_NO_MOVE_LEFT * before;
 }
 
-/* 0: in equilibrium, 1: not yet, < 0: failed. A motion that nothing resists never comes to rest at rounding: so many
- * iterations there are enough. */
+/* 0: in equilibrium, 1: not yet, < 0: failed. Along an unconstrained motion corrections never vanish at the rounding
+ * level; therefore the number of iterations there is limited. */
 static int32_t judge(dmb_static_search *search)
 {
     const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
@@ -61,7 +74,7 @@ static int32_t evaluate(dmb_static_search *search)
     return status < 0 ? status : judge(search);
 }
 
-/* Message on a part that nothing holds, by the factors. */
+/* Records the block with the weakest pivot (unconstrained part) for the message, from the factors. */
 static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb_block_weakest *weakest)
 {
     if (search->iterations == 0 && weakest->ratio < DMB_LOOSE_PIVOT) {
@@ -86,7 +99,7 @@ static int32_t solve(dmb_static_search *search)
     return DMB_OK;
 }
 
-/* Where nodes keep opening and closing the wall in turn, shorter corrections break the cycle. */
+/* Factor of a correction. If nodes open and close wall contacts in turn, halved corrections break the cycle. */
 static double damping(uint32_t iteration)
 {
     if (iteration < 12) return 1.0;
@@ -132,7 +145,8 @@ int32_t dmb_static_correct(dmb_static_search *search)
     return status < 0 ? status : correct(search, 0);
 }
 
-/* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
+/* Adds the pseudo mass of each row over tau^2: the mean node mass; for rotations the inertia of a rod of the length
+ * scale. */
 static void add_pseudo_mass(dmb_sim *sim, double rate)
 {
     const dmb_scene *scene = sim->scene;
@@ -146,14 +160,15 @@ static void add_pseudo_mass(dmb_sim *sim, double rate)
     }
 }
 
-/* Far from equilibrium a correction that turns parts far leaves elements compressed, and what stands on its head is
- * unstable anyway: K + D/tau^2 is then indefinite, and its correction leads uphill or, near singular, anywhere. Pseudo
- * mass is added for this correction alone until no eigenvalue is negative; the next one begins with this much more. */
+/* Far from equilibrium a large rotation leaves elements compressed, and an inverted pendulum is unstable anyway: K +
+ * D/tau^2 is then indefinite, and its correction leads uphill or, near a singularity, in an arbitrary direction. Pseudo
+ * mass is added for this correction alone until no eigenvalue is negative; the next correction begins with at most
+ * DMB_HEAVIER_KEPT times the rate. */
 #define DMB_HEAVIER 4.0
 #define DMB_HEAVIER_TRIES 12
 #define DMB_HEAVIER_KEPT 2.0
 
-/* `rate` is where it begins, and the next one. */
+/* `rate` [1/s^2]: in: first value; out: first value of the next correction. */
 static int32_t solve_downhill(dmb_static_search *search, double *rate)
 {
     dmb_block_weakest weakest;
@@ -161,7 +176,7 @@ static int32_t solve_downhill(dmb_static_search *search, double *rate)
     int32_t negative = 1;
     int singular = 0;
     for (int k = 0; k < DMB_HEAVIER_TRIES; k++, taken *= DMB_HEAVIER) {
-        int32_t status = k > 0 ? dmb_static_evaluate(search) : DMB_OK; /* the factors are in its place */
+        int32_t status = k > 0 ? dmb_static_evaluate(search) : DMB_OK; /* the factors have overwritten the matrix */
         if (status < 0) return status;
         add_pseudo_mass(search->sim, taken);
         dmb_system_iteration_matrix(&search->evaluation);
@@ -178,7 +193,7 @@ static int32_t solve_downhill(dmb_static_search *search, double *rate)
     return DMB_OK;
 }
 
-/* [m] that one correction may move a node towards the wall: half the smallest clearance; infinite without a wall. */
+/* [m] largest correction of a node towards the wall: half the smallest clearance; infinite without a wall. */
 static double longest_move(const dmb_scene *scene)
 {
     double limit = (double)INFINITY;
@@ -187,16 +202,17 @@ static double longest_move(const dmb_scene *scene)
     return limit;
 }
 
-/* [-] along the hole, in length scales, where the wall stays as far away */
+/* [-] largest correction along the hole, where the wall distance is constant, in length scales */
 #define DMB_LONGEST_SLIDE 0.2
-/* [rad] What hangs free moves far before it rests, but any part of it only turns. */
+/* [rad] Largest rotation per correction. An unconstrained hanging part moves far before equilibrium, but its sections
+ * only rotate. */
 #define DMB_LONGEST_TURN 0.3
 
-/* Largest parts of a correction. */
+/* Largest components of a correction. */
 typedef struct correction_size {
-    double along, across; /* [m] in the axes of the nodes; all of what only slides is along */
+    double along, across; /* [m] in the axes of the nodes; all motion of axial-torsional nodes is along */
     double turn;          /* [rad] */
-    double bend;          /* [rad] across the axes of chains that meet the wall, which moves their nodes towards it */
+    double bend; /* [rad] across the axes of chains in wall contact, which moves their nodes towards the wall */
 } correction_size;
 
 static void add_chain(const dmb_sim *sim, const dmb_chain *chain, int meets_wall, correction_size *size)
@@ -214,7 +230,7 @@ static void add_chain(const dmb_sim *sim, const dmb_chain *chain, int meets_wall
     }
 }
 
-/* Of chains without a ring only turns count: nothing stops them on their way. */
+/* Of chains without a ring only rotations count: no wall limits their displacements. */
 static correction_size size_of_correction(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -228,11 +244,11 @@ static correction_size size_of_correction(const dmb_sim *sim)
     return size;
 }
 
-/* [-] The two ends of a joint travel on different screws and come apart by half the product of way and turn, which the
- * elements beside the joint then have to make up for: part of the length scale that may be. */
+/* [-] The two ends of a joint follow different screws and separate by half the product of displacement and rotation,
+ * which the adjacent elements must compensate: largest separation, as a fraction of the length scale. */
 #define DMB_LONGEST_GAP 0.15
 
-/* [-] largest correction over what one may be */
+/* [-] largest component of the correction over its limit */
 static double reach(const dmb_static_search *search, double limit)
 {
     const dmb_scene *scene = search->sim->scene;
@@ -245,14 +261,14 @@ static double reach(const dmb_static_search *search, double limit)
     return search->caution * fmax(turn, fmax(across, along));
 }
 
-/* The residual's work along the last correction, over that of the one before it: -1 to 0 where the correction led
- * downhill all the way. Below DOWNHILL pseudo time goes on in longer steps, beyond OVERSHOT in shorter ones. */
+/* Work of the residual along the last correction at its end over the work at its start: -1 to 0 if the correction
+ * descended all the way. Below DOWNHILL the pseudo time step grows, beyond OVERSHOT it shrinks. */
 #define DMB_DOWNHILL 0.2
 #define DMB_OVERSHOT 0.8
 #define DMB_OVERSHOT_FAR 2.0
 
-/* Ratio of the next correction to the last one: the residual's share where that tells more (switched
- * evolution relaxation), which it does not while parts still travel. */
+/* Ratio of the next rate 1/tau^2 to the last one: the ratio of residuals (switched evolution relaxation), limited to
+ * 0.1 .. 0.3, because residual ratios mean little while parts still travel. */
 static double change_of_rate(double work_ratio, double residual_ratio)
 {
     if (work_ratio > DMB_OVERSHOT_FAR) return 8.0;
@@ -289,7 +305,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     }
 }
 
-/* [-] length scales and [rad] that a state is pushed aside by */
+/* [-] length scales and [rad] of a random perturbation */
 #define DMB_PUSH 1e-3
 
 int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number)
@@ -308,11 +324,12 @@ int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number)
     return dmb_static_move(search, sim->correction, 1.0);
 }
 
-/* ---- Along a straight hole ---------------------------------------------------------------------------------------
- * Nothing but pseudo mass holds a string there, and corrections far from equilibrium leave it a little way off: any
- * place along it is as good. It is put where its rig end was, where that is in equilibrium too. */
+/* ---- Along a straight hole ------------------------------------------------------------------------------------------
+ * Only pseudo mass constrains a string there, and corrections far from equilibrium leave it slightly displaced. Every
+ * axial position is an equilibrium, so the string returns to the initial position of its rig end if that is an
+ * equilibrium too. */
 
-/* The correction that takes a chain back along the axis of its first node; [m] how far. */
+/* Correction that returns a chain along the axis of its first node, in sim->correction; result: its length [m]. */
 static double way_back(dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
@@ -364,18 +381,18 @@ int32_t dmb_static_take_back(dmb_static_search *search)
 
 /* ---- Load steps -------------------------------------------------------------------------------------------------- */
 
-/* Load steps of statics: the whole load at once where that converges, and else steps that are halved where Newton fails
- * and doubled where it does not. */
+/* Load steps of statics: the whole load at once if that converges, otherwise steps that are halved after a failure of
+ * Newton and doubled after easy convergence. */
 
-/* Shortest load step, which is tried with the line search: with the extrapolated stress Newton overshoots in its first
- * iteration and is the faster for it as a rule. Where the first step fails, shorter ones hardly help. A step of few
- * iterations doubles the next one. */
+/* Shortest load step, which uses the line search: with the extrapolated stress Newton overshoots in its first iteration
+ * and usually converges faster for it. If the first step fails, shorter ones rarely help. A step of at most
+ * DMB_EASY_ITERATIONS iterations doubles the next one. */
 #define DMB_SHORTEST_LOAD_STEP (1.0 / 64.0)
 #define DMB_SHORTEST_FIRST_STEP (1.0 / 16.0)
 #define DMB_EASY_ITERATIONS 12
 
-/* The trial and its increments are set aside as the step reached, and back. Statics ask for no accelerations, and the
- * restart from what they find makes them anew. */
+/* Stores the trial and its increments as the step reached, and restores them. pseudo_acceleration stores the
+ * increments: statics require no accelerations, and the restart computes them from the equilibrium. */
 static void keep(dmb_sim *sim)
 {
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
@@ -400,7 +417,7 @@ int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method meth
     return status;
 }
 
-/* Sets the part, 0 to 1, of the loads, or of the friction of rings that are assumed to slip. */
+/* Sets the fraction, 0 to 1, of the loads, or of the friction of rings that are assumed to slip. */
 typedef void (*set_part)(dmb_static_search *search, double part);
 
 static void set_load(dmb_static_search *search, double part)
@@ -413,7 +430,8 @@ static void set_friction(dmb_static_search *search, double part)
     search->evaluation.frictionless = 1.0 - part;
 }
 
-/* One load step from `reached`; a failing one goes back and halves it. 0, or why no shorter step is left. */
+/* One load step from `reached`; a failure restores the state and halves the step. DMB_OK, or the reason if no shorter
+ * step is left. */
 static int32_t step(dmb_static_search *search, set_part set, double *reached, double *length)
 {
     const uint32_t before = search->iterations;
@@ -462,7 +480,7 @@ int32_t dmb_static_growing_friction(dmb_static_search *search)
 
 /* ---- Line search ------------------------------------------------------------------------------------------------- */
 
-/* A correction may leave this part of the work it began with; it is shortened no further than that. */
+/* Largest fraction of the initial work that may remain after a correction, and shortest fraction of the correction. */
 #define DMB_WORK_LEFT 0.8
 #define DMB_SHORTEST_MOVE 0.1
 #define DMB_SEARCHES 4

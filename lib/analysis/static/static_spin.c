@@ -1,15 +1,14 @@
-/* Rotations of strings about their own axes that nothing resists: they are held during the search, and reported.
+/* Unconstrained rotations of strings about their own axes: constrained during the iteration, and reported.
  *
- * Strings are round: if all nodes of a string turn by phi about their own axes, H_i <- H_i exp(phi e_RX), elements,
- * wall and weight exert the same forces, and the residual in the axes of the nodes turns back by phi. With w = (e_RX,
- * e_RX,
- * ...) the tangent obeys (eq:static.spin)
+ * Strings are axisymmetric: if all nodes of a string rotate by phi about their own axes, H_i <- H_i exp(phi e_RX),
+ * elements, wall and weight exert the same forces, and the residual in the axes of the nodes rotates back by phi. With
+ * w = (e_RX, e_RX, ...) the tangent obeys (eq:static.spin)
  *
  *     K w + e_x x r = 0
  *
- * unless something resists the rotation. Newton's matrix is singular then, and its correction along w is rounding: the
- * rotation of one node is held instead, which selects one of the equivalent equilibria. The torque in that row is the
- * sum of the torques about the axis, and must be 0 in the end. */
+ * unless something resists the rotation. Newton's matrix is then singular, and its correction along w is rounding:
+ * therefore the rotation of one node is constrained, which selects one of the equivalent equilibria. The torque in that
+ * row is the sum of the torques about the axis, and must be 0 in equilibrium. */
 #include <math.h>
 #include <string.h>
 
@@ -17,11 +16,11 @@
 #include "sim/access.h"
 #include "system/solve/solve.h"
 
-/* [-] Residual of eq:static.spin that is rounding, over the root of the product of the two diagonal entries. */
+/* [-] Rounding level of eq:static.spin, over the root of the product of the two diagonal entries. */
 #define DMB_SPIN_ROUNDING 1e-11
-/* [-] Share of a unit torque at one node that other supports bear; below, the torque meets no resistance. */
+/* [-] Fraction of a unit torque at one node that other supports carry; below it the torque is unresisted. */
 #define DMB_SPIN_SHARE 1e-10
-/* [-] Stiffness added at a node in a jointed chain over its own: the rotation allowed is negligible. */
+/* [-] Stiffness added at a node in a jointed chain over its own: the remaining rotation is negligible. */
 #define DMB_SPIN_STIFFER 1e6
 
 static uint32_t spin_of(const dmb_scene *scene, uint32_t node)
@@ -47,7 +46,7 @@ void dmb_static_apply_spins(dmb_static_search *search)
     }
 }
 
-/* A correction may contain any multiple of w: it is taken out. */
+/* Subtracts the multiple of w that a correction contains, which is arbitrary. */
 void dmb_static_correct_spins(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -64,7 +63,7 @@ void dmb_static_correct_spins(dmb_static_search *search)
 
 /* ---- Chains without joints: by K w ------------------------------------------------------------------------------- */
 
-/* Entry of e_x x r of a node; nodes of size 2 feel none. */
+/* Entry of e_x x r of a node; 0 for axial-torsional nodes (size 2). */
 static double turned_residual(const dmb_sim *sim, uint32_t node, uint32_t c)
 {
     const double *r = sim->residual + sim->scene->layout.row[node];
@@ -111,9 +110,9 @@ static int nothing_resists(dmb_sim *sim, const dmb_chain *chain)
     return 1;
 }
 
-/* ---- Jointed chains: by unit torques ------------------------------------------------------------------------------
- * With stiffness k added at the candidates, (K + k E E^T) z = k e_c. The share of the torque that other supports bear
- * is 1 - E^T z; this matrix is singular where K is, and its null space that of K seen at the candidates. */
+/* ---- Jointed chains: by unit torques --------------------------------------------------------------------------------
+ * With stiffness k added at the candidates, (K + k E E^T) z = k e_c. The fraction of the torque that other supports
+ * carry is 1 - E^T z; this matrix is singular if K is, and its null space is that of K restricted to the candidates. */
 
 static int32_t shares(dmb_static_search *search, double *M)
 {
@@ -139,8 +138,8 @@ static int32_t shares(dmb_static_search *search, double *M)
     return DMB_OK;
 }
 
-/* Elimination with complete pivoting; resisted[i] = 1 where a pivot remains. The others are as many as the null space
- * has dimensions. */
+/* Elimination with complete pivoting; resisted[i] = 1 for each remaining pivot. The number of other rows is the
+ * dimension of the null space. */
 static void find_resisted(uint32_t n, double *M, uint8_t *resisted)
 {
     memset(resisted, 0, n);
@@ -158,8 +157,7 @@ static void find_resisted(uint32_t n, double *M, uint8_t *resisted)
     }
 }
 
-/* ---- All strings --------------------------------------------------------------------------------------------------
- */
+/* ---- All strings ------------------------------------------------------------------------------------------------- */
 
 static int is_listed(const dmb_static_search *search, uint32_t node)
 {
@@ -168,7 +166,7 @@ static int is_listed(const dmb_static_search *search, uint32_t node)
     return 0;
 }
 
-/* Strings in jointed chains (jointed 1), or those of other chains that nothing resists. */
+/* Lists the strings in jointed chains (jointed 1), or the unresisted strings of other chains. */
 static void list(dmb_static_search *search, int jointed)
 {
     dmb_sim *sim = search->sim;
@@ -216,8 +214,7 @@ int32_t dmb_static_find_spins(dmb_static_search *search)
     return search->spin_count > alone ? keep_unresisted(search) : DMB_OK;
 }
 
-/* ---- In the end ---------------------------------------------------------------------------------------------------
- */
+/* ---- Check at the end -------------------------------------------------------------------------------------------- */
 
 int32_t dmb_static_check_spins(dmb_static_search *search)
 {

@@ -1,4 +1,4 @@
-/* Motion and equations of a steady state (static.h). */
+/* Velocities, residual and tangent of a steady state (static.h). */
 #include "analysis/static/static.h"
 
 #include <string.h>
@@ -34,7 +34,7 @@ static void move_rigid(dmb_steady *steady, dmb_sim *sim, double factor)
     memset(sim->trial.acceleration, 0, scene->row_count * sizeof(double));
 }
 
-/* g = (R^T v t; R^T (v t x k)), V = g + w, V' = -ad(w) g. */
+/* g = (R^T v t; R^T (v t x k)), V = g + w, V' = -ad(w) g (eq:sliding.motion). */
 static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v, double spin)
 {
     const dmb_scene *scene = sim->scene;
@@ -76,7 +76,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
             sim->trial.acceleration[row] = sim->trial.acceleration[row + 1] = 0.0;
         }
     }
-    for (uint32_t i = 0; i < scene->held_count; i++) { /* a support keeps its end from following a bend */
+    for (uint32_t i = 0; i < scene->held_count; i++) { /* a constrained end does not follow the curved hole */
         const uint32_t node = scene->held_node[i], row = scene->layout.row[node] + scene->held_component[i];
         sim->trial.velocity[row] = sim->trial.acceleration[row] = steady->frame_velocity[row] = 0.0;
     }
@@ -88,7 +88,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
     }
 }
 
-/* [-] largest change of the rows of strings (all: of all rows) from what they were, over the largest of them. */
+/* [-] largest change of velocity in rows of strings (all: in all rows), relative to the largest velocity before. */
 static double change_of(const dmb_steady *steady, const dmb_sim *sim, const double *before, int all)
 {
     const dmb_scene *scene = sim->scene;
@@ -104,7 +104,7 @@ static double change_of(const dmb_steady *steady, const dmb_sim *sim, const doub
 #define DMB_STEADY_JOINTS 1e-9
 #define DMB_STEADY_TRIES 300
 
-/* Bodies move as joints to strings, whose motion is given, make them: projections onto both in turn. */
+/* Velocities of bodies that joints connect to strings of given motion: alternating projections onto both. */
 static int32_t slide_bodies(dmb_steady *steady, dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -131,7 +131,7 @@ int32_t dmb_steady_move(dmb_steady *steady, dmb_evaluation *evaluation, double f
     return sim->scene->cluster_count ? slide_bodies(steady, evaluation) : DMB_OK;
 }
 
-/* The whole turns as one body, so that joints let it as fast as it does. */
+/* Joint violation of rigid motion: joints must permit the velocity of the whole scene as one body. */
 static int32_t violation_of_rigid(dmb_steady *steady, dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -171,18 +171,18 @@ int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation)
     return DMB_ERR_UNSUPPORTED;
 }
 
-/* [-] Part of the largest speed that a coordinate with a spring may change at. */
+/* [-] Largest velocity of a coordinate with a spring, as a fraction of the largest velocity. */
 #define DMB_STEADY_SPRING 1e-6
 
-/* World velocity of a point, and of its axes. */
+/* World velocity [m/s] of a point, and angular velocity [rad/s] of its axes. */
 static void world_motion(const dmb_point_motion *point, double v[3], double w[3])
 {
     dmb_mat3_vec(point->R, point->V, v);
     dmb_mat3_vec(point->R, point->V + 3, w);
 }
 
-/* The force of a spring between points is steady where both stand still, or move as one rigid body: it keeps its length
- * then, and turns with what it pulls. */
+/* The force of a spring between points is steady if both are at rest, or move as one rigid body: its length is then
+ * constant, and it rotates with the parts it connects. */
 static int32_t check_line(dmb_sim *sim, uint32_t i, double bound)
 {
     const dmb_scene *scene = sim->scene;
@@ -207,7 +207,7 @@ static int32_t check_line(dmb_sim *sim, uint32_t i, double bound)
     return DMB_ERR_UNSUPPORTED;
 }
 
-/* The effect of a caller's force on parts that move is not known. */
+/* A caller's force on moving parts is refused, because its dependence on the motion is unknown. */
 static int32_t check_caller_force(dmb_sim *sim, uint32_t i, double bound)
 {
     const dmb_scene_force *force = sim->scene->forces + i;
@@ -232,7 +232,7 @@ static int32_t check_caller_force(dmb_sim *sim, uint32_t i, double bound)
     return DMB_OK;
 }
 
-/* A place that is held does not move in a steady state. */
+/* A stuck point must be at rest in a steady state. */
 static int32_t check_stuck(dmb_sim *sim, uint32_t i, double bound)
 {
     dmb_point_motion point;
@@ -294,7 +294,8 @@ static void copy(const double *from, size_t count, double *to)
     memcpy(to, from, count * sizeof(double));
 }
 
-/* dr/dV at increments of 0: nodes and elements keep it with the inertia, joints on top of their stiffness. */
+/* Damping matrix dr/dV at increments of 0: nodes and elements store it with the inertia, joints add it to their
+ * stiffness. */
 static int32_t take_damping(dmb_steady *steady, dmb_evaluation *at)
 {
     const dmb_sim *sim = at->sim;

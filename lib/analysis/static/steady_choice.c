@@ -1,5 +1,5 @@
-/* Choice of the steady state that the motion drives of a scene ask for: its speed, and parts of the scene that rule it
- * out. */
+/* Selection of the steady state by the motion drives of a scene: its velocity, and the parts of the scene that exclude
+ * it. */
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +29,7 @@ static void twist_of_part(const dmb_sim *sim, const dmb_scene_drive *drive, doub
     dmb_adjoint_apply(R, x, v, twist);
 }
 
-/* Of the drive of a joint to the ground, by the order of its angles R = Ry(RY) Rz(RZ) Rx(RX). */
+/* World twist of the drive of a joint to the ground, by the order of its angles R = Ry(RY) Rz(RZ) Rx(RX). */
 static void twist_of_joint(const dmb_sim *sim, const dmb_scene_drive *drive, double speed, double twist[6])
 {
     const dmb_scene_joint *joint = sim->scene->joints + drive->joint;
@@ -78,13 +78,13 @@ static uint64_t group_of(const dmb_scene_drive *drive)
     return drive->joint == DMB_NONE ? drive->node : (uint64_t)1 << 32 | drive->joint;
 }
 
-/* [m/s] of a twist where the scene is, turning at the arm of the scene. */
+/* [m/s] largest velocity of a twist within the scene, rotation times the size of the scene. */
 static double size_of(const dmb_scene *scene, const double twist[6])
 {
     return dmb_vec3_norm(twist) + dmb_vec3_norm(twist + 3) * fmax(scene->length, scene->length_scale);
 }
 
-/* The twist of each driven node or joint; all that move have to agree. */
+/* Twist of each driven node or joint; all moving drives must agree. */
 static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
@@ -112,7 +112,7 @@ static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
     return DMB_OK;
 }
 
-/* A world vector that is not to turn with the whole: 1 where it does. */
+/* 1: a world vector would have to rotate with the scene, because it is not along the axis. */
 static int turns(const double axis[3], const double v[3])
 {
     double c[3];
@@ -133,7 +133,7 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
         double f[6], R[9];
         if (load->frame == DMB_FRAME_BODY || sim->trial.load_factor[i] == 0.0) continue;
         dmb_mat3_identity(R);
-        if (load->frame == DMB_FRAME_HOLE) /* of a scene that has one */
+        if (load->frame == DMB_FRAME_HOLE) /* the scene has a hole then */
             dmb_hole_frame_rotation(&scene->hole, scene->reference_depth[load->node], R);
         dmb_mat3_vec(R, load->force, f);
         dmb_mat3_vec(R, load->moment, f + 3);
@@ -156,8 +156,7 @@ static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
             return DMB_STEADY_REFUSE(
                 sim, "axial-torsional pipes: they do not turn as a rigid body; take DMB_STEADY_SLIDING");
     if (!scene->has_hole || scene->site_count == 0) return DMB_OK;
-    dmb_vec3_cross(steady->twist + 3, scene->hole.origin,
-                   off); /* velocity of a point on the axis, less that along it */
+    dmb_vec3_cross(steady->twist + 3, scene->hole.origin, off); /* velocity of a point on the hole axis */
     dmb_vec3_add(off, steady->twist, off);
     if (!dmb_hole_is_straight(&scene->hole) || turns(scene->hole.direction, steady->twist + 3) ||
         turns(scene->hole.direction, off))
@@ -167,7 +166,7 @@ static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
     return DMB_OK;
 }
 
-/* Springs to the ground along what turns or moves are not steady. */
+/* Springs between the ground and moving parts are not steady. */
 static int32_t check_ground(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -183,12 +182,12 @@ static int32_t check_ground(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Rows that supports hold, or drives move, are as fast as the whole lets them. */
+/* Rows with supports or motion drives must have the velocity of the rigid motion. */
 static int32_t check_supports(dmb_evaluation *evaluation, dmb_steady *steady)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    (void)dmb_steady_move(steady, evaluation, 1.0); /* which does not fail where all moves as one body */
+    (void)dmb_steady_move(steady, evaluation, 1.0); /* rigid motion does not fail */
     for (uint32_t i = 0; i < scene->held_count; i++) {
         const uint32_t node = scene->held_node[i], c = scene->held_component[i];
         const double speed = sim->trial.velocity[scene->layout.row[node] + c];
@@ -218,7 +217,7 @@ static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
     return status;
 }
 
-/* ---- Both -------------------------------------------------------------------------------------------------------- */
+/* ---- Both kinds -------------------------------------------------------------------------------------------------- */
 
 static void find_strings(const dmb_scene *scene, uint32_t *string)
 {
@@ -263,7 +262,7 @@ void dmb_steady_release(dmb_steady *steady)
     steady->block = NULL;
 }
 
-/* The trial is room; it is the accepted state again afterwards. */
+/* The trial is workspace; the caller restores it. */
 static int32_t try_kind(dmb_sim *sim, int32_t kind, dmb_steady *out)
 {
     dmb_evaluation evaluation;
@@ -276,7 +275,7 @@ static int32_t try_kind(dmb_sim *sim, int32_t kind, dmb_steady *out)
     return status < 0 ? status : dmb_steady_check_joints(out, &evaluation);
 }
 
-/* Motion drives at the present time, into the trial. */
+/* Prescribes the motion drives at the present time, in the trial. */
 static int32_t prescribe(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
@@ -305,10 +304,11 @@ static int32_t choose(dmb_sim *sim, int32_t wanted, dmb_steady *out)
     return DMB_NOTE_NOT_STEADY;
 }
 
-/* [-] Part of the largest speed by which a state may differ from a steady one and be taken for it. */
+/* [-] Largest deviation of velocities from the steady motion, as a fraction of the largest velocity, at which a state
+ * counts as steady. */
 #define DMB_STEADY_LIKE 1e-2
 
-/* 1: the nodes of the accepted state have the speeds of the trial, rotations times the length scale. */
+/* 1: the nodes of the accepted state have the velocities of the trial, rotations times the length scale. */
 static int is_moving_so(const dmb_sim *work)
 {
     const dmb_scene *scene = work->scene;

@@ -1,11 +1,11 @@
-/* Strings that slide and turn with their axes at rest: the speeds that drives give them, and what does not allow it. */
+/* Strings that slide and rotate, inertial axes: velocities from the drives, and conditions that exclude the motion. */
 #include <math.h>
 #include <string.h>
 
 #include "analysis/static/static.h"
 #include "sim/node.h"
 
-/* Sections of a string that turns about its own axis: its masses, its rest shape. */
+/* Refuses a string that rotates about its own axis if its masses are not axisymmetric or its rest shape is bent. */
 static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
@@ -45,7 +45,7 @@ static int across(const double f[3])
     return f[1] != 0.0 || f[2] != 0.0;
 }
 
-/* Loads and forces of drives that turn with a string that turns. */
+/* Refuses lateral loads and drive forces that rotate with a rotating string. */
 static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
@@ -78,7 +78,7 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
     return DMB_OK;
 }
 
-/* Speeds of the strings. Only one drive moves a component of a rig end. */
+/* Speeds of the strings [m/s, rad/s]. At most one drive moves a component of a rig end. */
 static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
@@ -103,7 +103,7 @@ static int is_driven(const dmb_scene *scene, uint32_t row)
     return 0;
 }
 
-/* A support that holds a string where it slides or turns would squeeze or wind it up. */
+/* Refuses a support that constrains a string in its direction of motion: it would compress the string or wind it up. */
 static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
 {
     dmb_message string;
