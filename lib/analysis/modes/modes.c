@@ -1,4 +1,14 @@
-/* dmb_analysis_modes: options, checks, and what is told of all modes. */
+/* Modal analysis (dmb_analysis_modes): options, checks, selection of method, and summary of all modes. Order:
+ *
+ *   search_modes    checks (equilibrium, constant coefficients, count), dmb_modes_find, refinement, check of every mode
+ *   dmb_modes_find  1. rigid-body motions (modes_rigid.c), separated if K is symmetric and without damping of them
+ *                   2. shift (dmb_modes_choose_shift), unless all modes are requested
+ *                   3. LOWEST: modes_lowest.c;  ALL: dense (modes_dense.c);  BAND: find_band
+ *   choose_shift    1. no shift: K pinned (modes_free.c) if the motions are separated, or K regular
+ *                   2. otherwise a small shift from a first sparse iteration (find_scale)
+ *   find_band       1. general and not dense: root strips (find_many_roots), or refusal of too many roots
+ *                   2. sparse iteration for 16, 32, ... modes until they cover the band; dense once that is faster
+ *                   3. subdivision of the band (modes_band.c) */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -88,7 +98,8 @@ static int32_t check_count(const dmb_mode_search *search)
     return DMB_ERR_VALUE;
 }
 
-/* Beside those asked for some of a general problem stay until double roots are joined: so many, so far off a band. */
+/* Modes kept beyond the requested ones of a general problem until double roots are joined: number, and relative margin
+ * of a band. */
 enum { DMB_MODES_BESIDE = 4 };
 #define DMB_BESIDE_BAND 1e-2
 
@@ -101,7 +112,7 @@ static void keep_asked(const dmb_mode_search *search, double aside, uint32_t bes
     dmb_modes_sort(modes, options->select == DMB_MODES_LOWEST ? options->count + beside : modes->count);
 }
 
-/* Sharp roots, the ones asked for in order. */
+/* Refines the roots, and sorts and selects the requested ones. */
 static int32_t sharpen(dmb_mode_search *search)
 {
     keep_asked(search, search->general ? DMB_BESIDE_BAND : 0.0, search->general ? DMB_MODES_BESIDE : 0);
@@ -112,7 +123,7 @@ static int32_t sharpen(dmb_mode_search *search)
     return status;
 }
 
-/* The ones asked for, and what is told about all of them. */
+/* Requested modes, and the summary of all of them. */
 static int32_t finish(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
@@ -145,14 +156,14 @@ static int32_t search_modes(dmb_mode_search *search)
     return status < 0 ? status : finish(search);
 }
 
-/* Modes of coefficients that change as parts turn are not modes. */
+/* Checks that coefficients are constant: modes do not exist if coefficients change with the rotation of parts. */
 static int32_t check_turned(const dmb_mode_search *search, const dmb_sim *sim, const dmb_linear_options *how)
 {
     const dmb_modes *modes = search->modes;
     dmb_linear_turned turned;
     int32_t status = dmb_linear_turn_on(search->linear, sim, how, &turned);
     if (turned.linear != NULL && search->options->kind == DMB_MODES_UNDAMPED)
-        dmb_linear_clear(turned.linear, &turned.linear->damping); /* as of the modes */
+        dmb_linear_clear(turned.linear, &turned.linear->damping); /* as for the modes */
     for (uint32_t k = 0; k < modes->count && status >= 0; k++) {
         const size_t at = (size_t)k * modes->rows;
         if (modes->rigid[k]) continue;
@@ -174,7 +185,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
                                     .still = options->axes == DMB_MODES_AXES_AT_REST,
                                     .spin = options->spin,
                                     .load_growth = load_growth};
-    const size_t bytes = 10 * (size_t)modes->rows * sizeof(double); /* of work, and the masses of coordinates */
+    const size_t bytes = 10 * (size_t)modes->rows * sizeof(double); /* workspace, and the masses of coordinates */
     dmb_mode_search search;
     memset(&search, 0, sizeof search);
     search.options = options;
@@ -187,7 +198,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
     search.coordinate_mass = search.work + 9 * (size_t)modes->rows;
     status = search.work != NULL ? search_modes(&search) : DMB_ERR_NO_MEMORY;
     const int32_t turned = status < 0 ? status : check_turned(&search, sim, &how);
-    if (turned < 0) status = turned; /* a note stays */
+    if (turned < 0) status = turned; /* the status of a note is kept */
     if (search.rigid != NULL) dmb_modes_forget_rigid(&search);
     dmb_release(&modes->allocator, search.work, bytes);
     dmb_linear_release(&search.linear);
@@ -209,7 +220,7 @@ int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_m
     return dmb_sim_leave(sim, status);
 }
 
-/* Up to so many coordinates all modes are looked at, which the dense way finds together; of more the lowest ones. */
+/* Number of coordinates up to which all modes are examined, by the dense method; for more, number of lowest modes. */
 enum { DMB_GROWTH_ALL = 60, DMB_GROWTH_LOWEST = 24 };
 
 static uint32_t coordinates_of(const dmb_sim *state)
@@ -232,7 +243,7 @@ int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *
     options.count = DMB_GROWTH_LOWEST;
     int32_t status = dmb_modes_open(state, &modes);
     if (status >= 0) status = analyse(state, &options, load_growth, message, modes);
-    if (status == DMB_NOTE_INCOMPLETE) status = DMB_ERR_NO_CONVERGENCE; /* one that grows may be missing */
+    if (status == DMB_NOTE_INCOMPLETE) status = DMB_ERR_NO_CONVERGENCE; /* a growing mode may be missing */
     root[0] = -(double)INFINITY;
     root[1] = 0.0;
     for (uint32_t i = 0; status >= 0 && i < modes->count; i++)
@@ -241,16 +252,15 @@ int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *
     return status;
 }
 
-/* ---- Search ------------------------------------------------------------------------------------------------------ */
+/* ---- Selection of method ----------------------------------------------------------------------------------------- */
 
-/* Choice of the modes that are sought, and of the method. */
-
-/* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
+/* The dense method is faster up to so many coordinates, or if a third of all modes is requested. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
-/* A band of more modes is divided. Damped roots stand in a plane, where many pieces make one search. */
+/* Maximum number of modes per iteration; a band with more modes is divided. Damped roots lie in a plane, where a single
+ * iteration replaces many chunks. */
 enum { DMB_BAND_AT_ONCE = 64, DMB_ROOTS_AT_ONCE = 256, DMB_ROOTS_BY_STRIP = 32 };
-/* The inverse of a singular K that cannot be pinned is taken this many times the noise of its eigenvalues off 0. */
+/* Shift of a singular K that cannot be pinned, in multiples of the rounding level of its eigenvalues. */
 #define DMB_SHIFT_NOISE 1e5
 
 int dmb_modes_is_dense(const dmb_mode_search *search, uint32_t wanted)
@@ -259,7 +269,7 @@ int dmb_modes_is_dense(const dmb_mode_search *search, uint32_t wanted)
     return n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
 }
 
-/* Rigid-body motions are apart where K is symmetric and no damping feels them. */
+/* Separates rigid-body motions if K is symmetric and damping does not act on them. */
 static int32_t set_rigid_apart(dmb_mode_search *search)
 {
     const int32_t status = dmb_modes_find_rigid(search);
@@ -269,15 +279,15 @@ static int32_t set_rigid_apart(dmb_mode_search *search)
     return DMB_OK;
 }
 
-/* Some of the lowest modes with a shift that is small for sure, and so not sharp: the lowest |s|^2 that is not noise,
- * or 0. */
+/* Scale of the lowest modes by an iteration with a shift that is certainly small, and therefore inaccurate: the lowest
+ * |s|^2 [1/s2] above the rounding level, or 0. */
 static int32_t find_scale(dmb_mode_search *search, double *square)
 {
     const uint32_t n = search->linear->coordinates;
     const double away = DMB_SHIFT_NOISE * search->noise;
     search->shift = search->general ? sqrt(away) : -away;
     *square = 0.0;
-    search->partly = 1; /* the lowest is enough */
+    search->partly = 1; /* the lowest mode is sufficient */
     const int32_t status = dmb_modes_sparse(search, n < DMB_SCALE_MODES ? n : DMB_SCALE_MODES);
     search->partly = 0;
     for (uint32_t i = 0; i < search->modes->count && status >= 0; i++) {
@@ -288,7 +298,7 @@ static int32_t find_scale(dmb_mode_search *search, double *square)
     return status;
 }
 
-/* A shift is as far off 0 as the lowest eigenvalue that is not 0. */
+/* The shift has the distance of the lowest nonzero eigenvalue from 0. */
 int32_t dmb_modes_choose_shift(dmb_mode_search *search)
 {
     double square;
@@ -308,7 +318,7 @@ int32_t dmb_modes_choose_shift(dmb_mode_search *search)
     return status;
 }
 
-/* Whether the modes found reach beyond the band: what lies nearest the shift is complete. */
+/* 1: the modes found extend beyond the band: the set of modes nearest the shift is complete. */
 static int covers_band(const dmb_mode_search *search, double low, double high)
 {
     double farthest = 0.0;
@@ -321,8 +331,8 @@ static int covers_band(const dmb_mode_search *search, double low, double high)
     return farthest > fmax(fabs(edge * edge - search->shift), fabs(other * other - search->shift));
 }
 
-/* Many roots, by the undamped modes below the upper edge: those that stand in a strip are searched for piece by piece,
- * others refused where they are too many. 1: found; 0: they are few. */
+/* Many roots, estimated by the undamped modes below the upper edge. Roots in a strip are computed chunk by chunk;
+ * others are refused if there are too many. 1: computed; 0: there are few. */
 static int32_t find_many_roots(dmb_mode_search *search, double low, double high)
 {
     const double edge = DMB_TWO_PI * high;
@@ -342,7 +352,8 @@ static int32_t find_many_roots(dmb_mode_search *search, double low, double high)
     return 0;
 }
 
-/* In a band above 0 the shift stands in its middle, unless the problem is general: a real shift stays at 0. */
+/* Modes of a band. In a band above 0 the shift is its centre, unless the problem is general: a real shift stays at
+ * 0. */
 static int32_t find_band(dmb_mode_search *search)
 {
     const double low = search->options->band[0], high = search->options->band[1];
@@ -353,7 +364,7 @@ static int32_t find_band(dmb_mode_search *search)
     if (search->general && !dmb_modes_is_dense(search, 16)) {
         const int32_t status = find_many_roots(search, low, high);
         if (status != 0) return status < 0 ? status : DMB_OK;
-        const int32_t again = dmb_modes_choose_shift(search); /* the counts have taken the factors */
+        const int32_t again = dmb_modes_choose_shift(search); /* the counts have overwritten the factors */
         if (again < 0) return again;
     }
     const uint32_t most = search->general ? DMB_ROOTS_AT_ONCE : DMB_BAND_AT_ONCE;

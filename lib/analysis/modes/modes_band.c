@@ -1,14 +1,13 @@
-/* Modes of a band, piece by piece. A search tells the modes nearest its shift, so all of those within its reach: the
- * band is covered by such reaches.
+/* Modes of a band, chunk by chunk. Each iteration returns the modes nearest its shift, therefore all modes within its
+ * reach: reaches cover the band.
  *
- *     symmetric:  the eigenvalues s^2 stand on a line, and the signs of the factors of K - s^2 M count them: a piece is
- *                 cut until a search finds as many as there are (eq:modes.count)
- *     general:    the roots s stand in the half plane of im >= 0; a rectangle of it that a search from its middle does
- *                 not reach to its corners is cut in two.
- *     A root s = a + i b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has
- *         a (1 + k/r^2) + c = 0        (real part of its equation over s, eq:modes.strip)
- *     so that with K and d (M + K/high^2) -+ C positive definite no root of r <= high has -+a > d: then these stand in
- *     a strip along the imaginary axis, which counts of w^2 divide before it is searched */
+ *     symmetric:  the eigenvalues s^2 are real, and the signs of the factors of K - s^2 M count them: a chunk is
+ * divided until an iteration finds the counted number (eq:modes.count) general:    the roots s lie in the half plane im
+ * >= 0; a rectangle that an iteration from its centre does not reach to its corners is divided in two. A root s = a + i
+ * b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has a (1 + k/r^2) + c = 0
+ * (real part of its equation over s, eq:modes.strip) so that with K and d (M + K/high^2) -+ C positive definite no root
+ * of r <= high has -+a > d: then the roots lie in a strip along the imaginary axis, which counts of w^2 divide before
+ * the iteration */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -17,23 +16,23 @@
 #include "base/memory.h"
 #include "math/real.h"
 
-/* Modes of a piece; pieces that wait; how often a piece may be cut. */
+/* Modes per chunk; extra modes; chunks in the queue; divisions per chunk. */
 enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
-/* A piece of eigenvalues is not shrunk below this part of them, and not cut below the noise of eigenvalues. */
+/* Smallest relative width of a chunk of eigenvalues: for shrinking, for division; multiple of the rounding level. */
 #define DMB_NARROW 1e-4
 #define DMB_RESOLVED 1e-12
 #define DMB_NARROW_NOISE 256.0
-/* Half a strip of roots, as a part of the band's upper edge. */
+/* Half width of a root strip over the band's upper edge. */
 #define DMB_STRIP_WIDEST 0.5
 #define DMB_STRIP_LEAST 1e-5
-/* A shift that hits a root steps aside by this part of its rectangle. */
+/* A shift that hits a root moves by this fraction of its rectangle. */
 #define DMB_ASIDE 0.01
-/* Reach that is taken for granted. */
+/* Fraction of the reach that is accepted. */
 #define DMB_SURE 0.98
 
 /* ---- Symmetric --------------------------------------------------------------------------------------------------- */
 
-/* A piece of the line and how many eigenvalues are below its ends, those 0 of rigid-body motions left out. */
+/* Chunk of the line, and the number of eigenvalues below its ends, without those of separated rigid-body motions. */
 typedef struct interval {
     double from, to;
     int64_t below_from, below_to;
@@ -55,14 +54,14 @@ int64_t dmb_modes_count_below(const dmb_mode_search *search, double *square, dou
     return -1;
 }
 
-/* An eigenvalue or several that are nearly equal may be all of it. */
+/* 1: the chunk is too narrow for division, as one eigenvalue or several that are nearly equal. */
 static int is_narrow(const interval *piece, double part, const dmb_mode_search *search)
 {
     return piece->to - piece->from <=
            part * fmax(fabs(piece->from), fabs(piece->to)) + DMB_NARROW_NOISE * search->noise;
 }
 
-/* Those from `first` on that are in the interval stay; how many. */
+/* Keeps the modes from `first` on that are in the interval; result: their number. */
 static int64_t keep_squares(dmb_modes *modes, uint32_t first, const interval *in)
 {
     uint32_t kept = first;
@@ -76,8 +75,8 @@ static int64_t keep_squares(dmb_modes *modes, uint32_t first, const interval *in
     return (int64_t)kept - first;
 }
 
-/* Where most eigenvalues of the piece are: the part of it that holds at least so large a share of them is halved until
- * neither half does, since a search from its middle separates them best. */
+/* Densest part of a chunk: the part that contains at least this fraction of the eigenvalues is halved until neither
+ * half does, since an iteration from its middle separates them best. */
 #define DMB_DENSE_PART 0.6
 enum { DMB_DENSE_HALVES = 10 };
 
@@ -102,7 +101,7 @@ static interval densest_part(const dmb_mode_search *search, const interval *piec
     return part;
 }
 
-/* 1: all that the counts promise was found, from shifts in a part of the piece; 0: not so. */
+/* 1: found the counted number, from shifts in a part of the chunk; 0: not. */
 static int32_t search_interval(dmb_mode_search *search, const interval *piece, interval part, uint32_t there)
 {
     dmb_modes *modes = search->modes;
@@ -123,8 +122,8 @@ static int32_t search_interval(dmb_mode_search *search, const interval *piece, i
     return 0;
 }
 
-/* Halves of the piece without eigenvalues are left out: from a shift among them they differ, from afar they are all
- * alike. The middle that is left, and how many are below it; 0 where that cannot be counted. */
+/* Removes halves of the chunk without eigenvalues: a shift among the eigenvalues separates them, a distant one does
+ * not. Results: the middle of the remainder, and the number below it; 0 if that cannot be counted. */
 static int shrink(const dmb_mode_search *search, interval *piece, double *middle, int64_t *below)
 {
     for (int i = 0; i < DMB_CUTS; i++) {
@@ -151,7 +150,7 @@ static void push(pieces *all, const interval *piece, double from, double to, int
     if (below_to > below_from) all->waiting[all->count++] = (interval){from, to, below_from, below_to, piece->cuts + 1};
 }
 
-/* Where the eigenvalues are much denser in a part of the piece than in the whole, the part is a piece of its own: 1. */
+/* 1: the eigenvalues are much denser in a part of the chunk than in the whole; that part becomes a chunk. */
 #define DMB_MUCH_DENSER 32.0
 
 static int set_apart(pieces *all, const interval *piece, const interval *part)
@@ -164,7 +163,7 @@ static int set_apart(pieces *all, const interval *piece, const interval *part)
     return 1;
 }
 
-/* 1: the modes of the piece were added, or it was cut into others. */
+/* 1: the modes of the chunk were added, or it was divided. */
 static int32_t search_piece(dmb_mode_search *search, pieces *all, interval piece)
 {
     const int64_t there = piece.below_to - piece.below_from;
@@ -202,7 +201,7 @@ static int32_t search_squares(dmb_mode_search *search, interval whole)
 int32_t dmb_modes_squares(dmb_mode_search *search, double from, double to)
 {
     search->pinned = 0;
-    search->partly = search->counted = 1; /* those in the piece converge first, and the counts confirm them */
+    search->partly = search->counted = 1; /* modes in the chunk converge first, and the counts confirm them */
     const int32_t status = search_squares(search, (interval){.from = from, .to = to});
     search->partly = search->counted = 0;
     return status;
@@ -211,7 +210,7 @@ int32_t dmb_modes_squares(dmb_mode_search *search, double from, double to)
 int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high)
 {
     const double a = DMB_TWO_PI * low * DMB_TWO_PI * low, b = DMB_TWO_PI * high * DMB_TWO_PI * high;
-    const double edge = 1e-9 * b; /* modes at the ends of the band are told by their frequencies */
+    const double edge = 1e-9 * b; /* modes at the ends of the band are selected by their frequencies */
     search->modes->count = 0;
     if (a <= edge) return dmb_modes_squares(search, -b - edge, b + edge);
     const int32_t status = dmb_modes_squares(search, a - edge, b + edge);
@@ -225,7 +224,7 @@ typedef struct rectangle {
     int cuts;
 } rectangle;
 
-/* A search: its shift, how small its operator's values became, and the roots it told. */
+/* An iteration: its shift, smallest operator value, and roots. */
 typedef struct reach {
     double growth, omega, least;
     double root[2 * DMB_PIECE][2];
@@ -234,9 +233,9 @@ typedef struct reach {
 
 typedef struct covering {
     dmb_mode_search *search;
-    double low, high; /* [1/s] of |s| */
+    double low, high; /* [1/s] limits of |s| */
     dmb_vector reaches;
-    int strip; /* 1: all roots are along the imaginary axis, and counts of w^2 tell about where */
+    int strip; /* 1: all roots are near the imaginary axis; counts of w^2 locate them approximately */
 } covering;
 
 static int holds(const rectangle *r, const double s[2])
@@ -244,8 +243,8 @@ static int holds(const rectangle *r, const double s[2])
     return s[0] >= r->re[0] && s[0] < r->re[1] && s[1] >= r->im[0] && s[1] < r->im[1];
 }
 
-/* Whether the reach has all roots of a rectangle: |value| of the operator, whose logarithm is harmonic, is least on its
- * edge. */
+/* 1: the reach contains all roots of a rectangle: |value| of the operator, whose logarithm is harmonic, is smallest on
+ * its boundary. */
 static int covers(const reach *w, const rectangle *r)
 {
     enum { POINTS = 24 };
@@ -259,7 +258,7 @@ static int covers(const reach *w, const rectangle *r)
     return 1;
 }
 
-/* Whether an earlier search has covered it and told no root in it. */
+/* 1: an earlier iteration has covered it and found no root in it. */
 static int is_empty(const covering *c, const rectangle *r)
 {
     for (size_t i = 0; i < c->reaches.count; i++) {
@@ -272,7 +271,7 @@ static int is_empty(const covering *c, const rectangle *r)
     return 0;
 }
 
-/* Whether all of a rectangle is out of the band. */
+/* 1: the whole rectangle is outside the band. */
 static int is_outside(const covering *c, const rectangle *r)
 {
     const double near_re = fmax(fmax(r->re[0], -r->re[1]), 0.0), near = hypot(near_re, r->im[0]);
@@ -280,7 +279,8 @@ static int is_outside(const covering *c, const rectangle *r)
     return near > c->high || far < c->low;
 }
 
-/* Roots of little damping stand beside the imaginary axis, not on the circle about growth through its own conjugate. */
+/* Real part of the shift: near the imaginary axis for roots of low damping, not on the circle about growth through its
+ * own conjugate. */
 static double shift_growth(const rectangle *r)
 {
     const double width = r->re[1] - r->re[0];
@@ -288,7 +288,7 @@ static double shift_growth(const rectangle *r)
     return 0.5 * (r->re[0] + r->re[1]);
 }
 
-/* 1: the rectangle is done, its modes added; 0: it was not reached to its corners. */
+/* 1: the rectangle is complete, its modes added; 0: not reached to its corners. */
 static int32_t search_rectangle(covering *c, const rectangle *r)
 {
     dmb_modes *modes = c->search->modes;
@@ -296,7 +296,7 @@ static int32_t search_rectangle(covering *c, const rectangle *r)
     reach w = {.growth = shift_growth(r), .omega = r->im[0] > 0.0 ? 0.5 * (r->im[0] + r->im[1]) : 0.0};
     const double aside = DMB_ASIDE * fmax(r->re[1] - r->re[0], r->im[1] - r->im[0]);
     int32_t status = dmb_modes_shifted(c->search, &w.growth, w.omega, aside, DMB_PIECE, &w.least);
-    if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far off all roots, or on one */
+    if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far from all roots, or at one */
     if (status < 0) return status;
     for (uint32_t i = first; i < modes->count && w.count < 2 * DMB_PIECE; i++, w.count++)
         memcpy(w.root[w.count], modes->s + 2 * (size_t)i, 2 * sizeof(double));
@@ -313,8 +313,8 @@ static int32_t search_rectangle(covering *c, const rectangle *r)
     return done;
 }
 
-/* In two along its longer side, off the middle, where roots like to be; what has the imaginary axis in it comes last,
- * and is cut to a square about it. */
+/* Divides along the longer side, off the middle, where roots are frequent; a rectangle that contains the imaginary axis
+ * is last, and is reduced to a square about it. */
 static void cut(const rectangle *r, rectangle out[2])
 {
     const double width = r->re[1] - r->re[0], height = r->im[1] - r->im[0];
@@ -333,7 +333,7 @@ static void cut(const rectangle *r, rectangle out[2])
     }
 }
 
-/* A piece of the strip with more roots than a search from its middle is sure to tell. */
+/* 1: a strip chunk has more roots than an iteration from its middle is certain to find. */
 static int is_crowded(const covering *c, const rectangle *r)
 {
     dmb_linear *linear = c->search->linear;
@@ -360,7 +360,7 @@ static int32_t cover(covering *c, rectangle all)
     return DMB_OK;
 }
 
-/* Whether no root of |s| <= high has a sign * real part beyond d. */
+/* 1: no root of |s| <= high has a sign * real part beyond d. */
 static int is_beside(dmb_mode_search *search, double high, double sign, double d)
 {
     return dmb_linear_negative(search->linear, d / (high * high), sign, d) == 0;

@@ -1,5 +1,5 @@
 /* All modes of R^T M R z'' + R^T C R z' + R^T K R z = 0 by LAPACK: K X = M X diag(square) for the symmetric part of K,
- * and where damping or an unsymmetric K couples these modes, their own equations (modes_coupled). */
+ * and, if damping or a non-symmetric K couples these modes, the coupled equations (modes_coupled). */
 #include "analysis/modes/modes.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "math/dense.h"
 #include "sim/access.h"
 
-/* `rows`: of the eigenproblem. */
+/* `rows`: size of the eigenproblem. */
 static int32_t refuse_size(const dmb_mode_search *search, size_t rows)
 {
     dmb_message_set(
@@ -55,7 +55,7 @@ static int32_t open_dense(const dmb_mode_search *search, dmb_dense *d)
     return DMB_OK;
 }
 
-/* K into its symmetric part in X and, where asked for, its skew one. */
+/* Splits K into its symmetric part in X and, on request, its skew part. */
 static void split_stiffness(size_t n, double *K, double *skew)
 {
     for (size_t i = 0; i < n; i++)
@@ -70,7 +70,7 @@ static void split_stiffness(size_t n, double *K, double *skew)
 
 /* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
 
-/* Over the largest K_ii/M_ii, which is an eigenvalue itself where elements are equal. */
+/* Multiple of the largest K_ii/M_ii, which is an eigenvalue itself if elements are equal. */
 #define DMB_AMONG_HIGHEST 1.2345
 
 static double *motion(const dmb_dense *d, size_t i)
@@ -100,7 +100,7 @@ static void move_motion(const dmb_mode_search *search, dmb_dense *d, size_t i)
         for (size_t j = 0; j < n; j++) d->X[n * k + j] += sigma * g[j] * g[k] - g[j] * u[k] - u[j] * g[k];
 }
 
-/* Share of the motions in vector k, by its square. */
+/* Squared fraction of the motions in vector k. */
 static double made_of_motions(const dmb_dense *d, size_t k)
 {
     double sum = 0.0;
@@ -111,7 +111,7 @@ static double made_of_motions(const dmb_dense *d, size_t k)
     return sum;
 }
 
-/* Vector number `from` is left out, and those before it move up by one. */
+/* Removes vector number `from` and moves those before it up by one. */
 static void move_up(dmb_dense *d, size_t from)
 {
     for (size_t k = from; k > 0; k--) {
@@ -121,8 +121,9 @@ static void move_up(dmb_dense *d, size_t from)
     }
 }
 
-/* The vectors that are nearest to the motions give way to them, in the first places; the others lose what they have of
- * them, which is rounding but where an eigenvalue is sigma by chance: then it is 2/3 of three vectors at most. */
+/* Replaces the vectors nearest to the motions by these, in the first positions, and projects the motions out of the
+ * other vectors. The projection is rounding, unless an eigenvalue equals sigma by chance: then it is at most 2/3, of
+ * three vectors. */
 static void put_motions(dmb_dense *d)
 {
     const size_t n = d->n;
@@ -148,8 +149,8 @@ static void put_motions(dmb_dense *d)
 
 /* ---- All modes --------------------------------------------------------------------------------------------------- */
 
-/* [1/s2] Rayleigh's quotient of vector k, whose rows are in d->x: the eigenvalue of LAPACK has the rounding of the
- * highest one, the quotient that of the forces of its own shape, in which it is off by the square of the vector's. */
+/* [1/s2] Rayleigh quotient of vector k, whose rows are in d->x: the eigenvalue of LAPACK has the rounding of the
+ * highest one, the quotient that of the forces of its own shape, with the square of the vector's error. */
 static double quotient(const dmb_mode_search *search, const dmb_dense *d, size_t k)
 {
     const dmb_linear *linear = search->linear;
@@ -207,13 +208,14 @@ int32_t dmb_modes_dense(dmb_mode_search *search)
 /* Modes of z'' + C z' + (diag(square) + S) z = 0, z the amplitudes of the undamped modes X of the symmetric part of K:
  * C = X^T C X, S = X^T (K - K^T)/2 X.
  *
- * These equations are small where the motions are: in the coordinates of the nodes K is as large as its stiffest
- * element throughout, and rounding of it is felt in the lowest frequencies as the square of the highest over the
- * lowest. With displacements measured by their own frequency, y = rate z, rate = sqrt |square|,
+ * These equations are small for low modes: in the coordinates of the nodes K has the magnitude of its stiffest element
+ * throughout, and its rounding affects the lowest frequencies as the square of the highest over the lowest. With
+ * displacements scaled by their own frequency, y = rate z, rate = sqrt |square|,
  *
  *     y' = rate z',     z'' = -(diag(square) + S)/rate y - C z',
  *
- * and the highest modes first, the matrix falls off from its first row to its last, which the QR algorithm keeps. */
+ * and the highest modes first, the matrix is graded from its first row to its last, which the QR algorithm
+ * preserves. */
 
 static int is_damped(const dmb_mode_search *search)
 {
@@ -226,7 +228,7 @@ size_t dmb_coupled_size(const dmb_mode_search *search)
     return (is_damped(search) ? 2 : 1) * (size_t)search->linear->coordinates;
 }
 
-/* Squares as sharp as they can be had, 0 of rigid motions; these are measured by the lowest rate of the others. */
+/* Refined squares; 0 for rigid motions, which are scaled by the lowest rate of the others. */
 static void take_rates(const dmb_mode_search *search, dmb_dense *d)
 {
     double least = 0.0;
@@ -241,32 +243,32 @@ static void take_rates(const dmb_mode_search *search, dmb_dense *d)
         if (d->rate[i] == 0.0) d->rate[i] = least > 0.0 ? least : 1.0;
 }
 
-/* X^T A X of what stands in `coupling`. */
+/* X^T A X of the matrix in `coupling`. */
 static void couple(dmb_dense *d)
 {
     dmb_dense_congruence(d->n, d->X, d->coupling, d->half);
 }
 
-/* X^T K r = 0 of a rigid-body motion r to the last digit, of which the symmetric part has been taken off K: its skew
- * part is as much as what r^T K X has of it, and the other way round. */
+/* X^T K r = 0 of a rigid-body motion r exactly. The symmetric part has been separated from K: the skew part equals the
+ * contribution to r^T K X, and conversely. */
 static void couple_motions(dmb_dense *d)
 {
     const size_t n = d->n;
     for (size_t k = 0; k < d->m; k++)
         for (size_t i = 0; i < n; i++) {
-            d->coupling[n * k + i] = 0.0; /* of row i by motion k */
+            d->coupling[n * k + i] = 0.0; /* row i, motion k */
             if (i >= d->m) d->coupling[n * i + k] *= 2.0;
         }
 }
 
-/* Damping that leaves the motions alone does so to the last digit. */
+/* Damping that does not act on the motions has exact zeros there. */
 static void uncouple_motions(dmb_dense *d)
 {
     for (size_t k = 0; k < d->m; k++)
         for (size_t i = 0; i < d->n; i++) d->coupling[d->n * k + i] = d->coupling[d->n * i + k] = 0.0;
 }
 
-/* A skew part that is rounding is left out. */
+/* A skew part at the rounding level is omitted. */
 static void couple_stiffness(const dmb_mode_search *search, dmb_dense *d)
 {
     if (search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)
@@ -276,7 +278,7 @@ static void couple_stiffness(const dmb_mode_search *search, dmb_dense *d)
     couple_motions(d);
 }
 
-/* Place of mode i, the highest first. */
+/* Position of mode i, the highest first. */
 static size_t place_of(const dmb_dense *d, size_t i)
 {
     return d->n - 1 - i;
@@ -290,7 +292,7 @@ static void fill_undamped(dmb_dense *d)
             d->system[n * place_of(d, j) + place_of(d, i)] = d->coupling[n * j + i] + (i == j ? d->square[i] : 0.0);
 }
 
-/* Displacement and speed of each mode beside each other. */
+/* Displacement and speed of each mode are adjacent. */
 static void fill_stiffness(dmb_dense *d)
 {
     const size_t n = d->n, m = 2 * n;
@@ -313,7 +315,7 @@ static void fill_damping(dmb_dense *d)
             d->system[m * (2 * place_of(d, j) + 1) + 2 * place_of(d, i) + 1] = -d->coupling[n * j + i];
 }
 
-/* Rows of the motion whose amplitudes in X are those of a vector of the system. */
+/* Rows of the motion whose amplitudes in X are given by a vector of the system. */
 static void expand(const dmb_mode_search *search, const dmb_dense *d, const double *v, double *rows)
 {
     double *z = d->half, *motion = z + d->n;
@@ -323,9 +325,8 @@ static void expand(const dmb_mode_search *search, const dmb_dense *d, const doub
     dmb_linear_expand(search->linear, motion, rows);
 }
 
-/* The root of eigenvalue i: s itself, or of s^2 = -value the one that grows, where that is complex (flutter) or
- * negative. The vector V of a complex value belongs to the roots -+ s*: where s grows, to -s*, and its conjugate to s.
- */
+/* Root of eigenvalue i: s itself, or of s^2 = -value the growing one if that is complex (flutter) or negative. The
+ * vector V of a complex value belongs to the roots -+ s*: for growing s, to -s*, and its conjugate to s. */
 static void root_of(const dmb_mode_search *search, const dmb_dense *d, size_t i, double s[2])
 {
     const double re = d->re[i], im = d->im[i];
@@ -337,7 +338,7 @@ static void root_of(const dmb_mode_search *search, const dmb_dense *d, size_t i,
     s[1] = re < 0.0 ? smaller : larger;
 }
 
-/* Of two undamped modes that meet in flutter one grows and the other decays, in conjugate shapes. */
+/* Of two undamped modes in flutter one grows and the other decays, in conjugate shapes. */
 static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s[2])
 {
     const int32_t status = dmb_modes_add(search, -s[0], s[1], d->x, d->y);
@@ -345,15 +346,14 @@ static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s
     return status < 0 ? status : dmb_modes_add(search, s[0], s[1], d->x, d->y);
 }
 
-/* A mode of each other pair; two of one that is a real root of two shapes. */
+/* Adds a pair as a mode, or as two modes if it is a real root of two shapes. */
 static int32_t add_pair(dmb_mode_search *search, dmb_dense *d, const double s[2])
 {
     const int flutters = !is_damped(search) && !dmb_modes_is_real_pair(search, s[0], s[1], d->x, d->y);
     return flutters ? add_flutter(search, d, s) : dmb_modes_take_root(search, s[0], s[1], d->x, d->y);
 }
 
-/* A motion that nothing turns back has a column of zeros, which the balancing of dgeev sets aside: its root is 0
- * sharply. */
+/* An unresisted motion has a column of zeros, which the balancing of dgeev separates: its root is exactly 0. */
 static int is_motion(const dmb_mode_search *search, const dmb_dense *d, size_t i)
 {
     return search->rigid_count > 0 && d->re[i] == 0.0 && d->im[i] == 0.0;

@@ -1,16 +1,15 @@
-/* Double roots of one shape. Where two roots s with shapes of their own meet and the two shapes become one as well (the
- * straight motion of a free string in axes that spin, a critically damped oscillator, the edge of flutter), rounding
- * eta of the equations parts them by the root of eta, in any direction of the plane: each is wrong by that, with a
- * residual of eta. Their mean is not (Kato, Perturbation Theory for Linear Operators, II.2: the sum of a group of roots
- * is smooth in the matrix), and neither is the mean of their shapes:
+/* Double roots of one shape. If two roots s and their two shapes coincide (the straight motion of a free string in
+ * rotating axes, a critically damped oscillator, the edge of flutter), rounding eta of the equations separates them by
+ * the root of eta, in any direction of the plane: each has that error, with a residual of eta. Their mean does not
+ * (Kato, Perturbation Theory for Linear Operators, II.2: the sum of a group of roots is smooth in the matrix), and
+ * neither does the mean of their shapes (eq:modes.double):
  *
- *     (eq:modes.double)   s = s0 -+ d,   x = u -+ d w,   Q(s0) u = 0,   Q'(s0) u + Q(s0) w = 0,   Q(s0) (x1 + x2)/2 =
- * O(d^2) = O(eta)
+ *     s = s0 -+ d,   x = u -+ d w,   Q(s0) u = 0,   Q'(s0) u + Q(s0) w = 0,   Q(s0) (x1 + x2)/2 = O(d^2) = O(eta)
  *
- * Roots are therefore told as their mean where their shapes are parallel and the mean leaves no more of its equations
- * than they do: the equations do not tell them apart. Roots that are parted by more than rounding fail that test by
- * d^2. A pair that stands beside the real axis is two real roots: of its shape, or, where x and y are not parallel, of
- * these two, if each of them leaves no more of its equations than the pair does. */
+ * Roots are therefore returned as their mean if their shapes are parallel and the residual of the mean is no larger
+ * than theirs: the equations do not separate them. Roots that differ by more than rounding fail that test by d^2. A
+ * pair near the real axis is two real roots: of its shape, or, if x and y are not parallel, of these two, if the
+ * residual of each is no larger than that of the pair. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -19,14 +18,14 @@
 #include "base/memory.h"
 #include "math/dense.h"
 
-/* Roots are compared within so many times the root of their residual, |s| being 1. Those that agree to so many times
- * the residual itself need no mean: equal roots of several shapes, which may be parallel by chance, are such. */
+/* Roots are compared within this multiple of the root of their residual, |s| being 1. Roots that agree to this multiple
+ * of the residual itself need no mean: equal roots of several shapes, which may be parallel by chance. */
 #define DMB_DOUBLE_NEAR 16.0
 #define DMB_DOUBLE_EQUAL 16.0
-/* 1 - |cosine| of parallel shapes, and of shapes that are the same. */
+/* 1 - |cosine| of parallel shapes, and of equal shapes. */
 #define DMB_DOUBLE_PARALLEL 0.05
 #define DMB_DOUBLE_SAME 1e-10
-/* The mean may leave so many times what the roots leave, and so much rounding. */
+/* Residual of the mean: largest multiple of the residual of the roots, plus rounding. */
 #define DMB_DOUBLE_RESIDUAL 8.0
 #define DMB_DOUBLE_ROUNDING (16.0 * DBL_EPSILON)
 
@@ -34,13 +33,13 @@ typedef struct joining {
     dmb_mode_search *search;
     double *x, *y;    /* sum of shapes, shape (rows) */
     double *residual; /* [-] of each mode, shape (count) */
-    double *near;     /* [1/s] radius in which others are compared, shape (count) */
-    uint8_t *member;  /* 1: of the group in hand; 2: of one that was joined, shape (count) */
-    uint32_t count;   /* modes that were found */
-    uint32_t weight;  /* roots of the group */
+    double *near;     /* [1/s] radius of comparison, shape (count) */
+    uint8_t *member;  /* 1: in the present group; 2: in a joined group, shape (count) */
+    uint32_t count;   /* number of modes found */
+    uint32_t weight;  /* number of roots in the group */
     double s[2];      /* [1/s] their sum */
-    double most;      /* largest residual of them */
-    double spread;    /* [1/s] largest distance from the first of them */
+    double most;      /* largest residual */
+    double spread;    /* [1/s] largest distance from the first */
     double aslant;    /* largest 1 - abs(cosine) */
 } joining;
 
@@ -60,7 +59,7 @@ static void form(const dmb_mode_search *search, uint32_t i, uint32_t j, int real
     c[1] = dmb_dot(n, x, My) - dmb_dot(n, y, Mx);
 }
 
-/* Adds mode j to the group, at a distance from its first root, its shape turned by the phase of c. */
+/* Adds mode j to the group, at a distance from its first root, its shape rotated by the phase of c. */
 static void add_member(joining *g, uint32_t j, int real, double apart, const double c[2])
 {
     const dmb_modes *modes = g->search->modes;
@@ -80,7 +79,7 @@ static void add_member(joining *g, uint32_t j, int real, double apart, const dou
     g->member[j] = 1;
 }
 
-/* The modes whose roots are near that of mode i and whose shapes are parallel to its own. */
+/* Collects the modes with roots near that of mode i and shapes parallel to its own. */
 static void collect(joining *g, uint32_t i, int real)
 {
     const dmb_modes *modes = g->search->modes;
@@ -101,7 +100,7 @@ static void collect(joining *g, uint32_t i, int real)
     }
 }
 
-/* The mean in the place of each of its modes; of those that were told with their conjugates, once more at the end. */
+/* Stores the mean in place of each of its modes; for modes that represent a conjugate pair, once more at the end. */
 static int32_t put_mean(joining *g, uint32_t mean)
 {
     dmb_modes *modes = g->search->modes;
@@ -142,7 +141,7 @@ static int32_t join_group(joining *g, uint32_t i, int real)
     return 0;
 }
 
-/* 1: the pair, no more than near the real axis, is two real roots of two shapes. */
+/* 1: the pair, near the real axis, is two real roots of two shapes. */
 static int32_t part_pair(joining *g, uint32_t i)
 {
     dmb_modes *modes = g->search->modes;

@@ -1,4 +1,4 @@
-/* Modes without rigid-body motions: strain energy as a test of an eigenvalue, and motions that are held or left out. */
+/* Modes without rigid-body motions: strain energy as a test of an eigenvalue, and pinned or projected motions. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "math/dense.h"
 #include "system/assemble/energy.h"
 
-/* Rounding of d^H K d in units of its terms: their number is in the hundreds of thousands at most. */
+/* Rounding of d^H K d in units of its terms, of which there are at most some hundred thousand. */
 #define DMB_SHARPEN_UNITS 64.0
 
 double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
@@ -27,9 +27,9 @@ double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
     return sum;
 }
 
-/* d^H K d is the strain energy twice where there is neither preload nor wall nor spring, and then the energy is the
- * sharper of the two: its terms are squares of small differences, those of K d cancel. With n elements to a bending
- * wave K d keeps eps n^4 of it, the energy eps n^2. It is taken where the two differ by the rounding of K d alone. */
+/* d^H K d is twice the strain energy if there is no preload, wall or spring, and then the energy is more accurate: its
+ * terms are squares of small differences, those of K d cancel. With n elements per bending wave K d loses eps n^4 of
+ * it, the energy eps n^2. The energy is used if the two differ by the rounding of K d alone. */
 double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x)
 {
     const dmb_linear *linear = search->linear;
@@ -43,16 +43,16 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
     return fabs(square - twice) <= DMB_SHARPEN_UNITS * DBL_EPSILON * terms ? twice : square;
 }
 
-/* Rigid-body motions out of the way of a search for few modes: K with pins to the ground in as many rows as there are
- * motions can be factored, and on forces that the motions are orthogonal to, (K + pins)^-1 is an inverse of K, so that
- * no shift has to compete with the lowest eigenvalues. The rows are those in which the motions r_i differ most,
- * measured by mass, one after the other: (K + pins) x = 0 means x . pins x = 0 as r_i . K = 0, so x is none of them. */
+/* Pinning of rigid-body motions: K with pins to the ground in as many rows as there are motions can be factored, and on
+ * forces orthogonal to the motions (K + pins)^-1 is an inverse of K, so that no shift competes with the lowest
+ * eigenvalues. The rows are those in which the motions r_i differ most, measured by mass, one after the other: (K +
+ * pins) x = 0 means x . pins x = 0 as r_i . K = 0, so x is none of them. */
 
-/* [-] C leaves a motion alone where its product is below this part of its terms. */
+/* [-] C does not act on a motion if their product is below this fraction of its terms. */
 #define DMB_UNDAMPED 1e-11
 
 typedef struct pin {
-    double *entry; /* of K */
+    double *entry; /* entry of K */
     double before, stiffness;
 } pin;
 
@@ -74,8 +74,7 @@ void dmb_modes_forget_rigid(dmb_mode_search *search)
 
 /* ---- Pins -------------------------------------------------------------------------------------------------------- */
 
-/* Motions by rows, each row times the root of its mass; 0 where a row is no coordinate. W: shape (rows, rigid_count).
- */
+/* Motions by rows, each row times the root of its mass; 0 in dependent rows. W: shape (rows, rigid_count). */
 static void weigh_rows(const dmb_mode_search *search, double *W)
 {
     const dmb_linear *linear = search->linear;
@@ -92,7 +91,7 @@ static void weigh_rows(const dmb_mode_search *search, double *W)
         }
 }
 
-/* The row that is longest, and what it tells is taken out of all of them. */
+/* Selects the longest row and projects its direction out of all rows. */
 static uint32_t next_pin(size_t rows, size_t m, double *W, double *direction)
 {
     size_t most = 0;
@@ -109,7 +108,7 @@ static uint32_t next_pin(size_t rows, size_t m, double *W, double *direction)
     return (uint32_t)most;
 }
 
-/* Of the size that the row has, or its mass gives it. */
+/* A pin has the magnitude of the diagonal entry, or that given by its mass. */
 static void place_pin(const dmb_mode_search *search, uint32_t row, pin *p)
 {
     const dmb_linear *linear = search->linear;
@@ -126,7 +125,7 @@ static void place_pin(const dmb_mode_search *search, uint32_t row, pin *p)
     if (!(p->stiffness > 0.0)) p->stiffness = linear->mass.diagonal[at] * fmax(search->noise / DMB_NOISE, 1.0);
 }
 
-/* Factors K with pins; K itself is left as it was. */
+/* Factors K with pins; K itself is restored. */
 static int64_t factor_pinned(dmb_mode_search *search, double *W)
 {
     const size_t m = search->rigid_count, rows = search->linear->rows;
@@ -153,7 +152,7 @@ int32_t dmb_modes_pin(dmb_mode_search *search)
     dmb_release(&search->linear->allocator, W, bytes);
     return DMB_OK;
 }
-/* C r = 0 to rounding of its terms; r . C x vanishes for any x where C^T r does, which a few x tell. */
+/* C r = 0 to rounding of its terms; r . C x vanishes for any x if C^T r does, which a few x verify. */
 int dmb_modes_rigid_undamped(const dmb_mode_search *search)
 {
     const dmb_linear *linear = search->linear;

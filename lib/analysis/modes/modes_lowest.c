@@ -1,34 +1,41 @@
-/* The modes of smallest |s|. Of symmetric problems the counts of eigenvalues are the witness: a search from 0 that
- * stays short finds modes that are well apart; where it reaches a dense band, as the lateral modes of a string on the
- * wall are
+/* Modes of smallest |s|. Methods in their order:
  *
- *     s_k^2 = -(k_wall + EI (k pi/L)^4)/m,
+ *   1. dense, if that is faster (dmb_modes_is_dense)
+ *   2. symmetric: find_counted. A short iteration from the shift near 0, whose result counts of eigenvalues confirm; if
+ *      they contradict it, the interval from counts (find_interval), confirmed once more
+ *   3. find_confirmed: iterations that random vectors confirm, up to DMB_COUNT_TRIES times with more modes
+ *   4. if those do not converge, find_converged: all modes by the dense method up to DMB_ALL_INSTEAD coordinates;
+ *      otherwise the converged modes without the last, computed once more
  *
- * an interval is counted that holds the modes wanted and few others, and is searched from a shift inside it, where the
- * inverse separates them (eq:modes.shift-invert, eq:modes.count). */
+ * For symmetric problems a short iteration from 0 finds separated modes. It does not resolve a dense band, such as the
+ * lateral modes of a string on the wall
+ *
+ *     s_k^2 = -(k_wall + EI (k pi/L)^4)/m.
+ *
+ * Counts then locate an interval that contains the modes wanted and few others; a shift inside it separates them
+ * (eq:modes.shift-invert, eq:modes.count). */
 #include <math.h>
 
 #include "analysis/modes/modes.h"
 
-/* Margin below the last of the modes wanted at which the modes found are compared with a count: it leaves out those
- * equal to the last. */
+/* Margin below the last mode wanted for the comparison with a count: it excludes modes equal to the last. */
 #define DMB_COUNT_MARGIN 1e-9
 #define DMB_COUNT_NOISE 64.0
-/* An estimate from above may be the eigenvalue itself: the end of an interval lies beyond. */
+/* An upper estimate may be the eigenvalue itself: the end of an interval is beyond it by this fraction. */
 #define DMB_ESTIMATE_MARGIN 1e-8
-/* Vectors of the first search: so many, and so many for each mode. */
+/* Subspace dimension of the first iteration: constant, and per mode. */
 enum { DMB_FIRST_VECTORS = 28, DMB_FIRST_SHARE = 1 };
-/* The interval may hold so many modes beyond those wanted; bound on the search for its end. */
+/* Largest number of extra modes in the interval; largest number of bracketing steps. */
 enum { DMB_BEYOND = 6, DMB_BRACKET = 100 };
-/* Searches without counts. */
+/* Largest number of iterations without counts. */
 enum { DMB_COUNT_TRIES = 3 };
-/* All modes of up to so many coordinates are found where some of the lowest do not converge; of more, the last of those
- * that converge are left out, beyond which others may be missing. */
+/* Coordinates up to which all modes are computed if some of the lowest do not converge; for more coordinates, number of
+ * the last converged modes that are omitted, beyond which others may be missing. */
 enum { DMB_ALL_INSTEAD = 400, DMB_LEFT_OUT = 1 };
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
-/* Modes of |s|^2 below a square, the motions that are apart left out; -1 where nothing can be counted. */
+/* Number of modes with |s|^2 below a square, without separated motions; -1 if it cannot be counted. */
 static int64_t count_within(dmb_mode_search *search, double square)
 {
     double high = square, low = -square;
@@ -57,15 +64,15 @@ static uint32_t wanted_of(const dmb_mode_search *search)
     return count > apart ? count - apart : 0;
 }
 
-/* Just below the square of mode number `last`, where it can be counted: above the noise of eigenvalues 0; or 0. */
+/* [1/s2] Just below the square of mode number `last`, above the rounding level of eigenvalues 0 so that it can be
+ * counted; or 0. */
 static double countable(const dmb_mode_search *search, uint32_t last)
 {
     const double square = square_of(search->modes, last) * (1.0 - DMB_COUNT_MARGIN) - DMB_COUNT_NOISE * search->noise;
     return square > DMB_RIGID_NOISE * search->noise ? square : 0.0;
 }
 
-/* 1: the counts confirm the modes found, which are sorted, up to the last one wanted. 0: they do not; -1: nothing can
- * be counted. */
+/* 1: the counts confirm the sorted modes up to the last one wanted. 0: they do not; -1: cannot be counted. */
 static int confirmed(dmb_mode_search *search)
 {
     const dmb_modes *modes = search->modes;
@@ -82,10 +89,10 @@ static int confirmed(dmb_mode_search *search)
 
 typedef struct bracket {
     double low, high;       /* [1/s2] */
-    int64_t within, beyond; /* modes of |s|^2 below them: fewer than wanted, and enough */
+    int64_t within, beyond; /* number of modes with |s|^2 below low, fewer than wanted, and below high, enough */
 } bracket;
 
-/* An upper end from the estimate of the search, doubled until enough are below it. */
+/* Upper end from the estimate of the iteration, doubled until enough modes are below it. */
 static int32_t open_bracket(dmb_mode_search *search, bracket *b)
 {
     const double estimate = (1.0 + DMB_ESTIMATE_MARGIN) * (search->reach + fabs(search->shift));
@@ -101,8 +108,8 @@ static int32_t open_bracket(dmb_mode_search *search, bracket *b)
     return DMB_ERR_NO_CONVERGENCE;
 }
 
-/* Closes in on an upper end with few modes beyond those wanted: by halves, and in turn by the growth of eigenvalues as
- * the fourth power of their number, as at the edge of a band of bending modes. */
+/* Narrows the interval to an upper end with few extra modes: by bisection, alternating with the growth of eigenvalues
+ * as the fourth power of their number, as at the edge of a band of bending modes. */
 static int32_t close_bracket(dmb_mode_search *search, bracket *b)
 {
     const int64_t wanted = wanted_of(search);
@@ -124,7 +131,7 @@ static int32_t close_bracket(dmb_mode_search *search, bracket *b)
     return DMB_OK;
 }
 
-/* The modes found so far stay where the counts confirm them: the square up to which they are all, or 0. */
+/* Keeps the modes found so far if the counts confirm them. Result: the square up to which they are complete, or 0. */
 static double keep_confirmed(dmb_mode_search *search)
 {
     dmb_modes *modes = search->modes;
@@ -138,7 +145,7 @@ static double keep_confirmed(dmb_mode_search *search)
     return square;
 }
 
-/* By counts alone. */
+/* Interval and its modes by counts alone. */
 static int32_t find_interval(dmb_mode_search *search)
 {
     bracket b = {.low = keep_confirmed(search)};
@@ -154,7 +161,7 @@ static int32_t find_interval(dmb_mode_search *search)
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* A short search from the shift near 0, and the interval that it does not resolve. *done: 1 where the counts confirm
+/* A short iteration from the shift near 0, and the interval that it does not resolve. *done: 1 if the counts confirm
  * the modes. */
 static int32_t find_counted(dmb_mode_search *search, int *done)
 {
@@ -178,8 +185,8 @@ static int32_t find_counted(dmb_mode_search *search, int *done)
     return DMB_OK;
 }
 
-/* Where the roots beyond some do not converge: of few coordinates all modes, of many those that have converged, which a
- * search for them alone confirms. */
+/* If roots beyond some do not converge: with few coordinates all modes, otherwise the converged ones, which a separate
+ * iteration confirms. */
 static int32_t find_converged(dmb_mode_search *search, uint32_t wanted)
 {
     const uint32_t apart = search->apart ? search->rigid_count : 0;
@@ -197,11 +204,12 @@ static int32_t find_converged(dmb_mode_search *search, uint32_t wanted)
     return status;
 }
 
-/* Without counts the search confirms itself by random vectors. Pairs that were returned once make it too small. */
+/* Without counts the iteration confirms itself by random vectors. Pairs are returned once and reduce the number of
+ * modes. */
 static int32_t find_confirmed(dmb_mode_search *search)
 {
     uint32_t wanted = search->options->count;
-    if (search->general) wanted++; /* a double root may stand at the end */
+    if (search->general) wanted++; /* a double root may be at the end */
     for (int tries = 1;; tries++) {
         if (dmb_modes_is_dense(search, wanted)) return dmb_modes_dense(search);
         const int32_t status = dmb_modes_sparse(search, wanted);
@@ -215,7 +223,7 @@ static int32_t find_confirmed(dmb_mode_search *search)
         if (more == 0 || tries == DMB_COUNT_TRIES) return missing ? DMB_ERR_NO_CONVERGENCE : DMB_OK;
         wanted += more + 2;
         search->modes->count = 0;
-        const int32_t again = dmb_modes_choose_shift(search); /* the counts have taken the factors */
+        const int32_t again = dmb_modes_choose_shift(search); /* the counts have overwritten the factors */
         if (again < 0) return again;
     }
 }
@@ -228,7 +236,7 @@ int32_t dmb_modes_lowest(dmb_mode_search *search)
         int32_t status = find_counted(search, &done);
         if (status < 0 || done) return status;
         search->modes->count = 0;
-        status = dmb_modes_choose_shift(search); /* the counts have taken the factors */
+        status = dmb_modes_choose_shift(search); /* the counts have overwritten the factors */
         if (status < 0) return status;
     }
     return find_confirmed(search);

@@ -1,4 +1,4 @@
-/* The residual of modes in their equations, and its reduction by inverse iteration. */
+/* Residual of modes in their equations, and its reduction by inverse iteration. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>
@@ -11,11 +11,11 @@
 #include "math/real.h"
 #include "sim/access.h"
 
-/* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
- * their terms. */
+/* Largest residual of a computed mode: fraction of the forces in its equation, plus a multiple of the rounding of their
+ * terms. */
 #define DMB_MODE_CONVERGED 1e-10
 #define DMB_MODE_ROUNDING 1024.0
-/* Refined are also those that leave more than this part of it: their residual in the norm of dmb_modes_residual may be
+/* Modes above this fraction of the bound are refined too: their residual in the norm of dmb_modes_residual may be
  * larger. */
 #define DMB_MODE_SHARP 0.1
 
@@ -73,10 +73,10 @@ double dmb_modes_residual(const dmb_mode_search *search, uint32_t k)
     return terms > 0.0 ? sqrt(left / terms) : 0.0;
 }
 
-/* ---- Whether a mode is one --------------------------------------------------------------------------------------- */
+/* ---- Check of a mode --------------------------------------------------------------------------------------------- */
 
-/* Of forces by rows, on the coordinates and over the root of the mass of each, so that forces and moments are of one
- * kind: for an undamped mode with x^T M x = 1 the norm of M x is about 1, that of K x about its eigenvalue. */
+/* Norm of forces by rows, on the coordinates and over the root of the mass of each, so that forces and moments are
+ * comparable: for an undamped mode with x^T M x = 1 the norm of M x is about 1, that of K x about its eigenvalue. */
 static double norm_of(const dmb_mode_search *search, const double *re, const double *im, int terms)
 {
     const dmb_linear *linear = search->linear;
@@ -89,7 +89,7 @@ static double norm_of(const dmb_mode_search *search, const double *re, const dou
     return sqrt(sum);
 }
 
-/* Diagonal of R^T M R, couplings between the nodes of a joint left out. */
+/* Diagonal of R^T M R, without couplings between the nodes of a joint. */
 void dmb_modes_weigh_coordinates(const dmb_mode_search *search)
 {
     const dmb_linear *linear = search->linear;
@@ -148,8 +148,8 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
 
 /* ---- Refusal ----------------------------------------------------------------------------------------------------- */
 
-/* Where forces are rounding, the root may still be told by the strain: with d^H M d = 1 and e twice its energy,
- * s^2 + s d^H C d + e = 0, unless most of the stiffness is not of strain. */
+/* If forces are at the rounding level, the strain energy may still determine the root: with d^H M d = 1 and e twice its
+ * energy, s^2 + s d^H C d + e = 0, unless most of the stiffness is not of strain. */
 #define DMB_ENERGY_TELLS 0.5
 
 static int energy_tells(const dmb_mode_search *search, uint32_t k)
@@ -177,8 +177,8 @@ static int energy_tells(const dmb_mode_search *search, uint32_t k)
     return hypot(re, im) <= DMB_ENERGY_TELLS * (size * size + size * hypot(c[0], c[1]) + e);
 }
 
-/* A mode is one only if its equations balance to rounding, and only where its forces are more than that. 0, with a
- * message, if mode k is not. */
+/* A mode is accepted only if its equations balance to rounding, and only if its forces exceed rounding. 0, with a
+ * message, if mode k is refused. */
 static int is_mode(const dmb_mode_search *search, uint32_t k)
 {
     const double frequency = dmb_modes_size(search->modes, k) / DMB_TWO_PI;
@@ -221,13 +221,13 @@ int32_t dmb_modes_check(dmb_mode_search *search)
     return DMB_NOTE_INCOMPLETE;
 }
 
-/* A mode sharper than the subspace gave it, by inverse iteration at p next to its root (Ruhe 1973):
+/* Refinement of a mode by inverse iteration at p next to its root (Ruhe 1973; eq:modes.refine):
  *
  *     general:    Q(p) y = Q'(s) x,   Q(s) = s^2 M + s C + K,   and s from y^H Q(s) y = 0
- *     symmetric:  (K - p M) y = M x,  and s^2 from Rayleigh's quotient
+ *     symmetric:  (K - p M) y = M x,  and s^2 from the Rayleigh quotient
  *
- * Each turn takes |s - p| over the distance to the next root off the error. Rounding of the solution, mostly
- * of stiff motions, is reduced by one step of iterative refinement, which leaves x itself alone. */
+ * Each iteration multiplies the error by |s - p| over the distance to the next root. Rounding of the solution, mostly
+ * in stiff motions, is reduced by one step of iterative refinement, which does not change x itself. */
 
 /* Relative distance of p from the root, which keeps pivots regular; and the largest number of iterations. */
 #define DMB_POLISH_ASIDE 1e-7
@@ -273,7 +273,7 @@ static void add_forces(const polish *p, const dmb_linear_matrix *A, number facto
     }
 }
 
-/* The root of y^H Q(s) y that is next to s. */
+/* Root of y^H Q(s) y nearest to s. */
 static number root_next_to(const polish *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
@@ -306,7 +306,7 @@ static int turn(polish *p, number s)
     return 1;
 }
 
-/* Takes rounding of the solution, mostly of stiff motions, off x: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. */
+/* Reduces rounding of the solution, mostly in stiff motions: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. */
 static void correct_general(polish *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
@@ -351,7 +351,7 @@ static void sharpen_general(polish *p, uint32_t k)
     }
 }
 
-/* x over its length in M; 0 if it has none. */
+/* Divides x by its length in M; 0 if that is not positive and finite. */
 static int take_length(const dmb_linear *linear, double *x, double *Mx)
 {
     const size_t rows = linear->rows;
@@ -362,8 +362,8 @@ static int take_length(const dmb_linear *linear, double *x, double *Mx)
     return 1;
 }
 
-/* Takes rounding of the solution, mostly of stiff motions, off x by a correction of the residual:
- * x -= (I - x x^T M) (K - p M)^-1 (K - s M) x, s Rayleigh's quotient. */
+/* Reduces rounding of the solution, mostly in stiff motions, by a correction of the residual: x -= (I - x x^T M) (K - p
+ * M)^-1 (K - s M) x, s the Rayleigh quotient. */
 static void correct(const polish *p, double *x)
 {
     const dmb_mode_search *search = p->search;

@@ -1,4 +1,4 @@
-/* A mode that was found: normalised, told from rigid-body motions, put in its place, stored. */
+/* Storage of a computed mode: normalisation, separation from rigid-body motions, order, memory. */
 #include <math.h>
 #include <string.h>
 
@@ -37,16 +37,17 @@ static void normalise(const dmb_mode_search *search, double *x, double *y)
     x[most] = fabs(x[most]);
 }
 
-/* y and z of a vector's complex amplitude (re, im), Y and Z, as (Y + sign i Z)/2 e1 and the amplitude that belongs to
- * it: the circle from y to z (sign 1), e1 = (1, -i), or from z to y (sign -1), e1 = (1, i); its real part to `out`. */
+/* Real part of the circular component of one sense: y and z of a vector's complex amplitude (re, im), Y and Z, as (Y +
+ * sign i Z)/2 e1 and the corresponding amplitude: the circle from y to z (sign 1), e1 = (1, -i), or from z to y (sign
+ * -1), e1 = (1, i). */
 static void take_circle(const double *re, const double *im, double sign, double *out)
 {
     out[0] = 0.5 * (re[0] - sign * im[1]);
     out[1] = 0.5 * (sign * im[0] + re[1]);
 }
 
-/* d^H M d of the circles of one sense in d = x + i y. Their real and imaginary parts are alike: twice that of the real
- * one. */
+/* d^H M d of the circles of one sense in d = x + i y. Real and imaginary parts contribute equally: twice the real
+ * part. */
 static double circling(const dmb_mode_search *search, const double *x, const double *y, double sign)
 {
     const dmb_block_layout *layout = &search->linear->scene.layout;
@@ -62,7 +63,7 @@ static double circling(const dmb_mode_search *search, const double *x, const dou
     return 2.0 * dmb_dot(n, circle, product);
 }
 
-/* x^H M x of the rest: motion along and around, and nodes that do not leave the axis. */
+/* x^H M x of the other components: axial and torsional motion, and axial-torsional nodes. */
 static double not_circling(const dmb_mode_search *search, const double *x)
 {
     const dmb_block_layout *layout = &search->linear->scene.layout;
@@ -76,8 +77,8 @@ static double not_circling(const dmb_mode_search *search, const double *x)
     return dmb_dot(n, rest, product);
 }
 
-/* Forward less backward over the sum of the parts. That is d^H M d = 1 where the mass is round; eccentric mass couples
- * the parts, and their sum differs from 1. */
+/* Forward less backward over the sum of the parts. The sum is d^H M d = 1 if the mass is axisymmetric; eccentric mass
+ * couples the parts, and their sum differs from 1. */
 static double whirl_of(const dmb_mode_search *search, const double *x, const double *y)
 {
     const double forward = circling(search, x, y, 1.0), backward = circling(search, x, y, -1.0);
@@ -87,15 +88,15 @@ static double whirl_of(const dmb_mode_search *search, const double *x, const dou
 
 /* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
 
-/* So much of a shape, by its square, is beside the rigid-body motions where it is made of them. */
+/* Largest squared fraction of a shape orthogonal to the rigid-body motions if it consists of them. */
 #define DMB_BESIDE_RIGID 1e-6
-/* Likewise of a motion that drag slows down so little that nothing else is felt. */
+/* The same for a motion that drag damps so little that no other force acts. */
 #define DMB_BESIDE_DRIFT 1e-10
-/* Damping is known to this part of the terms that add up to it; [1/s] below this it is none. */
+/* Rounding of damping over its terms; [1/s] rates below the second bound count as 0. */
 #define DMB_DRIFT_NOISE 1e-12
 #define DMB_DRIFT_LEAST 1e-15
 
-/* x^T M x of what x has beside the rigid-body motions; its own in *whole. */
+/* x^T M x of the component orthogonal to the rigid-body motions; adds that of x to *whole. */
 static double beside_rigid(const dmb_mode_search *search, const double *x, double *whole)
 {
     const size_t n = search->linear->rows;
@@ -109,7 +110,7 @@ static double beside_rigid(const dmb_mode_search *search, const double *x, doubl
     return sum;
 }
 
-/* [1/s] c = x^H C x over x^H M x = whole, and what rounding of its terms may make of it. */
+/* [1/s] c = x^H C x over x^H M x = whole, and its rounding by its terms. */
 static double damping_of(const dmb_mode_search *search, const double *x, const double *y, double whole, double *noise)
 {
     const dmb_linear *linear = search->linear;
@@ -125,7 +126,7 @@ static double damping_of(const dmb_mode_search *search, const double *x, const d
     return c / whole;
 }
 
-/* Where drag slows a motion down, K x = 0 has the roots 0 and -c; that one is a mode of its own. */
+/* If drag damps a motion, K x = 0 has the roots 0 and -c; the latter is a separate mode. */
 int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y)
 {
     double whole = 0.0, beside = 0.0, noise = 0.0, c = 0.0;
@@ -137,8 +138,8 @@ int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im,
     return !(c > noise && hypot(re + c, im) < 0.5 * c);
 }
 
-/* [1/s] a real root s of shape x that is none of those: sharp where drag slows down what rounding of K hides. By C
- * alone: K x, which is 0 but for rounding, would count for more. */
+/* [1/s] Refined real root s of shape x that is not a rigid-body root: rounding of K hides slow drag. From C alone,
+ * because K x, which is 0 but for rounding, would dominate. */
 static double drift(const dmb_mode_search *search, double s, const double *x)
 {
     const size_t n = search->linear->rows;
@@ -156,7 +157,7 @@ static double drift(const dmb_mode_search *search, double s, const double *x)
 
 /* ---- Adding ------------------------------------------------------------------------------------------------------ */
 
-/* Room for one more. */
+/* Ensures capacity for one more mode. */
 static int32_t make_room(dmb_mode_search *search)
 {
     dmb_modes *modes = search->modes;
@@ -173,7 +174,7 @@ void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, co
     if (y != NULL)
         memcpy(also, y, rows * sizeof(double));
     else if (also != NULL)
-        memset(also, 0, rows * sizeof(double)); /* a mode found before may have stood here */
+        memset(also, 0, rows * sizeof(double)); /* a previous mode may have been stored here */
     normalise(search, to, y != NULL ? also : NULL);
     modes->rigid[k] = 0;
     modes->s[2 * (size_t)k] = re;
@@ -206,10 +207,11 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
     return DMB_OK;
 }
 
-/* A real root of two shapes, as of a column that diverges in two planes, may come as a pair that rounding has moved off
- * the real axis by this part of it; or, however the BLAS rounds, by as much as so many times the noise of eigenvalues
- * s^2 makes of s, up to the second part of it. Real and imaginary part are shapes of it then, unless one of them is
- * this part of the other: that is a double root of one shape (dmb_modes_join). */
+/* A real root of two shapes, as of a column that diverges in two planes, may appear as a pair that rounding has moved
+ * off the real axis by DMB_REAL_PAIR; or, depending on the BLAS, by the multiple DMB_REAL_PAIR_NOISE of the effect on s
+ * of the rounding level of eigenvalues s^2, up to DMB_REAL_PAIR_MOST. Real and imaginary part are then shapes of it,
+ * unless one of them is below the fraction DMB_REAL_SHAPES of the other: that is a double root of one shape
+ * (dmb_modes_join). */
 #define DMB_REAL_PAIR 1e-9
 #define DMB_REAL_PAIR_NOISE 16.0
 #define DMB_REAL_PAIR_MOST 1e-6
@@ -231,7 +233,7 @@ int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, 
     return dmb_modes_are_two_shapes(search, y);
 }
 
-/* The half of a divergence pair (s, -s) that decays is no mode of its own. */
+/* The decaying half of a divergence pair (s, -s) is not a separate mode. */
 static int32_t take_real(dmb_mode_search *search, double re, const double *x)
 {
     if (search->options->kind == DMB_MODES_UNDAMPED && re < 0.0) return DMB_OK;
@@ -250,7 +252,7 @@ int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, doubl
     return dmb_modes_add(search, re, im, x, y);
 }
 
-/* The order of modes, and which of them are kept. */
+/* Order and selection of modes. */
 
 double dmb_modes_size(const dmb_modes *modes, uint32_t i)
 {
@@ -312,7 +314,7 @@ int32_t dmb_modes_put_rigid(dmb_mode_search *search)
     return status;
 }
 
-/* Memory of the modes that were found. */
+/* Memory of the modes. */
 
 static size_t bytes_of(const dmb_modes *modes, uint32_t capacity, int32_t with_im)
 {
@@ -370,7 +372,7 @@ int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes)
     m->rows = sim->scene->row_count;
     m->state = dmb_state_copy(sim);
     if (m->state != NULL) {
-        m->state->magic = DMB_HANDLE_SIM;             /* queries look through it */
+        m->state->magic = DMB_HANDLE_SIM;             /* queries read through it */
         m->state->progress = &m->state->own_progress; /* it may outlive the sim */
         dmb_model_hold(m->state->model);
     }

@@ -1,20 +1,20 @@
 /* Rigid-body motions: the null space of K among motions that move every part as a rigid body.
  *
- * Parts are runs of nodes that elements connect. A part of nodes that move freely has six candidates, translations
- * along the axes of the world and rotations about them through its middle, d = Ad(H^-1) xi at each node; one on the
- * axis of a hole has two. A string that is bent may turn about its own axis, section by section: what is round and
- * was straight has no stiffness against that, which is therefore one more candidate.
- * With B the candidates of all parts, the motions sought are B q with
+ * Parts are runs of nodes connected by elements. A part of six-DOF nodes has six candidates, translations along the
+ * world axes and rotations about them through its centre, d = Ad(H^-1) xi at each node; a part of axial-torsional nodes
+ * has two. A bent string may rotate about its own axis, section by section: an axisymmetric string with straight rest
+ * shape has no stiffness against this rotation, which is therefore one more candidate. With B the candidates of all
+ * parts, the motions are B q with
  *
- *     (1 - R E) B q = 0     joints and supports let it happen (E takes the coordinates out of d),
- *     R^T K B q = 0         nothing that acts in the state turns it back.
+ *     (1 - R E) B q = 0     joints and supports permit the motion (E selects the coordinates of d),
+ *     R^T K B q = 0         no force of the state resists it.
  *
  * An element's strain is 0 in a candidate, so that its part of K B is rounding however long, bent or soft the string
- * is: a row is 0 where it is below a part of its terms, sum |K_ij| |B_jk|, and the rank is that of few and well-scaled
- * numbers, by Givens rotations of its rows and Householder's QR with column pivoting (Golub, Van Loan 2013, 5.2
- * and 5.4).
+ * is: a row is 0 if it is below a fraction of its terms, sum |K_ij| |B_jk|, and the rank is that of few and well-scaled
+ * numbers, by Givens rotations of its rows and Householder's QR with column pivoting (Golub, Van Loan 2013, 5.2 and
+ * 5.4).
  *
- * Candidates that nearly cancel are judged once more, by the motion that they leave (modes_rigid_check). */
+ * Candidates that nearly cancel are checked once more, by the remaining motion (modes_rigid_check). */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -26,11 +26,11 @@
 #include "math/so3.h"
 #include "sim/node.h"
 
-/* A row of the conditions below this part of its terms is rounding. */
+/* [-] A row of the conditions below this fraction of its terms is rounding. */
 #define DMB_RIGID_ROUNDING 1e-12
-/* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
+/* [rad] Bend of a string above which rotation about its own axis differs from a rigid-body motion. */
 #define DMB_RIGID_BENT 1e-6
-/* The conditions are dense in the candidates: 200 parts. */
+/* Limit, because the conditions are dense in the candidates: 200 parts. */
 enum { DMB_CANDIDATES_MAX = 1200 };
 
 typedef struct entry {
@@ -40,9 +40,9 @@ typedef struct entry {
 
 typedef struct rigid_part {
     uint32_t first, count; /* nodes */
-    uint32_t candidate;    /* number of its first one */
+    uint32_t candidate;    /* index of its first candidate */
     uint32_t candidates;
-    int32_t full;           /* 1: of nodes that move freely */
+    int32_t full;           /* 1: six-DOF nodes */
     double bend;            /* [rad] largest angle between the axes of its nodes and that of the first */
     double middle[3], size; /* [m] */
 } rigid_part;
@@ -53,7 +53,7 @@ typedef struct conditions {
     const dmb_allocator *allocator;
     rigid_part *parts; /* shape (nodes) */
     uint32_t part_count, candidates;
-    uint32_t count; /* conditions: rows, then coordinates */
+    uint32_t count; /* number of conditions: rows, then coordinates */
     entry *entries; /* by candidate */
     size_t entry_count, entry_room;
     double *terms;            /* of each condition, shape (count) */
@@ -158,7 +158,7 @@ static int32_t put(conditions *c, uint32_t condition, uint32_t candidate, double
     return DMB_OK;
 }
 
-/* Keeps a value that is more than rounding of its terms, and these. */
+/* Stores a value above the rounding of its terms, and adds the terms. */
 static int32_t put_row(conditions *c, uint32_t condition, uint32_t candidate, double value, double terms)
 {
     c->terms[condition] += terms;
@@ -211,7 +211,7 @@ static int32_t make_conditions(conditions *c)
 
 /* ---- Motions ----------------------------------------------------------------------------------------------------- */
 
-/* Offsets of the entries of each condition, sorted by it. */
+/* Offsets of the entries of each condition, and the entries sorted by condition. */
 static void sort_entries(const conditions *c, size_t *start, entry *sorted)
 {
     for (size_t i = 0; i < c->entry_count; i++) start[c->entries[i].condition + 1]++;
@@ -235,7 +235,7 @@ static void gather(const conditions *c, const size_t *start, const entry *sorted
     }
 }
 
-/* r = R E B q, which joints let happen to the last digit. */
+/* r = R E B q, which joints permit exactly. */
 static void motion_of(const conditions *c, const double *q, double *r)
 {
     const dmb_linear *linear = c->linear;
@@ -248,10 +248,10 @@ static void motion_of(const conditions *c, const double *q, double *r)
     dmb_linear_expand(linear, c->g, r);
 }
 
-/* So little of a motion is beside those before it where it is one of them again. */
+/* Norm of a motion's component orthogonal to the previous motions below which it is one of them. */
 #define DMB_RIGID_AGAIN 1e-6
 
-/* The motion as one more of those that are orthonormal in M. */
+/* Adds the motion, orthonormalised in M. */
 static void take_motion(const conditions *c, const double *q)
 {
     dmb_mode_search *search = c->search;
@@ -328,7 +328,7 @@ int32_t dmb_modes_find_rigid(dmb_mode_search *search)
     if (status < 0) return status;
     find_parts(&c);
     if (c.candidates <= DMB_CANDIDATES_MAX) {
-        search->apart = 1; /* while they are made orthogonal */
+        search->apart = 1; /* during orthogonalisation */
         status = make_conditions(&c);
         if (status >= 0) status = take_null_space(&c);
         search->apart = 0;

@@ -1,14 +1,14 @@
-/* Whether K turns back the rigid-body motions that were found.
+/* Check that K does not resist the computed rigid-body motions.
  *
  * Candidates that nearly cancel leave a small motion whose stiffness is below the rounding of their terms: a rotation
- * about the axis less that of all sections is the sag of the string, turned out of its plane. The motions r found,
- * r_i^T M r_j = I, are therefore rotated among each other so that r_i^T K r_j is diagonal, and those stay for which
+ * about the axis less that of all sections is the sag of the string, rotated out of its plane. The computed motions r,
+ * r_i^T M r_j = I, are therefore recombined so that r_i^T K r_j is diagonal, and those are kept for which
  *
  *     w^2 = |r^T K r| <= noise = eps sum |r_i| |K_ij| |r_j|,                         (eq:modes.rigid)
  *
- * where an error of r counts by its square only. Forces F of the state turn a rotation across their element by phi back
- * with at most sum |F| h phi^2: where that is more than nothing and less than the noise, nobody can tell whether the
- * motion is rigid. */
+ * where an error of r counts by its square only. Forces F of the state resist a rotation across their element by phi
+ * with at most sum |F| h phi^2: if that is above 0 and below the noise, it is undecidable whether the motion is
+ * rigid. */
 #include <math.h>
 #include <string.h>
 
@@ -21,17 +21,17 @@
 #include "sim/node.h"
 #include "system/assemble/energy.h"
 
-/* Forces that the state leaves over turn with a motion. */
+/* Factor of the state's residual forces, which rotate with a motion. */
 #define DMB_RIGID_RESIDUAL 8.0
-/* [-] r^T K r below this part of its terms is rounding. */
+/* [-] r^T K r below this fraction of its terms is rounding. */
 #define DMB_RIGID_QUOTIENT (64.0 * DBL_EPSILON)
-/* [-] Forces of the state that turn a motion back with less than this part of the noise are none. */
+/* [-] Resistance by forces of the state below this fraction of the noise counts as 0. */
 #define DMB_RIGID_FORCELESS 1e-4
 
 /* ---- Rounding of K d --------------------------------------------------------------------------------------------- */
 
-/* Residual forces of the state do not count as holding: it turns with a motion. On rows that a support holds they are
- * its reaction, which balances. */
+/* Residual forces of the state do not count as resistance: they rotate with a motion. In rows of supports they are
+ * reactions, which balance. */
 static void add_unbalanced(const dmb_linear *linear, double tolerance, const double *d, double *terms)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
@@ -47,7 +47,7 @@ static void add_unbalanced(const dmb_linear *linear, double tolerance, const dou
     }
 }
 
-/* Frames turn a stiffness and its rounding into all rows of a node. */
+/* Frames distribute a stiffness and its rounding over all rows of a node. */
 static void add_rounding(const dmb_linear *linear, double tolerance, double *terms)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
@@ -68,14 +68,14 @@ void dmb_modes_rigid_terms(dmb_linear *linear, double tolerance, const double *d
     add_unbalanced(linear, tolerance, d, terms);
 }
 
-/* ---- Motions that K turns back ----------------------------------------------------------------------------------- */
+/* ---- Motions with stiffness -------------------------------------------------------------------------------------- */
 
 typedef struct rigid_check {
     dmb_mode_search *search;
-    double tolerance; /* [-] of r^T K r, over its terms */
+    double tolerance; /* [-] of r^T K r, relative to its terms */
 } rigid_check;
 
-/* [1/s2] */
+/* [1/s2] Rounding level of r^T K r. */
 static double noise_of(const rigid_check *c, const double *r)
 {
     dmb_linear *linear = c->search->linear;
@@ -93,7 +93,7 @@ static int is_resisted(const rigid_check *c, const double *r)
     return !(fabs(dmb_dot(linear->rows, r, Kr)) <= noise_of(c, r));
 }
 
-/* K among the motions, column by column. */
+/* Projection of K on the motions, by columns. */
 static void project(const rigid_check *c, double *K)
 {
     const dmb_mode_search *search = c->search;
@@ -104,7 +104,7 @@ static void project(const rigid_check *c, double *K)
     }
 }
 
-/* A symmetric matrix with the null space of K: its mean with K^T, or K^T K where K is not symmetric. */
+/* A symmetric matrix with the null space of K: its mean with K^T, or K^T K if K is not symmetric. */
 static void make_symmetric(size_t m, int symmetric, const double *K, double *A)
 {
     for (size_t j = 0; j < m; j++)
@@ -112,7 +112,7 @@ static void make_symmetric(size_t m, int symmetric, const double *K, double *A)
             A[m * j + i] = symmetric ? 0.5 * (K[m * j + i] + K[m * i + j]) : dmb_dot(m, K + m * i, K + m * j);
 }
 
-/* The combinations of the motions, by the vectors Y, that K does not turn back; `mixed`: shape (rigid_count, rows). */
+/* Keeps the combinations of the motions, by the vectors Y, without stiffness; `mixed`: shape (rigid_count, rows). */
 static void keep_unresisted(const rigid_check *c, const double *Y, double *mixed)
 {
     dmb_mode_search *search = c->search;
@@ -130,7 +130,7 @@ static void keep_unresisted(const rigid_check *c, const double *Y, double *mixed
     }
 }
 
-/* Motions with a stiffness above rounding are vibrations. */
+/* Removes motions with a stiffness above rounding, which are vibrations. */
 static int32_t leave_vibrations(const rigid_check *c)
 {
     const dmb_mode_search *search = c->search;
@@ -152,9 +152,9 @@ static int32_t leave_vibrations(const rigid_check *c)
     return failed ? DMB_ERR_NO_CONVERGENCE : DMB_OK;
 }
 
-/* ---- Motions that cannot be told --------------------------------------------------------------------------------- */
+/* ---- Undecidable motions ----------------------------------------------------------------------------------------- */
 
-/* [N] of an element in the state, above what rounding of poses makes of it. */
+/* [N] Force of an element in the state, reduced by the rounding of poses. */
 static double force_of(const dmb_linear *linear, uint32_t element)
 {
     const dmb_scene *scene = &linear->scene;
@@ -168,7 +168,7 @@ static double force_of(const dmb_linear *linear, uint32_t element)
     return fmax(dmb_vec3_norm(force) - DMB_RIGID_AWAY * stiffest * (dmb_vec3_norm(place) + type->length), 0.0);
 }
 
-/* [1/s2] with which forces of the state may turn a motion back: sum |F| h phi^2. */
+/* [1/s2] Largest resistance of a motion by forces of the state: sum |F| h phi^2. */
 static double held_by_forces(const dmb_linear *linear, const double *r)
 {
     const dmb_scene *scene = &linear->scene;
@@ -182,7 +182,7 @@ static double held_by_forces(const dmb_linear *linear, const double *r)
     return sum;
 }
 
-/* Bands above the frequency that rounding hides do not ask for the motion. */
+/* Refuses an undecidable motion. Bands above the frequency hidden by rounding do not need it. */
 static int32_t refuse_hidden(const rigid_check *c)
 {
     const dmb_mode_search *search = c->search;

@@ -3,9 +3,9 @@
  *     symmetric:  A = (K - p M)^-1 M in the metric M,           s^2 = -(p + 1/value)       (eq:modes.shift-invert)
  *     general:    (x; w), w = s x, from s (x; M w) = (w; -K x - C w) with a real shift p:
  *                 A (a; b) = (x; w),  Q x = -(M b + (C + p M) a),  Q = K + p C + p^2 M,  w = a + p x,
- *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size (eq:modes.general)
- * Where rigid-body motions r_i are apart, the inverse stands between P^T and P, P = I - sum r_i r_i^T M; where they are
- * pinned, p = 0 and K + pins is in the place of K. */
+ *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f scales both parts equally (eq:modes.general)
+ * If rigid-body motions r_i are separated, the inverse is between P^T and P, P = I - sum r_i r_i^T M; if they are
+ * pinned, p = 0 and K + pins replaces K. */
 #include <complex.h>
 #include <math.h>
 #include <string.h>
@@ -18,14 +18,14 @@
 #include "math/krylov.h"
 #include "sim/access.h"
 
-/* Residual of a converged value of the operator: its error is the square of this where symmetric. */
+/* Residual of a converged operator value: its error is the square of this if symmetric. */
 #define DMB_MODES_SYMMETRIC_TOLERANCE 1e-9
 #define DMB_MODES_GENERAL_TOLERANCE 1e-11
 
 typedef struct inverse {
     const dmb_mode_search *search;
     dmb_linear *linear;
-    const dmb_linear_matrix *damping; /* NULL: left out */
+    const dmb_linear_matrix *damping; /* NULL: omitted */
     double shift, scale;              /* p and f */
     double *work;                     /* shape (2 rows) */
 } inverse;
@@ -43,7 +43,7 @@ static void draw_rows(dmb_linear *linear, uint64_t *seed, double *x)
     }
 }
 
-/* A motion that random forces give: of the space of the coordinates, and smooth. */
+/* Random start vector: the motion under random forces, which is smooth and in the space of the coordinates. */
 static void draw_motion(dmb_linear *linear, uint64_t *seed, double *x, double *work)
 {
     draw_rows(linear, seed, x);
@@ -95,8 +95,8 @@ static void project(const dmb_linear *linear, const dmb_linear_matrix *A, const 
             out[count * j + i] = out[count * i + j] = 0.5 * (out[count * j + i] + out[count * i + j]);
 }
 
-/* K and M themselves in the space that was found: an eigenvalue is then as good as its vector squared, and that of the
- * operator's rounding is out of it. */
+/* Rayleigh-Ritz with K and M in the computed space: the error of an eigenvalue is the square of the vector's error,
+ * without the operator's rounding. */
 static int32_t refine(dmb_mode_search *search, const dmb_krylov *found)
 {
     dmb_linear *linear = search->linear;
@@ -164,7 +164,7 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
         const double size2 = found->re[k] * found->re[k] + found->im[k] * found->im[k];
         const double re = search->shift + found->re[k] / size2, im = -found->im[k] / size2;
         double *x = found->x + 2 * rows * k, *y = found->y + 2 * rows * k;
-        for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, of im > 0 */
+        for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, im > 0 */
         status = dmb_modes_take_root(search, re, fabs(im), x, y);
     }
     return status;
@@ -172,7 +172,7 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
 
 /* ---- Both -------------------------------------------------------------------------------------------------------- */
 
-/* [1/s] size of the lowest frequencies, from the Rayleigh quotient of a motion smoothed twice. */
+/* [1/s] Scale of the lowest frequencies, from the Rayleigh quotient of a motion smoothed twice. */
 static double low_frequency(dmb_mode_search *search)
 {
     dmb_linear *linear = search->linear;
@@ -245,7 +245,7 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     if (status < 0 || wanted <= apart_count(search)) return status;
     if (search->options->kind == DMB_MODES_DAMPED) A.damping = &linear->damping;
     if (search->general) A.scale = low_frequency(search);
-    /* Motions that are not apart are found too, each with one root 0 or two, and left out. */
+    /* Motions that are not separated are found too, each with one root 0 or two, and omitted. */
     const uint32_t values = search->apart ? wanted - search->rigid_count : wanted + search->rigid_count;
     const dmb_operator operator= operator_of(search, &A);
     status = dmb_krylov_largest(&operator, values, search->shift != 0.0 && !search->counted ? 4 : 2,
@@ -264,7 +264,7 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
  *     T = Re (A - p)^-1,   value = ((s - p)^-1 + (s - p*)^-1)/2 = t/(t^2 + w^2),   t = s - g,
  *
  * has the eigenvectors (x; s x) of A (Parlett, Saad 1987), and its largest values are those of the roots next to p and
- * p*. t = (1 +- sqrt(1 - 4 value^2 w^2))/(2 value): the one that x . M (s x) tells. */
+ * p*. t = (1 +- sqrt(1 - 4 value^2 w^2))/(2 value): the sign follows from x . M (s x). */
 
 #define DMB_SHIFTED_TOLERANCE 1e-11
 
@@ -322,7 +322,7 @@ static void apply(void *context, const double *x, const double *Gx, double *y)
     }
 }
 
-/* Motions that random forces give. */
+/* Random start vectors: motions under random forces. */
 static void draw(void *context, uint64_t *seed, double *x)
 {
     shifted *T = context;
