@@ -97,10 +97,11 @@ int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
     if (sim->follower != NULL) {
         if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED) {
-            dmb_message_set(&sim->message,
-                            "step to time %g: a stuck place lets go there, which a derivative along the run must not "
-                            "meet; end the run before it, or leave out the parameters",
-                            attempt->end.time);
+            dmb_message_set(
+                &sim->message,
+                "step to time %g: a stuck place is released there, which a derivative along the run must not "
+                "meet; end the run before it, or leave out the parameters",
+                attempt->end.time);
             return DMB_ERR_UNSUPPORTED;
         }
         const int32_t status = sim->follower->follow(sim->follower->context, attempt);

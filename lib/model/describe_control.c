@@ -255,7 +255,7 @@ static int32_t check_event(dmb_model *model, const dmb_event_def *def)
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     if (check.status >= 0 && def->name[0] == '\0') {
         check.status = DMB_ERR_VALUE;
-        dmb_message_set(check.message, "%s: name is empty, must be there: events are told by it", check.part);
+        dmb_message_set(check.message, "%s: name is empty, is required: events are reported by it", check.part);
     }
     dmb_check_choice(&check, "direction", def->direction, DMB_EVENT_EITHER, DMB_EVENT_FALLING);
     dmb_check_within(&check, "level", def->level, -DMB_FORCE_MAX, DMB_FORCE_MAX);

@@ -285,7 +285,7 @@ static int32_t add_ring_mud(dmb_mesh *mesh, uint32_t ring, const dmb_body_map *m
     if (def->added_mass[1] < 0.0 && e->added_mass < 0.0 && !(hole > def->outer_diameter)) {
         dmb_message_set(&mesh->model->message,
                         "%s: outer_diameter = %g m, must be < %g m, the wall's diameter, with added_mass = -1 of the "
-                        "environment; give the ring an added_mass across",
+                        "environment; give the stabiliser an added_mass across",
                         dmb_model_part_text(mesh->model, DMB_PART_STABILISER, ring, &text), def->outer_diameter, hole);
         return DMB_ERR_GEOMETRY;
     }

@@ -74,7 +74,7 @@ static int32_t check_apart(const dmb_mesh *mesh, const dmb_mesh_ring *ring)
     dmb_message_set(
         check.message,
         "%s: its middle (pipe %u) is %g m behind that of %s, must be >= %g m, half of both lengths; move one, "
-        "or make them one ring",
+        "or make them one stabiliser",
         check.part, ring[1].pipe, way, before.part, need);
     return DMB_ERR_GEOMETRY;
 }

@@ -172,7 +172,7 @@ static int32_t check_new_name(dmb_model *model, uint32_t kind, uint32_t index, c
     if (find_in(model, kind, name) == index) return DMB_OK;
     dmb_check_part_name(&check, model, kind, name);
     if (check.status < 0 || name[0] != '\0' || kind < DMB_PART_INPUT) return check.status;
-    dmb_message_set(&model->message, "%s: name is empty, must be there: inputs and events are told by it", part.text);
+    dmb_message_set(&model->message, "%s: name is empty, is required: inputs and events are reported by it", part.text);
     return DMB_ERR_VALUE;
 }
 

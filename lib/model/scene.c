@@ -94,8 +94,9 @@ uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
                             part.text, by);
             return i;
         }
-        dmb_message_set(text, "%s: its ring never touches the wall, %s holds it sideways: free it there, or give no %s",
-                        part.text, by, i < bodies ? "contact_diameter" : "diameter");
+        dmb_message_set(
+            text, "%s: its contact ring never touches the wall, %s holds it sideways: free it there, or give no %s",
+            part.text, by, i < bodies ? "contact_diameter" : "diameter");
         return i;
     }
     return DMB_NONE;

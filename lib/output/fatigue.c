@@ -62,7 +62,7 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
         if (status == DMB_OK && bends_unseen(sim, places[i])) {
             dmb_message_set(&sim->message,
                             "fatigue: place %u, pipe %u: an axial-torsional pipe in a hole that bends, whose bending "
-                            "it does not know; make the pipe flexible (DMB_PIPE_FLEXIBLE)",
+                            "it does not compute; make the pipe flexible (DMB_PIPE_FLEXIBLE)",
                             i, places[i].pipe);
             return DMB_ERR_UNSUPPORTED;
         }
@@ -130,7 +130,7 @@ static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_
     dmb_fatigue_options options;
     dmb_fatigue *made;
     if (dmb_fatigue_options_read(&options, given) < 0) {
-        dmb_message_set(&sim->message, "fatigue: struct_size of the options is not one this library knows");
+        dmb_message_set(&sim->message, "fatigue: struct_size of the options is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     int32_t status = check_options(sim, &options, place_count);

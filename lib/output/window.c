@@ -119,7 +119,7 @@ int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const d
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     if (given != NULL) status = dmb_window_options_read(&options, given);
-    if (status < 0) dmb_message_set(&sim->message, "window: struct_size of the options is not one this library knows");
+    if (status < 0) dmb_message_set(&sim->message, "window: struct_size of the options is not one of this library");
     if (status >= 0) status = check_options(sim, &options, output_count);
     status = dmb_sim_leave(sim, status);
     if (status >= 0) status = dmb_output_check(sim, outputs, output_count);

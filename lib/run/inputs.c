@@ -274,7 +274,7 @@ static int32_t note(dmb_sim *sim)
         const dmb_input_record record = {sim->clock->time, sim->input_value[i], i, log->calls};
         if (!has_changed(sim, i)) continue;
         if (log->count == log->capacity) {
-            dmb_message_set(&sim->message, "input log: its %u records are full, what is set from now on is not in it",
+            dmb_message_set(&sim->message, "input log: its %u records are full, later values are not in it",
                             log->capacity);
             return DMB_NOTE_FULL;
         }

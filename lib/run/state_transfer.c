@@ -217,7 +217,7 @@ static int32_t transfer_stuck(dmb_sim *sim, const dmb_sim *from)
         if (apart <= DMB_TRANSFER_VIOLATION) continue;
         dmb_message_set(&sim->message,
                         "state transfer: %s is held %g m or rad from where it got stuck, must be the same point of the "
-                        "string as in the sim it goes on from; its pipe counts from the rig end",
+                        "string as in the sim it continues; its pipe counts from the rig end",
                         dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name),
                         apart);
         return DMB_ERR_GEOMETRY;

@@ -21,7 +21,7 @@ dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *
 static int32_t other(dmb_sim *sim, const char *part, uint32_t index, const char *what)
 {
     dmb_message name;
-    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as in the sim it goes on from",
+    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as in the sim it continues",
                     dmb_model_word_text(sim->model, part, index, &name), what);
     return DMB_ERR_VALUE;
 }
@@ -51,8 +51,8 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"stuck places", a->stuck_count, b->stuck_count}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (counts[i].to == counts[i].from) continue;
-        dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it goes on from",
-                        counts[i].what, counts[i].to, counts[i].from);
+        dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it continues", counts[i].what,
+                        counts[i].to, counts[i].from);
         return DMB_ERR_VALUE;
     }
     return DMB_OK;
@@ -62,7 +62,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
 static int32_t check_features(dmb_sim *sim, const dmb_sim *from)
 {
     if (sim->scene->features == from->scene->features) return DMB_OK;
-    dmb_message_set(&sim->message, "state transfer: features = %d in all, must be %d as in the sim it goes on from",
+    dmb_message_set(&sim->message, "state transfer: features = %d in all, must be %d as in the sim it continues",
                     (int)sim->scene->features, (int)from->scene->features);
     return DMB_ERR_VALUE;
 }
@@ -223,7 +223,7 @@ static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pi
 static int32_t other_pipe(dmb_sim *sim, uint32_t string, uint32_t to, uint32_t old, const char *what)
 {
     dmb_message name;
-    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as of pipe %u of the sim it goes on from",
+    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as of pipe %u of the sim it continues",
                     dmb_model_pipe_text(sim->model, string, to, &name), what, old);
     return DMB_ERR_VALUE;
 }

@@ -204,7 +204,7 @@ static int32_t close_joints(dmb_sim *sim)
     dmb_message_set(
         &sim->message,
         "%s: closing joints strains it and others by %g J, must be <= %g J (assembly_energy), and moves parts "
-        "by %g m and %g rad; describe what joints hold at one place, or free to move",
+        "by %g m and %g rad; describe joined parts at one place, or free to move",
         dmb_owner_of_element(scene, element).text.text, stored, allowed, moved[0], moved[1]);
     return DMB_ERR_GEOMETRY;
 }

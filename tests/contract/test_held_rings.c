@@ -66,14 +66,15 @@ static void count_warnings(void *context, int32_t level, const char *text)
 
 static void told_by_compile_and_check(void **state)
 {
-    static const char *const told[CASES] = {"body 0: its ring never touches the wall, the support",
-                                            NULL,
-                                            NULL,
-                                            "bit 0: its ring never touches the wall, the support",
-                                            NULL,
-                                            "body 0: its ring never touches the wall, the support",
-                                            NULL,
-                                            "body 0: its ring never touches the wall, joint 0 (ring support) holds"};
+    static const char *const told[CASES] = {
+        "body 0: its contact ring never touches the wall, the support",
+        NULL,
+        NULL,
+        "bit 0: its contact ring never touches the wall, the support",
+        NULL,
+        "body 0: its contact ring never touches the wall, the support",
+        NULL,
+        "body 0: its contact ring never touches the wall, joint 0 (ring support) holds"};
     (void)state;
     for (int what = 0; what < CASES; what++) {
         dmb_model_options options = dmb_model_options_default();

@@ -293,7 +293,8 @@ static void sensitivities_on_the_way(void **state)
         must_model(&c.r, dmb_sim_create(c.r.model, NULL, &beside.high));
         assert_int_equal(dmb_sim_set_input(of_side ? beside.low : c.r.sim, id, 5.0), DMB_OK);
         expect(&c, create(&c, &beside), DMB_ERR_VALUE,
-               of_side ? "(pull) on its way to what is set" : "input 0 (pull) is on its way to what is set");
+               of_side ? "(pull) still changing towards its set point"
+                       : "input 0 (pull) is still changing towards its set point");
         dmb_sim_destroy(&beside.low);
         dmb_sim_destroy(&beside.high);
         rig_close(&c.r);

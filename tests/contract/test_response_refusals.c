@@ -493,7 +493,7 @@ static void items_of_another_size(void **state)
     inputs[1].struct_size -= 8;
     assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);
     assert_non_null(
-        strstr(dmb_sim_message(s.sim), "excitation 1: struct_size is not one this library knows, or not that"));
+        strstr(dmb_sim_message(s.sim), "excitation 1: struct_size is not one of this library, or not that"));
     inputs[1] = inputs[0];
     outputs[1].struct_size -= 8;
     assert_int_equal(dmb_analysis_response(s.sim, NULL, inputs, 2, outputs, 2, &response), DMB_ERR_STRUCT_SIZE);

@@ -16,7 +16,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb
     dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NONE);
     (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL && dmb_buckling_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "buckling options: struct_size is not one this library knows");
+        dmb_message_set(&sim->message, "buckling options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_count(&check, "count", out->count, 1, 10000);

@@ -88,7 +88,7 @@ static int32_t say_lost(follower *f, int32_t status)
     dmb_message_set(
         &f->sim->message,
         "buckling: the equilibria are stable up to factor = %g and could not be followed to the critical factor "
-        "that the last of them tells, %g; use finer elements or a softer wall, or follow = 0 for the extrapolation "
+        "that the last of them predicts, %g; use finer elements or a softer wall, or follow = 0 for the extrapolation "
         "from the present state, %g",
         f->path.last.factor, f->estimate, f->buckling->first[0]);
     return DMB_ERR_NO_CONVERGENCE;
@@ -100,7 +100,7 @@ static int32_t say_stable(follower *f)
         dmb_message_set(
             &f->sim->message,
             "buckling: the equilibria are stable up to factor = %g, beyond the critical factor %g that the present "
-            "state tells; follow = 0 gives that one",
+            "state predicts; follow = 0 gives that one",
             f->path.last.factor, f->buckling->first[0]);
     else
         dmb_message_set(&f->sim->message, "buckling: no eigenvalue of the stiffness passes 0 up to factor = %g",
@@ -323,14 +323,14 @@ int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, co
         dmb_message_set(
             &sim->message,
             "buckling: flutter from factor = %g on, before det K = 0: a damped mode grows there, its root is "
-            "%g + %g i 1/s; more damping may hold it, dmb_analysis_modes with DMB_MODES_DAMPED tells",
+            "%g + %g i 1/s; more damping may hold it, see dmb_analysis_modes with DMB_MODES_DAMPED",
             info->flutter_factor, info->flutter_root[0], info->flutter_root[1]);
         return DMB_NOTE_FLUTTER;
     }
     if (status != DMB_OK) return status;
     dmb_message_set(&sim->message,
                     "buckling: the factors are those of divergence, det K = 0; whether an unsymmetric stiffness lets a "
-                    "mode grow before was not judged: %s",
+                    "mode grow before was not assessed: %s",
                     why->text[0] != '\0' ? why->text : "friction is assumed to slip; use a run in time");
     return DMB_NOTE_INCOMPLETE;
 }
@@ -398,7 +398,7 @@ static void say_not_confirmed(follower *f, const outcome *coarse, const outcome 
 {
     dmb_message_set(&f->sim->message,
                     "buckling: the first factor is not confirmed: steps of half the length along the equilibria end at "
-                    "factor = %g, the others at %g; contacts open and close on the way, use more elements or a softer "
+                    "factor = %g, the others at %g; contacts open and close in between, use more elements or a softer "
                     "wall",
                     fine->factor, coarse->factor);
 }

@@ -21,7 +21,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_path_options *given, dmb_pat
     dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NONE);
     (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL && dmb_path_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "path options: struct_size is not one this library knows");
+        dmb_message_set(&sim->message, "path options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_count(&check, "max_points", out->max_points, 1, 1000000);

@@ -25,9 +25,10 @@ static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *patte
         return DMB_ERR_UNSUPPORTED;
     }
     if (sim->scene->cluster_count > 0 && sim->scene->node_cluster[drive->node] != DMB_NONE) {
-        dmb_message_set(&sim->message,
-                        "%s: %s moves what joints, springs or forces connect to other parts; let a load push it", who,
-                        dmb_drive_text(sim->scene, pattern->drive, &(dmb_message){""}));
+        dmb_message_set(
+            &sim->message,
+            "%s: %s moves a place that joints, springs or forces connect to other parts; let a load push it", who,
+            dmb_drive_text(sim->scene, pattern->drive, &(dmb_message){""}));
         return DMB_ERR_UNSUPPORTED;
     }
     pattern->row = drive->row;

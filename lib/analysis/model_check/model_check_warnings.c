@@ -314,7 +314,7 @@ static void outside_lengthwise(const sink *to, int past_end)
         by = out;
     }
     if (count == 0) return;
-    dmb_message_set(&text, "%s%s: described %g m %s; the hole goes on straight there",
+    dmb_message_set(&text, "%s%s: described %g m %s; the hole continues straight there",
                     dmb_string_text(to->scene, first, &name), more(count, &rest), by,
                     past_end ? "beyond the end of the survey" : "before the start of the hole");
     say(to, &text);

@@ -51,7 +51,7 @@ static int32_t take_options(const dmb_modes_options *given, dmb_modes_options *o
     if (given != NULL) {
         const int32_t status = dmb_modes_options_read(out, given);
         if (status < 0) {
-            dmb_message_set(message, "modes options: struct_size is not one this library knows");
+            dmb_message_set(message, "modes options: struct_size is not one of this library");
             return status;
         }
     }

@@ -194,8 +194,8 @@ static int is_mode(const dmb_mode_search *search, uint32_t k)
     if (defect.bound < 1.0 || energy_tells(search, k)) return 1;
     dmb_message_set(
         search->message,
-        "modes: mode %u of %g Hz cannot be told from a rigid-body motion: rounding is %g of its forces, must "
-        "be < 1: hold what may move freely, soften what is stiffest, or ask for a band above it",
+        "modes: mode %u of %g Hz cannot be distinguished from a rigid-body motion: rounding is %g of its forces, must "
+        "be < 1: support parts that move freely, soften the stiffest one, or choose a band above it",
         k, frequency, defect.bound);
     return 0;
 }

@@ -64,7 +64,7 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
     dmb_check check = dmb_check_of(message, "response options", DMB_NONE);
     *out = dmb_response_options_default();
     if (given != NULL && dmb_response_options_read(out, given) < 0) {
-        dmb_message_set(message, "response options: struct_size is not one this library knows");
+        dmb_message_set(message, "response options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_choice(&check, "logarithmic", out->logarithmic, 0, 1);
@@ -89,7 +89,7 @@ int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, dou
     dmb_check check = dmb_check_of(message, "sine options", DMB_NONE);
     *out = dmb_stepped_sine_options_default();
     if (given != NULL && dmb_stepped_sine_options_read(out, given) < 0) {
-        dmb_message_set(message, "sine options: struct_size is not one this library knows");
+        dmb_message_set(message, "sine options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_within(&check, "frequency", frequency, 1e-9, DMB_FREQUENCY_MAX);
@@ -130,8 +130,7 @@ int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_messag
     const void *item = item_of(excitations, excitations->struct_size, i, &size);
     *out = dmb_excitation_default();
     if (size != excitations->struct_size || dmb_excitation_read(out, item) < 0) {
-        dmb_message_set(message, "excitation %u: struct_size is not one this library knows, or not that of the first",
-                        i);
+        dmb_message_set(message, "excitation %u: struct_size is not one of this library, or not that of the first", i);
         return DMB_ERR_STRUCT_SIZE;
     }
     const int32_t last = out->kind == DMB_EXCITATION_UNBALANCE ? DMB_RX : DMB_RZ;
@@ -150,7 +149,7 @@ int32_t dmb_output_take(const dmb_response_output *outputs, uint32_t i, dmb_mess
     const void *item = item_of(outputs, outputs->struct_size, i, &size);
     *out = dmb_response_output_default();
     if (size != outputs->struct_size || dmb_response_output_read(out, item) < 0) {
-        dmb_message_set(message, "output %u: struct_size is not one this library knows, or not that of the first", i);
+        dmb_message_set(message, "output %u: struct_size is not one of this library, or not that of the first", i);
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_choice(&check, "kind", out->kind, DMB_RESPONSE_DISPLACEMENT, DMB_RESPONSE_OUTPUT);

@@ -61,7 +61,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
     dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NONE);
     *out = dmb_speeds_options_default();
     if (given != NULL && dmb_speeds_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "speeds options: struct_size is not one this library knows");
+        dmb_message_set(&sim->message, "speeds options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_count(&check, "points", out->points, 2, POINTS_MAX);
@@ -73,7 +73,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
     dmb_speeds_report unused;
     if (check.status < 0 || out->report == NULL || dmb_speeds_report_read(&unused, out->report) >= 0)
         return check.status;
-    dmb_message_set(&sim->message, "speeds options: report's struct_size is not one this library knows");
+    dmb_message_set(&sim->message, "speeds options: report's struct_size is not one of this library");
     return DMB_ERR_STRUCT_SIZE;
 }
 
@@ -86,8 +86,8 @@ static int32_t take_order(const speeds_run *r, uint32_t i, dmb_order *out)
     memcpy(&size, item, sizeof size);
     *out = dmb_order_default();
     if (size != r->orders->struct_size || dmb_order_read(out, item) < 0) {
-        dmb_message_set(&r->sim->message,
-                        "order %u: struct_size is not one this library knows, or not that of the first", i);
+        dmb_message_set(&r->sim->message, "order %u: struct_size is not one of this library, or not that of the first",
+                        i);
         return DMB_ERR_STRUCT_SIZE;
     }
     dmb_check_within(&check, "order", out->order, 1e-3, 1e3);
@@ -287,8 +287,8 @@ static int32_t judge(speeds_run *r)
     if (r->report.undamped)
         dmb_message_set(&damping, " nothing damps, heights at resonances mean nothing: give damping;");
     if (r->report.truncated != 0)
-        dmb_message_set(&cut, " bands go on beyond %s of %g .. %g rad/s: widen the range;", ends[r->report.truncated],
-                        r->options.speed_low, r->options.speed_high);
+        dmb_message_set(&cut, " bands continue beyond %s of %g .. %g rad/s: widen the range;",
+                        ends[r->report.truncated], r->options.speed_low, r->options.speed_high);
     dmb_message_set(&r->sim->message, "speeds:%s%s%s%s%s", order.text, damping.text, cut.text,
                     r->left_out.text[0] != 0 ? " " : "", r->left_out.text);
     return DMB_NOTE_INCOMPLETE;

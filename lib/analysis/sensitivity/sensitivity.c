@@ -153,8 +153,8 @@ static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p,
     }
     const uint32_t input = input_on_its_way(side);
     if (input == DMB_NONE) return DMB_OK;
-    dmb_message_set(&text, "%s has input %u (%s) on its way to what is set; run until it arrives", name, input,
-                    side->scene->inputs[input].name);
+    dmb_message_set(&text, "%s has input %u (%s) still changing towards its set point; run until it arrives", name,
+                    input, side->scene->inputs[input].name);
     return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
 }
 
@@ -165,7 +165,7 @@ static int32_t check_parameters(dmb_sim *sim, const dmb_parameter *given, uint32
         const void *at = (const unsigned char *)given + (size_t)i * given->struct_size;
         int32_t status = dmb_parameter_read(&p, at);
         if (status < 0) {
-            dmb_message_set(&sim->message, "sensitivity: parameter %u: struct_size is not one this library knows", i);
+            dmb_message_set(&sim->message, "sensitivity: parameter %u: struct_size is not one of this library", i);
             return status;
         }
         p.name[sizeof p.name - 1] = '\0';
@@ -197,7 +197,7 @@ static int32_t check_scene(dmb_sim *sim)
     const uint32_t input = input_on_its_way(sim);
     if (input != DMB_NONE) {
         dmb_message_set(&sim->message,
-                        "sensitivity: input %u (%s) is on its way to what is set, must be there; run until it arrives",
+                        "sensitivity: input %u (%s) is still changing towards its set point; run until it arrives",
                         input, sim->scene->inputs[input].name);
         return DMB_ERR_VALUE;
     }

@@ -236,7 +236,7 @@ int32_t dmb_sensitivity_stands(const dmb_sensitivity *s)
     if (stands_as_seen(s)) return DMB_OK;
     dmb_message_set(
         &s->sim->message,
-        "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make one anew "
+        "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make a new one "
         "from here");
     return DMB_ERR_ORDER;
 }
@@ -271,7 +271,7 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     if (status < 0) return status;
     if (!is_set_as_made(s)) {
         dmb_message_set(&s->sim->message,
-                        "sensitivity: inputs were set since it was made, must stay; make one anew from here");
+                        "sensitivity: inputs were set since it was made, must stay; make a new one from here");
         return DMB_ERR_ORDER;
     }
     status = dmb_sensitivity_catch_up(s);

@@ -43,7 +43,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_state_space_options *given, 
     dmb_check check = dmb_check_of(&sim->message, "state space options", DMB_NONE);
     *out = dmb_state_space_options_default();
     if (given != NULL && dmb_state_space_options_read(out, given) < 0) {
-        dmb_message_set(&sim->message, "state space options: struct_size is not one this library knows");
+        dmb_message_set(&sim->message, "state space options: struct_size is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     const uint32_t most = out->form == DMB_STATE_MATRICES ? 0 : INPUTS_MAX;

@@ -293,7 +293,7 @@ static int32_t answer_array(dmb_sim *sim, int32_t array, double *values, uint64_
     }
     const uint64_t length = length_of(sim, array);
     if (values != NULL && *count < length) {
-        dmb_message_set(&sim->message, "array: *count = %llu, must be >= %llu, the length that NULL tells",
+        dmb_message_set(&sim->message, "array: *count = %llu, must be >= %llu, the length that NULL returns",
                         (unsigned long long)*count, (unsigned long long)length);
         return DMB_ERR_VALUE;
     }

@@ -40,7 +40,7 @@ int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, d
     if (given != NULL) {
         const int32_t status = dmb_static_options_read(out, given);
         if (status < 0) {
-            dmb_message_set(&sim->message, "static options: struct_size is not one this library knows");
+            dmb_message_set(&sim->message, "static options: struct_size is not one of this library");
             return status;
         }
     }
@@ -354,11 +354,12 @@ static int32_t refuse_torn(const dmb_static_search *search)
     for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
         const double share = dmb_stuck_share(sim, &sim->trial, i, 0);
         if (!(share > 1.0)) continue;
-        dmb_message_set(
-            &sim->message,
-            "static: %s: force or torque = %g times the one at which it lets go, must be <= 1; pull less, set it free "
-            "(input of DMB_TARGET_STUCK), or run in time over the release",
-            dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name), share);
+        dmb_message_set(&sim->message,
+                        "static: %s: force or torque = %g times the one at which it is released, must be <= 1; pull "
+                        "less, set it free "
+                        "(input of DMB_TARGET_STUCK), or run in time over the release",
+                        dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name),
+                        share);
         return DMB_ERR_UNSUPPORTED;
     }
     return DMB_OK;

@@ -343,10 +343,11 @@ int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who)
     dmb_state_restore(work);
     dmb_message_clear(&work->message);
     if (!like) return dmb_is_final(status) ? status : DMB_OK;
-    dmb_message_set(&sim->message,
-                    "%s: the state %s by its motion drives, and is judged at rest only; call dmb_analysis_static with "
-                    "DMB_STEADY_AT_REST first, for the friction of sliding with slip_axial and slip_rotation here too",
-                    who, kind);
+    dmb_message_set(
+        &sim->message,
+        "%s: the state %s by its motion drives, and is assessed at rest only; call dmb_analysis_static with "
+        "DMB_STEADY_AT_REST first, for the friction of sliding with slip_axial and slip_rotation here too",
+        who, kind);
     return DMB_ERR_UNSUPPORTED;
 }
 

@@ -114,7 +114,7 @@ static int32_t take_options(request *r, const dmb_torque_drag_options *given)
     dmb_torque_drag_options *options = &r->options;
     *options = dmb_torque_drag_options_default();
     if (given != NULL && dmb_torque_drag_options_read(options, given) < 0)
-        return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the options is not one this library knows");
+        return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the options is not one of this library");
     dmb_check_choice(&check, "post_buckling", options->post_buckling, 0, 1);
     if (options->friction != -1.0) dmb_check_within(&check, "friction", options->friction, 0.0, FRICTION_MAX);
     dmb_check_choice(&check, "friction_by_depth", options->friction_by_depth, 0, 1);
@@ -145,7 +145,7 @@ static int32_t take_operation(request *r, const dmb_operation *operations, uint3
     memcpy(&size, item, sizeof size);
     if (size != operations->struct_size || dmb_operation_read(out, item) < 0)
         return refuse(r, DMB_ERR_STRUCT_SIZE,
-                      "struct_size of an operation is not one this library knows, or not that of the first");
+                      "struct_size of an operation is not one of this library, or not that of the first");
     dmb_check_within(&check, "axial_speed", out->axial_speed, -DMB_SPEED_MAX, DMB_SPEED_MAX);
     dmb_check_within(&check, "rotary_speed", out->rotary_speed, -DMB_SPEED_MAX, DMB_SPEED_MAX);
     dmb_check_within(&check, "weight_on_bit", out->weight_on_bit, -DMB_FORCE_MAX, DMB_FORCE_MAX);
@@ -253,7 +253,7 @@ static int32_t analyse(request *r, const dmb_torque_drag_options *options, const
     int32_t status = take_options(r, options);
     if (status < 0) return status;
     if (dmb_torque_drag_row_read(&unused, rows) < 0)
-        return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the rows is not one this library knows");
+        return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the rows is not one of this library");
     dmb_check_count(&check, "operation_count", count, 1, OPERATIONS_MAX);
     if (check.status < 0) return check.status;
     for (uint32_t k = 0; k < count && status >= 0; k++) status = take_operation(r, operations, k, &operation);

@@ -96,7 +96,7 @@ int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double breakpoint)
             dmb_message_set(
                 &sim->message,
                 "%s: callback of its time function failed or gave a value beyond +-1e30 at time %g, where it "
-                "was asked for its rate from there on",
+                "has its rate from there on",
                 dmb_drive_text(scene, i, &name), time);
             return status;
         }

@@ -210,6 +210,6 @@ void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text
         const dmb_scene_drive *drive = sim->scene->drives + c->index;
         dmb_message_set(text, "%s: %s of joint %u", owner.text, components[drive->component], drive->joint);
     } else {
-        dmb_message_set(text, "%s: what it keeps", owner.text);
+        dmb_message_set(text, "%s: its condition", owner.text);
     }
 }

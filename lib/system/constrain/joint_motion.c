@@ -291,7 +291,7 @@ int32_t dmb_joints_refuse_folds(dmb_sim *sim)
         dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
         dmb_message_set(
             &sim->message,
-            "static: %s: on the way to equilibrium |RZ| passes %g rad, where an axis of its cross lies along a "
+            "static: %s: before the equilibrium |RZ| passes %g rad, where an axis of its cross lies along a "
             "shaft: use a spherical joint, stiffer springs or a stop, or start nearer to the equilibrium",
             owner.text, 0.5 * DMB_PI);
         return DMB_ERR_GEOMETRY;
