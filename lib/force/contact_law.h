@@ -90,7 +90,7 @@ typedef struct dmb_contact_depth {
 } dmb_contact_depth;
 
 /* length [m] of wall that the ring stands for. Without friction. */
-static inline void dmb_contact_normal_force(const dmb_normal_law *law, const dmb_contact_frame *f, dmb_real length,
+static inline void dmb_contact_normal_force(const dmb_local_normal *law, const dmb_contact_frame *f, dmb_real length,
                                             const dmb_contact_depth *at, dmb_contact_force *out)
 {
     dmb_normal_response N;

@@ -29,6 +29,18 @@ typedef struct dmb_friction_law {
     double peak_bump, peak_level; /* [-] A and B of eq:friction.peak, of dmb_friction_law_of; 0: as they are smoothed */
 } dmb_friction_law;
 
+/* A law with coefficients of the place, which differ from lane to lane in a hole of sections. */
+typedef struct dmb_local_friction {
+    const dmb_friction_law *law;    /* all other constants */
+    dmb_real mu_static, mu_dynamic; /* [-] */
+} dmb_local_friction;
+
+static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *law)
+{
+    const dmb_local_friction local = {law, dmb_real_of(law->mu_static), dmb_real_of(law->mu_dynamic)};
+    return local;
+}
+
 /* The law with the constants by which STRIBECK has the maximum mu_static N (eq:friction.peak). Its decay is no steeper
  * than smoothing resolves: stribeck_speed is at least 0.3 smoothing_speed. Of a table, whose maximum is its first
  * coefficient, the static part must reach beyond smoothing_speed. Other laws are taken as they are. */
@@ -41,8 +53,14 @@ dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
  *   (eq:friction.peak). BRISTLE gives the STRIBECK result without that, to which the law comes once it slides.
  *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond (eq:friction.ambrosio).
  * Zero where v = 0; a law smoothed like this creeps under load, BRISTLE does not. */
+static inline void dmb_friction_smooth_at(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
+                                          dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2]);
 static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
-                                       dmb_real *dF_dv, dmb_real dF_dN[2]);
+                                       dmb_real *dF_dv, dmb_real dF_dN[2])
+{
+    const dmb_local_friction local = dmb_local_friction_of(law);
+    dmb_friction_smooth_at(&local, N, v, F, dF_dv, dF_dN);
+}
 
 /* Friction with memory: elastic bristles of deflection z [m] that truly stick. One step of length h [s] (>= 0) from
  * deflection z_old and sliding velocity v_old, ends at v (eq:friction.bristle):
@@ -58,7 +76,7 @@ static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, 
  * while sliding (the derivative of |v| there counts as 0). h = 0 keeps z_old, cut back to the limit.
  * The caller keeps z, v and sticks of accepted steps, and starts a contact, or one regained, at z = 0 and stuck = 0.
  * F, dF_dv, dF_dN as above. z_old and v_old may be z and v. */
-static inline dmb_mask dmb_friction_bristle(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
+static inline dmb_mask dmb_friction_bristle(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
                                             const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck, double h,
                                             dmb_real z[2], dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2]);
 
@@ -104,20 +122,22 @@ static inline dmb_real dmb_stribeck_decay(const dmb_friction_law *law, dmb_real 
 
 /* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s). A table is in proportion
  * to mu_d, so factors and sections of the hole, which set mu_d, change all of it. */
-static inline dmb_real dmb_stribeck(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
+static inline dmb_real dmb_stribeck(const dmb_local_friction *local, dmb_real s, dmb_real *slope)
 {
+    const dmb_friction_law *law = local->law;
     if (law->points > 0) {
-        const double scale = law->mu_dynamic / law->table_mu[law->points - 1];
+        const dmb_real scale = local->mu_dynamic / law->table_mu[law->points - 1];
         const dmb_real mu = dmb_friction_table(law, s, slope);
         *slope = scale * *slope;
         return scale * mu;
     }
-    *slope = dmb_real_of(0.0);
-    if (law->mu_static == law->mu_dynamic) return dmb_real_of(law->mu_dynamic);
-    const double bump = law->mu_static - law->mu_dynamic;
+    const dmb_real zero = dmb_real_of(0.0), bump = local->mu_static - local->mu_dynamic;
+    const dmb_mask constant = dmb_mask_at_most(bump, zero) & dmb_mask_at_most(zero, bump);
+    *slope = zero;
+    if (!dmb_mask_any(dmb_mask_not(constant))) return local->mu_dynamic;
     const dmb_real left = dmb_stribeck_decay(law, s, slope);
-    *slope = bump * *slope;
-    return law->mu_dynamic + bump * left;
+    *slope = dmb_real_select(constant, zero, bump * *slope);
+    return dmb_real_select(constant, local->mu_dynamic, local->mu_dynamic + bump * left);
 }
 
 /* F = -N f v, dF/dv = -N [f I + g v v^T] with g = (df/d|v|)/|v|, dF/dN = -f v */
@@ -135,15 +155,16 @@ static inline void dmb_friction_radial(dmb_real N, const dmb_real v[2], dmb_real
 }
 
 /* Ambrosio 2003: friction fades in between v0 and v1. f = mu_d c/|v|. */
-static inline void dmb_friction_ambrosio(const dmb_friction_law *law, dmb_real speed, dmb_real *f, dmb_real *g)
+static inline void dmb_friction_ambrosio(const dmb_local_friction *local, dmb_real speed, dmb_real *f, dmb_real *g)
 {
+    const dmb_friction_law *law = local->law;
     const double width = law->full_speed - law->smoothing_speed;
     const dmb_mask slow = dmb_mask_at_most(speed, dmb_real_of(law->smoothing_speed));
     const dmb_mask fast = dmb_mask_at_most(dmb_real_of(law->full_speed), speed);
     const dmb_real zero = dmb_real_of(0.0), v = dmb_real_select(slow, dmb_real_of(1.0), speed);
-    const dmb_real full = law->mu_dynamic / v;
-    *f = dmb_real_select(fast, full, law->mu_dynamic * (v - law->smoothing_speed) / (width * v));
-    *g = dmb_real_select(fast, -full / (v * v), law->mu_dynamic * law->smoothing_speed / (width * v * v * v));
+    const dmb_real full = local->mu_dynamic / v;
+    *f = dmb_real_select(fast, full, local->mu_dynamic * (v - law->smoothing_speed) / (width * v));
+    *g = dmb_real_select(fast, -full / (v * v), local->mu_dynamic * law->smoothing_speed / (width * v * v * v));
     *f = dmb_real_select(slow, zero, *f);
     *g = dmb_real_select(slow, zero, *g);
 }
@@ -167,12 +188,15 @@ static inline dmb_real dmb_friction_table_decay(const dmb_friction_law *law, dmb
  *     w c,   w = r^3 E^4/s,   c = [...],   and (w c)'/|v| = r E^3/s^3 [3 E + 4 r^2 (s E' - E)] c - r^2 E^4 B mu_d
  * v_eps^2/s^5
  */
-static inline void dmb_friction_reach_static(const dmb_friction_law *law, dmb_real speed, dmb_real s, dmb_real *f,
+static inline void dmb_friction_reach_static(const dmb_local_friction *local, dmb_real speed, dmb_real s, dmb_real *f,
                                              dmb_real *g)
 {
     dmb_real slope;
-    const double mu_d = law->mu_dynamic, eps2 = law->smoothing_speed * law->smoothing_speed;
-    const double mu_s = law->points > 0 ? mu_d * (law->table_mu[0] / law->table_mu[law->points - 1]) : law->mu_static;
+    const dmb_friction_law *law = local->law;
+    const double eps2 = law->smoothing_speed * law->smoothing_speed;
+    const dmb_real mu_d = local->mu_dynamic;
+    const dmb_real mu_s =
+        law->points > 0 ? mu_d * (law->table_mu[0] / law->table_mu[law->points - 1]) : local->mu_static;
     const dmb_real E = law->points > 0 ? dmb_friction_table_decay(law, s, &slope) : dmb_stribeck_decay(law, s, &slope);
     const dmb_real i = 1.0 / s, r = speed * i, cube = E * E * E, i3 = i * i * i;
     const dmb_real c = law->peak_bump * (mu_s - mu_d) + law->peak_level * mu_d * (1.0 - r);
@@ -182,27 +206,28 @@ static inline void dmb_friction_reach_static(const dmb_friction_law *law, dmb_re
 }
 
 /* f = mu(s)/s, g = (mu'/s - mu/s^2)/s with ds/d|v| = |v|/s */
-static inline void dmb_friction_smoothed(const dmb_friction_law *law, dmb_real speed, dmb_real *f, dmb_real *g)
+static inline void dmb_friction_smoothed(const dmb_local_friction *local, dmb_real speed, dmb_real *f, dmb_real *g)
 {
+    const dmb_friction_law *law = local->law;
     const dmb_real zero = dmb_real_of(0.0), s = dmb_friction_norm(speed, dmb_real_of(law->smoothing_speed));
     const dmb_mask rests = dmb_mask_at_most(s, zero);
-    dmb_real slope = zero, mu = dmb_real_of(law->mu_dynamic);
-    if (law->kind != DMB_FRICTION_COULOMB) mu = dmb_stribeck(law, s, &slope);
+    dmb_real slope = zero, mu = local->mu_dynamic;
+    if (law->kind != DMB_FRICTION_COULOMB) mu = dmb_stribeck(local, s, &slope);
     const dmb_real divisor = dmb_real_select(rests, dmb_real_of(1.0), s);
     *f = dmb_real_select(rests, zero, mu / divisor);
     *g = dmb_real_select(rests, zero, (slope - *f) / (divisor * divisor));
-    if (law->kind != DMB_FRICTION_COULOMB && law->peak_level > 0.0) dmb_friction_reach_static(law, speed, s, f, g);
+    if (law->kind != DMB_FRICTION_COULOMB && law->peak_level > 0.0) dmb_friction_reach_static(local, speed, s, f, g);
 }
 
-static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
-                                       dmb_real *dF_dv, dmb_real dF_dN[2])
+static inline void dmb_friction_smooth_at(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
+                                          dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2])
 {
     const dmb_real speed = dmb_friction_norm(v[0], v[1]);
     dmb_real f = dmb_real_of(0.0), g = dmb_real_of(0.0);
-    if (law->kind == DMB_FRICTION_AMBROSIO)
-        dmb_friction_ambrosio(law, speed, &f, &g);
-    else if (law->kind != DMB_FRICTION_NONE)
-        dmb_friction_smoothed(law, speed, &f, &g);
+    if (local->law->kind == DMB_FRICTION_AMBROSIO)
+        dmb_friction_ambrosio(local, speed, &f, &g);
+    else if (local->law->kind != DMB_FRICTION_NONE)
+        dmb_friction_smoothed(local, speed, &f, &g);
     dmb_friction_radial(N, v, f, g, F, dF_dv, dF_dN);
 }
 
@@ -231,28 +256,28 @@ static inline dmb_mask dmb_onto_circle(dmb_real x[2], dmb_real dx[4], dmb_real l
 }
 
 /* Limit of friction over normal force and its gradient: mu_static from sticking, else the Stribeck curve at |v|. */
-static inline dmb_real dmb_bristle_limit(const dmb_friction_law *law, const dmb_real v[2], dmb_mask stuck,
+static inline dmb_real dmb_bristle_limit(const dmb_local_friction *local, const dmb_real v[2], dmb_mask stuck,
                                          dmb_real d_mu[2])
 {
     const dmb_real zero = dmb_real_of(0.0), speed = dmb_friction_norm(v[0], v[1]);
     const dmb_mask slides = dmb_mask_less(zero, speed) & dmb_mask_not(stuck);
     dmb_real slope;
-    const dmb_real mu = dmb_stribeck(law, speed, &slope);
+    const dmb_real mu = dmb_stribeck(local, speed, &slope);
     const dmb_real divisor = dmb_real_select(slides, speed, dmb_real_of(1.0));
     const dmb_real factor = dmb_real_select(slides, slope / divisor, zero);
     d_mu[0] = factor * v[0];
     d_mu[1] = factor * v[1];
-    return dmb_real_select(stuck, dmb_real_of(law->mu_static), mu);
+    return dmb_real_select(stuck, local->mu_static, mu);
 }
 
-static inline dmb_mask dmb_friction_bristle(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
+static inline dmb_mask dmb_friction_bristle(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
                                             const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck, double h,
                                             dmb_real z[2], dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2])
 {
-    const double sigma0 = law->bristle_stiffness, sigma1 = law->bristle_damping;
+    const double sigma0 = local->law->bristle_stiffness, sigma1 = local->law->bristle_damping;
     const dmb_real zero = dmb_real_of(0.0), half = dmb_real_of(0.5 * h);
     dmb_real d_mu[2], dq[4] = {half, zero, zero, half};
-    const dmb_real mu = dmb_bristle_limit(law, v, stuck, d_mu);
+    const dmb_real mu = dmb_bristle_limit(local, v, stuck, d_mu);
     const dmb_real d_limit[2] = {d_mu[0] / sigma0, d_mu[1] / sigma0};
     for (int i = 0; i < 2; ++i) z[i] = z_old[i] + 0.5 * h * (v_old[i] + v[i]);
     dmb_mask slides = dmb_onto_circle(z, dq, mu / sigma0, d_limit);

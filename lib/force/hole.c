@@ -431,8 +431,3 @@ void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const
     out->mu_static_slope = hole->friction * slope_of(piece, DMB_WALL_MU_STATIC, s);
     out->mu_dynamic_slope = hole->friction * slope_of(piece, DMB_WALL_MU_DYNAMIC, s);
 }
-
-double dmb_wall_unit_energy(const dmb_normal_law *law, double d)
-{
-    return dmb_normal_reduced_power(law->exponent, d) * d * d / (law->exponent + 1.0);
-}

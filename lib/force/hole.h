@@ -228,150 +228,186 @@ typedef struct dmb_local_wall {
 } dmb_local_wall;
 
 /* J: way along an axis of curvature vector k [1/m] for a unit of its own of a ring at distance e on the side n. */
-static inline double dmb_hole_advance(double e, const double n[3], const double k[3])
+static inline dmb_real dmb_hole_advance(dmb_real e, const dmb_real n[3], const dmb_real k[3])
 {
     return 1.0 / (1.0 - e * (n[0] * k[0] + n[1] * k[1] + n[2] * k[2]));
 }
 /* [m^(n+1)] d^(n+1)/(n+1): what a metre of wall stores for a unit of K */
-double dmb_wall_unit_energy(const dmb_normal_law *law, double d);
+static inline dmb_real dmb_wall_unit_energy(const dmb_normal_law *law, dmb_real d)
+{
+    return dmb_normal_reduced_power(law->exponent, d) * d * d / (law->exponent + 1.0);
+}
 
 /* softer [-]: factor that the stiffness is divided by. Of a hole with pieces. */
 void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const dmb_friction_law *friction, double s,
                        double softer, dmb_local_wall *out);
 
 /* A ring against a wall whose constants change along the hole: what that adds to the force and the tangent of
- * force/contact_law.h. Equations below. One ring at a time, in body axes; all numbers are doubles. */
-
-#if DMB_REAL_LANES == 1
+ * force/contact_law.h. Equations above; in body axes, in a number that is a double or lanes of doubles (math/real.h).
+ */
 
 #include "force/contact_law.h"
 
 typedef struct dmb_section_contact {
-    dmb_local_wall wall;
-    double curvature[3]; /* [1/m] k of the axis, body axes */
-    double advance, rho; /* [-] J, R' J */
-    double stored;       /* [N] l K' d^(n+1)/(n+1): dU/ds but for R' */
-    double stored_slope; /* [N/m] its derivatives by s and d: */
-    double stored_by_depth;
-    double along;       /* [N] N rho - J dU/ds along t */
-    double by_place[3]; /* [N/m] dF_k/ds of (-N, F_t, F_b) where d and its rate stay */
+    dmb_local_normal normal; /* laws there */
+    dmb_local_friction friction;
+    dmb_real radius, radius_slope, radius_bend; /* derivatives by depth as in dmb_local_wall */
+    dmb_real stiffness_slope, stiffness_bend, factor_slope, damping_slope;
+    dmb_real mu_static_slope, mu_dynamic_slope;
+    dmb_real curvature[3]; /* [1/m] k of the axis, body axes; 0 of a straight hole */
+    dmb_real advance, rho; /* [-] J, R' J */
+    dmb_real stored;       /* [N] l K' d^(n+1)/(n+1): dU/ds but for R' */
+    dmb_real stored_slope; /* [N/m] its derivatives by s and d: */
+    dmb_real stored_by_depth;
+    dmb_real along;       /* [N] N rho - J dU/ds along t */
+    dmb_real by_place[3]; /* [N/m] dF_k/ds of (-N, F_t, F_b) where d and its rate stay */
 } dmb_section_contact;
+
+/* The wall of one lane; laws have all but the constants of the place. */
+static inline void dmb_section_set_wall(const dmb_local_wall *wall, int lane, dmb_section_contact *c)
+{
+    dmb_real_set_lane(&c->normal.stiffness, lane, wall->normal.stiffness);
+    dmb_real_set_lane(&c->normal.damping, lane, wall->normal.damping);
+    dmb_real_set_lane(&c->normal.mu, lane, wall->normal.mu);
+    dmb_real_set_lane(&c->friction.mu_static, lane, wall->friction.mu_static);
+    dmb_real_set_lane(&c->friction.mu_dynamic, lane, wall->friction.mu_dynamic);
+    dmb_real_set_lane(&c->radius, lane, wall->radius);
+    dmb_real_set_lane(&c->radius_slope, lane, wall->radius_slope);
+    dmb_real_set_lane(&c->radius_bend, lane, wall->radius_bend);
+    dmb_real_set_lane(&c->stiffness_slope, lane, wall->stiffness_slope);
+    dmb_real_set_lane(&c->stiffness_bend, lane, wall->stiffness_bend);
+    dmb_real_set_lane(&c->factor_slope, lane, wall->factor_slope);
+    dmb_real_set_lane(&c->damping_slope, lane, wall->damping_slope);
+    dmb_real_set_lane(&c->mu_static_slope, lane, wall->mu_static_slope);
+    dmb_real_set_lane(&c->mu_dynamic_slope, lane, wall->mu_dynamic_slope);
+}
 
 /* J and rho of the ring; wall and curvature are there. */
 static inline void dmb_section_contact_at(const dmb_contact_frame *f, dmb_section_contact *c)
 {
     c->advance = dmb_hole_advance(f->distance, f->n, c->curvature);
-    c->rho = c->wall.radius_slope * c->advance;
+    c->rho = c->radius_slope * c->advance;
 }
 
 /* [N/m2] dN/ds per metre of pipe at penetration d growing at `rate`. */
-static inline double dmb_section_normal_slope(const dmb_local_wall *wall, double d, double rate, double impact_speed)
+static inline dmb_real dmb_section_normal_slope(const dmb_section_contact *c, dmb_real d, dmb_real rate,
+                                                dmb_real impact_speed)
 {
-    const dmb_normal_law *law = &wall->normal;
-    const double power = dmb_normal_reduced_power(law->exponent, d) * d;
-    double slope;
-    if (law->kind == DMB_NORMAL_NONE) return 0.0;
-    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
-        dmb_normal_law unit = *law;
-        unit.damping = 1.0;
-        return wall->stiffness_slope * power + wall->damping_slope * dmb_normal_damping(&unit, d, &slope) * rate;
-    }
-    const double ratio = rate / fmax(impact_speed, law->impact_floor);
-    return power * (wall->stiffness_slope * (1.0 + law->mu * ratio) + law->stiffness * wall->factor_slope * ratio);
+    const dmb_normal_law *law = c->normal.law;
+    const dmb_real power = dmb_normal_reduced_power(law->exponent, d) * d, one = dmb_real_of(1.0);
+    dmb_real slope;
+    if (law->kind == DMB_NORMAL_NONE) return dmb_real_of(0.0);
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT)
+        return c->stiffness_slope * power + c->damping_slope * dmb_normal_damping(law, one, d, &slope) * rate;
+    const dmb_real ratio = rate / dmb_real_max(impact_speed, dmb_real_of(law->impact_floor));
+    return power * (c->stiffness_slope * (1.0 + c->normal.mu * ratio) + c->normal.stiffness * c->factor_slope * ratio);
 }
 
 /* Of F_t and F_b by the coefficients: smooth laws are linear in them; bristles (memory) are mu N at their limit. */
-static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const dmb_contact_force *c, int memory,
-                                              const dmb_local_wall *wall, double by_place[2])
+static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const dmb_contact_force *force, int memory,
+                                              const dmb_section_contact *c, dmb_real by_place[2])
 {
-    dmb_friction_law law = wall->friction;
-    double by_normal[2];
-    const double N = -c->F[0], limit = N * law.mu_dynamic, F = dmb_friction_norm(c->F[1], c->F[2]);
+    const dmb_real zero = dmb_real_of(0.0), mu = c->friction.mu_dynamic;
+    const dmb_real N = -force->F[0], limit = N * mu, F = dmb_friction_norm(force->F[1], force->F[2]);
     if (memory) {
-        const int slides = limit > 0.0 && F >= (1.0 - 1e-9) * limit;
-        for (int k = 0; k < 2; k++) by_place[k] = slides ? c->F[1 + k] / law.mu_dynamic * wall->mu_dynamic_slope : 0.0;
+        const dmb_mask slides = dmb_mask_less(zero, limit) & dmb_mask_at_most((1.0 - 1e-9) * limit, F);
+        const dmb_real divisor = dmb_real_select(slides, mu, dmb_real_of(1.0));
+        for (int k = 0; k < 2; k++)
+            by_place[k] = dmb_real_select(slides, force->F[1 + k] / divisor * c->mu_dynamic_slope, zero);
         return;
     }
-    law.mu_static = wall->mu_static_slope;
-    law.mu_dynamic = wall->mu_dynamic_slope;
-    dmb_friction_smooth(&law, N, f->speed + 1, by_place, NULL, by_normal);
+    const dmb_local_friction slopes = {c->friction.law, c->mu_static_slope, c->mu_dynamic_slope};
+    dmb_real by_normal[2];
+    dmb_friction_smooth_at(&slopes, N, f->speed + 1, by_place, NULL, by_normal);
 }
 
-/* length [m], penetration d and impact_speed as dmb_contact_depth has them. */
-static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force, double length,
-                                     double d, double impact_speed, int memory, int friction, dmb_section_contact *c)
+/* Of a ring that touches. */
+typedef struct dmb_section_ring {
+    dmb_real length;          /* [m] of wall that it stands for */
+    dmb_contact_depth at;     /* its penetration d and impact speed */
+    int32_t friction, memory; /* 1: friction acts; by bristles */
+} dmb_section_ring;
+
+static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force,
+                                     const dmb_section_ring *ring, dmb_section_contact *c)
 {
-    const dmb_local_wall *wall = &c->wall;
-    const double unit = length * dmb_wall_unit_energy(&wall->normal, d);
-    double by_friction[2] = {0.0, 0.0};
-    c->stored = wall->stiffness_slope * unit;
-    c->stored_slope = wall->stiffness_bend * unit;
-    c->stored_by_depth = length * wall->stiffness_slope * dmb_normal_reduced_power(wall->normal.exponent, d) * d;
+    const dmb_normal_law *law = c->normal.law;
+    const dmb_real zero = dmb_real_of(0.0), d = ring->at.penetration, length = ring->length;
+    const dmb_real unit = length * dmb_wall_unit_energy(law, d);
+    const dmb_mask pushes = dmb_mask_less(force->F[0], zero);
+    const dmb_real divisor = dmb_real_select(pushes, force->F[0], dmb_real_of(1.0));
+    dmb_real by_friction[2] = {zero, zero};
+    c->stored = c->stiffness_slope * unit;
+    c->stored_slope = c->stiffness_bend * unit;
+    c->stored_by_depth = length * c->stiffness_slope * dmb_normal_reduced_power(law->exponent, d) * d;
     c->along = -force->F[0] * c->rho - c->advance * c->stored;
-    c->by_place[0] = force->F[0] < 0.0 ? -length * dmb_section_normal_slope(wall, d, f->speed[0], impact_speed) : 0.0;
-    if (friction) dmb_section_friction_slope(f, force, memory, wall, by_friction);
+    c->by_place[0] =
+        dmb_real_select(pushes, -length * dmb_section_normal_slope(c, d, f->speed[0], ring->at.impact_speed), zero);
+    if (ring->friction) dmb_section_friction_slope(f, force, ring->memory, c, by_friction);
     for (int k = 0; k < 2; k++) {
-        const double by_normal = force->F[0] < 0.0 ? -force->F[1 + k] / force->F[0] : 0.0; /* dF/dN = F/N */
+        const dmb_real by_normal = dmb_real_select(pushes, -force->F[1 + k] / divisor, zero); /* dF/dN = F/N */
         c->by_place[1 + k] = by_friction[k] - by_normal * c->by_place[0];
     }
 }
 
 /* Rate of the way in by the pose, without what n . V has of it: of -rho t . V. */
-static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_section_contact *c, const double bend[3],
-                                        int bent, double row[6])
+static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_section_contact *c, const dmb_real *bend,
+                                        dmb_real row[6])
 {
-    const double along = dmb_vec3_dot(f->t, f->V), J = c->advance;
-    double a[3], by_place = -c->wall.radius_bend * J * along;
+    const dmb_real along = dmb_vec3_dot(f->t, f->V), J = c->advance;
+    dmb_real a[3], by_place = -c->radius_bend * J * along;
     dmb_vec3_cross(f->V, f->t, row + 3);
     dmb_vec3_scale(-c->rho, row + 3, row + 3);
-    if (bent) {
+    if (bend != NULL) {
         dmb_vec3_cross(f->t, f->V, a);
-        by_place -= c->rho * dmb_vec3_dot(bend, a);
+        by_place = by_place - c->rho * dmb_vec3_dot(bend, a);
     }
     dmb_vec3_scale(by_place * J, f->t, row);
-    dmb_vec3_axpy(-c->wall.radius_slope * along * J * J, c->curvature, row);
+    dmb_vec3_axpy(-c->radius_slope * along * J * J, c->curvature, row);
 }
 
 /* Derivative of n . V by the pose: turning of the body, swing around the axis, bend of the hole. */
 static inline void dmb_section_normal_row(const dmb_contact_frame *f, const dmb_section_contact *c,
-                                          const double bend[3], int bent, double row[6])
+                                          const dmb_real bend[3], dmb_real row[6])
 {
-    double a[3];
+    dmb_real a[3];
     dmb_vec3_zero(row);
     dmb_vec3_cross(f->V, f->n, row + 3);
-    if (f->distance > DMB_CONTACT_PINNED) dmb_vec3_axpy(dmb_vec3_dot(f->b, f->V) / f->distance, f->b, row);
-    if (!bent) return;
+    const dmb_mask swings = dmb_mask_less(dmb_real_of(DMB_CONTACT_PINNED), f->distance);
+    const dmb_real one = dmb_real_of(1.0), by = dmb_vec3_dot(f->b, f->V) / dmb_real_select(swings, f->distance, one);
+    dmb_vec3_axpy(dmb_real_select(swings, by, dmb_real_of(0.0)), f->b, row);
+    if (bend == NULL) return;
     dmb_vec3_cross(f->n, f->V, a);
     dmb_vec3_axpy(c->advance * dmb_vec3_dot(bend, a), f->t, row);
 }
 
 /* K += of the force along t: its change with N, with rho and with what is stored. */
 static inline void dmb_section_add_along(const dmb_contact_frame *f, const dmb_contact_force *force,
-                                         const dmb_section_contact *c, const double dF[6], double K[36])
+                                         const dmb_section_contact *c, const dmb_real dF[6], dmb_real K[36])
 {
-    static const double none[3] = {0.0, 0.0, 0.0};
-    const double J = c->advance, N = -force->F[0];
-    double row[6];
+    const dmb_real zero = dmb_real_of(0.0), none[3] = {zero, zero, zero};
+    const dmb_real J = c->advance, N = -force->F[0];
+    dmb_real row[6];
     for (int i = 0; i < 6; i++) row[i] = -c->rho * dF[i];
-    dmb_vec3_axpy(J * J * (N * c->wall.radius_bend - c->stored_slope) + J * c->stored_by_depth * c->rho, f->t, row);
+    dmb_vec3_axpy(J * J * (N * c->radius_bend - c->stored_slope) + J * c->stored_by_depth * c->rho, f->t, row);
     dmb_vec3_axpy(-J * c->stored_by_depth, f->n, row);
-    dmb_vec3_axpy(J * J * (N * c->wall.radius_slope - c->stored), c->curvature, row);
+    dmb_vec3_axpy(J * J * (N * c->radius_slope - c->stored), c->curvature, row);
     dmb_contact_add_direction(f->t, none, row, K);
 }
 
-/* K of dmb_contact_pose_tangent, made with the whole wrench, becomes that of the wall of sections. */
+/* bend: NULL of a straight hole. K of dmb_contact_pose_tangent, made with the whole wrench, becomes that of the wall of
+ * sections. */
 static inline void dmb_section_pose_tangent(const dmb_contact_frame *f, const dmb_contact_force *force,
-                                            const dmb_section_contact *c, const double bend[3], int friction,
-                                            double K[36])
+                                            const dmb_section_contact *c, const dmb_real *bend, int friction,
+                                            dmb_real K[36])
 {
-    static const double none[3] = {0.0, 0.0, 0.0};
-    const int bent = dmb_vec3_dot(c->curvature, c->curvature) > 0.0;
-    const double *direction[3] = {f->n, f->t, f->b}, *turn[3] = {none, f->turn_t, f->turn_b};
-    double rate[6], normal[6], more[6], dF[6];
-    dmb_section_rate_row(f, c, bend, bent, rate);
-    dmb_section_normal_row(f, c, bend, bent, normal);
+    const dmb_real zero = dmb_real_of(0.0), none[3] = {zero, zero, zero};
+    const dmb_real *direction[3] = {f->n, f->t, f->b}, *turn[3] = {none, f->turn_t, f->turn_b};
+    dmb_real rate[6], normal[6], more[6], dF[6];
+    dmb_section_rate_row(f, c, bend, rate);
+    dmb_section_normal_row(f, c, bend, normal);
     for (int k = 0; k < (friction ? 3 : 1); k++) {
-        const double by_rate = k == 0 ? force->normal_rate : force->by_speed[k - 1][0];
+        const dmb_real by_rate = k == 0 ? force->normal_rate : force->by_speed[k - 1][0];
         for (int i = 0; i < 6; i++) more[i] = by_rate * rate[i];
         dmb_vec3_axpy(c->by_place[k] * c->advance - force->by_depth[k] * c->rho, f->t, more);
         if (k == 0)
@@ -384,15 +420,16 @@ static inline void dmb_section_pose_tangent(const dmb_contact_frame *f, const dm
 
 /* The same of dmb_contact_velocity_tangent: g for n. */
 static inline void dmb_section_velocity_tangent(const dmb_contact_frame *f, const dmb_contact_force *force,
-                                                const dmb_section_contact *c, double factor, int friction, double K[36])
+                                                const dmb_section_contact *c, double factor, int friction,
+                                                dmb_real K[36])
 {
-    static const double none[3] = {0.0, 0.0, 0.0};
-    double row[6] = {0.0}, a[3];
+    const dmb_real zero = dmb_real_of(0.0), none[3] = {zero, zero, zero};
+    dmb_real row[6] = {zero, zero, zero, zero, zero, zero}, a[3];
     dmb_vec3_scale(-factor * c->rho, f->t, row);
     dmb_vec3_scale(force->normal_rate, f->n, a);
     dmb_contact_add_direction(a, none, row, K); /* n (g - n)^T */
     for (int k = 0; friction && k < 2; k++) {
-        double forward[3], around[3];
+        dmb_real forward[3], around[3];
         dmb_vec3_scale(force->by_speed[k][0], k == 0 ? f->t : f->b, forward);
         dmb_vec3_scale(force->by_speed[k][0], k == 0 ? f->turn_t : f->turn_b, around);
         dmb_contact_add_direction(forward, around, row, K);
@@ -401,7 +438,5 @@ static inline void dmb_section_velocity_tangent(const dmb_contact_frame *f, cons
     dmb_vec3_scale(-c->rho * force->normal_rate, f->t, a);
     dmb_contact_add_direction(a, none, row, K);
 }
-
-#endif
 
 #endif

@@ -126,7 +126,8 @@ void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, doub
     dmb_normal_response out;
     *force = *d_depth = *d_rate = 0.0;
     if (depth <= 0.0) return;
-    dmb_normal_response_at(law, depth, rate, impact_speed, NULL, &out);
+    const dmb_local_normal local = dmb_local_normal_of(law);
+    dmb_normal_response_at(&local, depth, rate, impact_speed, NULL, &out);
     *force = out.force;
     *d_depth = out.d_depth;
     *d_rate = out.d_rate;

@@ -44,6 +44,18 @@ double dmb_normal_energy(const dmb_normal_law *law, double depth);
 
 /* The normal contact laws in a number that is a double or lanes of doubles (math/real.h). */
 
+/* A law with constants of the place, which differ from lane to lane in a hole of sections. */
+typedef struct dmb_local_normal {
+    const dmb_normal_law *law;       /* all other constants */
+    dmb_real stiffness, damping, mu; /* as there */
+} dmb_local_normal;
+
+static inline dmb_local_normal dmb_local_normal_of(const dmb_normal_law *law)
+{
+    const dmb_local_normal local = {law, dmb_real_of(law->stiffness), dmb_real_of(law->damping), dmb_real_of(law->mu)};
+    return local;
+}
+
 /* Per metre of pipe. */
 typedef struct dmb_normal_response {
     dmb_real force;   /* [N/m] */
@@ -62,14 +74,14 @@ static inline dmb_real dmb_normal_reduced_power(double exponent, dmb_real depth)
 }
 
 /* Damping "constant" c(d) of KELVIN_VOIGT and IMPACT and its slope; c STEP(d; 0, 0, impact_depth, 1) for the latter. */
-static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real depth, dmb_real *slope)
+static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real damping, dmb_real depth, dmb_real *slope)
 {
     const dmb_mask full = dmb_mask_at_most(dmb_real_of(law->impact_depth), depth);
     *slope = dmb_real_of(0.0);
-    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || !dmb_mask_any(dmb_mask_not(full))) return dmb_real_of(law->damping);
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || !dmb_mask_any(dmb_mask_not(full))) return damping;
     const dmb_real x = depth / law->impact_depth;
-    *slope = dmb_real_select(full, *slope, law->damping * 6.0 * x * (1.0 - x) / law->impact_depth);
-    return dmb_real_select(full, dmb_real_of(law->damping), law->damping * x * x * (3.0 - 2.0 * x));
+    *slope = dmb_real_select(full, *slope, damping * 6.0 * x * (1.0 - x) / law->impact_depth);
+    return dmb_real_select(full, damping, damping * x * x * (3.0 - 2.0 * x));
 }
 
 /* ---- Touch within a step -----------------------------------------------------------------------------------------
@@ -121,18 +133,19 @@ static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real
 
 /* At penetration depth > 0 [m] (or NaN) growing at rate [m/s], impact_speed [m/s] the speed at first touch. The force
  * is 0 with zero derivatives where the law would pull. touch: NULL where its damping counts as it is. */
-static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real depth, dmb_real rate,
+static inline void dmb_normal_response_at(const dmb_local_normal *local, dmb_real depth, dmb_real rate,
                                           dmb_real impact_speed, const dmb_normal_touch *touch,
                                           dmb_normal_response *out)
 {
     const dmb_real zero = dmb_real_of(0.0);
+    const dmb_normal_law *law = local->law;
     out->force = out->elastic = out->d_depth = out->d_rate = out->whole = zero;
     if (law->kind == DMB_NORMAL_NONE) return;
-    const dmb_real stiffness = law->stiffness * dmb_normal_reduced_power(law->exponent, depth); /* K d^(n-1) */
+    const dmb_real stiffness = local->stiffness * dmb_normal_reduced_power(law->exponent, depth); /* K d^(n-1) */
     out->elastic = stiffness * depth;
     if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
         dmb_real slope;
-        out->d_rate = dmb_normal_damping(law, depth, &slope);
+        out->d_rate = dmb_normal_damping(law, local->damping, depth, &slope);
         if (touch != NULL && law->kind == DMB_NORMAL_KELVIN_VOIGT) {
             slope = out->d_rate * touch->by_depth;
             out->d_rate = out->d_rate * touch->weight;
@@ -140,7 +153,7 @@ static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real de
         out->force = out->elastic + out->d_rate * rate;
         out->d_depth = law->exponent * stiffness + slope * rate;
     } else {
-        const dmb_real factor = law->mu / dmb_real_max(impact_speed, dmb_real_of(law->impact_floor));
+        const dmb_real factor = local->mu / dmb_real_max(impact_speed, dmb_real_of(law->impact_floor));
         out->force = out->elastic * (1.0 + factor * rate);
         out->d_depth = law->exponent * stiffness * (1.0 + factor * rate);
         out->d_rate = out->elastic * factor;

@@ -12,6 +12,12 @@
 #include "kernel/lane_group.h"
 #include "math/so3.h"
 
+/* Laws of the whole hole. */
+typedef struct wall_laws {
+    dmb_local_normal normal;
+    dmb_local_friction friction;
+} wall_laws;
+
 /* Rings of a group. */
 typedef struct wall_group {
     dmb_real offset, clearance, length;
@@ -22,33 +28,28 @@ typedef struct wall_group {
     dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
     dmb_real bristle[2];           /* [m] the same */
     dmb_contact_frame frame;
-#if DMB_REAL_LANES == 1
-    dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
-#endif
+    const dmb_local_normal *normal_law; /* at the rings */
+    const dmb_local_friction *friction_law;
+    dmb_section_contact section; /* of a hole of sections */
     lane_places node, row;
     uint32_t touching; /* one bit for each lane that touches and is not one again */
     uint32_t sticking; /* the same */
     lane_group site;
 } wall_group;
 
-/* In a hole of sections each ring has laws of its own. */
-#if DMB_REAL_LANES == 1
+/* In a hole of sections each ring has constants of its own. */
 static inline int has_sections(const dmb_wall_job *job)
 {
     return job->hole->pieces > 0;
 }
-static inline const dmb_normal_law *normal_law_of(const dmb_wall_job *job, const wall_group *g)
+
+static inline wall_laws laws_of(const dmb_wall_job *job)
 {
-    return has_sections(job) ? &g->section.wall.normal : job->normal_law;
+    static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
+    const wall_laws laws = {dmb_local_normal_of(job->normal_law),
+                            dmb_local_friction_of(job->friction_law != NULL ? job->friction_law : &none)};
+    return laws;
 }
-static inline const dmb_friction_law *friction_law_of(const dmb_wall_job *job, const wall_group *g)
-{
-    return has_sections(job) ? &g->section.wall.friction : job->friction_law;
-}
-#else
-#define normal_law_of(job, g) ((job)->normal_law)
-#define friction_law_of(job, g) ((job)->friction_law)
-#endif
 
 _Static_assert(offsetof(dmb_site, length) == 3 * sizeof(double), "offset, radius, clearance, length");
 
@@ -152,9 +153,7 @@ static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g
     dmb_arm_velocity(g->offset, V);
     dmb_quat_to_matrix(q, R);
     dmb_mat3_vec(R, V, V);
-#if DMB_REAL_LANES == 1
     if (has_sections(job)) return dmb_vec3_dot(g->normal, V) - g->section.rho * dmb_vec3_dot(g->tangent, V);
-#endif
     return dmb_vec3_dot(g->normal, V);
 }
 
@@ -175,25 +174,43 @@ static inline void take_impact_speed(const dmb_wall_job *job, wall_group *g)
     g->impact_speed = dmb_real_select(touches, closed, dmb_real_select(touched, impact_speed, g->frame.speed[0]));
 }
 
-#if DMB_REAL_LANES == 1
-/* The wall at the ring, and the speed at which it goes in. */
-static inline void enter_section(const dmb_wall_job *job, wall_group *g)
+/* The walls of a group, found one by one; constants beside those of the place are those of the whole hole. */
+static inline void load_walls(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
 {
-    static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
-    const dmb_hole *hole = job->hole;
-    const dmb_friction_law *friction = job->friction_law != NULL ? job->friction_law : &none;
-    const double depth = job->trial.depth[g->site.first];
-    dmb_vec3_zero(g->section.curvature);
-    if (!dmb_hole_is_straight(hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
-    dmb_local_wall_at(hole, job->normal_law, friction, depth, job->softer, &g->section.wall);
-    dmb_section_contact_at(&g->frame, &g->section);
-    g->clearance = g->section.wall.radius - g->frame.radius;
-    if (job->dynamic) g->frame.speed[0] -= g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
+    dmb_section_contact *section = &g->section;
+    section->normal = laws->normal;
+    section->friction = laws->friction;
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        dmb_local_wall wall;
+        dmb_local_wall_at(job->hole, job->normal_law, laws->friction.law,
+                          job->trial.depth[place_at(&g->site, (uint32_t)l)], job->softer, &wall);
+        dmb_section_set_wall(&wall, l, section);
+    }
 }
-#endif
+
+/* The wall at the rings, and the speed at which they go in. */
+static inline void enter_section(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+{
+    dmb_vec3_zero(g->section.curvature);
+    if (!dmb_hole_is_straight(job->hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
+    load_walls(job, laws, g);
+    dmb_section_contact_at(&g->frame, &g->section);
+    g->clearance = g->section.radius - g->frame.radius;
+    if (job->dynamic) g->frame.speed[0] = g->frame.speed[0] - g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
+}
+
+static inline void take_laws(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+{
+    g->normal_law = &laws->normal;
+    g->friction_law = &laws->friction;
+    if (!has_sections(job)) return;
+    enter_section(job, laws, g);
+    g->normal_law = &g->section.normal;
+    g->friction_law = &g->section.friction;
+}
 
 /* Position and motion of the rings, and the part of it that the trial holds. */
-static inline void place_rings(const dmb_wall_job *job, wall_group *g)
+static inline void place_rings(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
 {
     load_sites(job, g);
     load_motion(job, g);
@@ -203,9 +220,7 @@ static inline void place_rings(const dmb_wall_job *job, wall_group *g)
         dmb_contact_speeds(&g->frame);
     else
         dmb_contact_static_speeds(job->slip, &g->frame);
-#if DMB_REAL_LANES == 1
-    if (has_sections(job)) enter_section(job, g);
-#endif
+    take_laws(job, laws, g);
     g->penetration = g->frame.distance - g->clearance;
     take_impact_speed(job, g);
     store_line(g->penetration, &g->site, job->trial.penetration);
@@ -245,8 +260,8 @@ static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, 
     for (int l = 0; l < DMB_REAL_LANES; l++)
         dmb_real_set_lane(&stuck, l, job->now.sticks[place_at(&g->site, (uint32_t)l)] ? 1.0 : 0.0);
     const dmb_mask sticks =
-        dmb_friction_bristle(friction_law_of(job, g), N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
-                             job->step, g->bristle, F, by_speed, by_normal);
+        dmb_friction_bristle(g->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), job->step,
+                             g->bristle, F, by_speed, by_normal);
     g->sticking = dmb_mask_bits(sticks);
 }
 
@@ -257,8 +272,8 @@ static inline void add_friction(const dmb_wall_job *job, wall_group *g, dmb_cont
     if (job->friction_law->kind == DMB_FRICTION_BRISTLE && job->dynamic)
         bristles(job, g, -c->F[0], F, by_speed, by_normal);
     else
-        dmb_friction_smooth(friction_law_of(job, g), -c->F[0], g->frame.speed + 1, F,
-                            job->tangent && job->dynamic ? by_speed : NULL, by_normal);
+        dmb_friction_smooth_at(g->friction_law, -c->F[0], g->frame.speed + 1, F,
+                               job->tangent && job->dynamic ? by_speed : NULL, by_normal);
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
 
@@ -281,15 +296,12 @@ static inline void add_tangent(const dmb_wall_job *job, const wall_group *g, uin
     dmb_real K[36];
     dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
     if (!dmb_hole_is_straight(job->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
-#if DMB_REAL_LANES == 1
-    if (has_sections(job)) dmb_section_pose_tangent(&g->frame, c, &g->section, g->bend, friction, K);
-#endif
+    const dmb_real *bend = dmb_hole_is_straight(job->hole) ? NULL : g->bend;
+    if (has_sections(job)) dmb_section_pose_tangent(&g->frame, c, &g->section, bend, friction, K);
     subtract_blocks(job, g, touching, arms, K, job->stiffness);
     if (!job->dynamic) return;
     dmb_contact_velocity_tangent(&g->frame, c, job->velocity_factor, friction, K);
-#if DMB_REAL_LANES == 1
     if (has_sections(job)) dmb_section_velocity_tangent(&g->frame, c, &g->section, job->velocity_factor, friction, K);
-#endif
     subtract_blocks(job, g, touching, arms, K, job->inertia);
 }
 
@@ -337,31 +349,36 @@ static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_
     add_rows(g, magnitude, job->scale);
     add_touching(rounding_of(g, c->by_depth[0]), g, &job->rounding);
     if (!job->dynamic) return;
-    add_touching(-(c->elastic * v[0]), g, &job->potential);
+    dmb_real stored = c->elastic * v[0]; /* [W] into the wall */
+    if (has_sections(job))
+        stored = stored + g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
+    add_touching(-stored, g, &job->potential);
     add_touching((c->F[0] + c->elastic) * v[0], g, &job->impact);
     add_touching(c->F[1] * v[1] + c->F[2] * v[2], g, &job->friction);
 }
 
-#if DMB_REAL_LANES == 1
-/* The part along the axis; what the laws change by with the depth. */
-static inline void press_section(dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, double wrench[6])
+/* The part along the axis; changes of the laws with the depth. */
+static inline void press_section(const dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, dmb_real wrench[6])
 {
-    const int memory = job->dynamic && job->friction_law != NULL && job->friction_law->kind == DMB_FRICTION_BRISTLE;
-    dmb_section_force(&g->frame, c, g->length, fmax(g->penetration, DMB_CONTACT_PENETRATION), g->impact_speed, memory,
-                      job->friction_law != NULL, &g->section);
+    const int friction = job->friction_law != NULL;
+    const dmb_section_ring ring = {
+        .length = g->length,
+        .at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL},
+        .friction = friction,
+        .memory = job->dynamic && friction && job->friction_law->kind == DMB_FRICTION_BRISTLE};
+    dmb_section_force(&g->frame, c, &ring, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
-    if (job->dynamic) job->potential -= g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
 }
-#endif
 
 /* [-] step over c/k, from where on the spring alone governs a contact that the steps do not resolve: weights of its
  * damping would only move its energy about. */
 #define DMB_TOUCH_COARSE 10.0
 
-static inline int is_weighted(const dmb_wall_job *job, const dmb_normal_law *law)
+static inline dmb_mask is_resolved(const dmb_wall_job *job, const dmb_local_normal *law)
 {
-    const int coarse = law->exponent == 1.0 && job->step * law->stiffness > DMB_TOUCH_COARSE * law->damping;
-    return job->dynamic && job->step > 0.0 && !coarse;
+    const dmb_real zero = dmb_real_of(0.0);
+    if (law->law->exponent != 1.0) return dmb_mask_at_most(zero, zero);
+    return dmb_mask_not(dmb_mask_less(DMB_TOUCH_COARSE * law->damping, job->step * law->stiffness));
 }
 
 /* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
@@ -375,22 +392,29 @@ static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_norma
     kept[DMB_TOUCH_TIME] = was[DMB_TOUCH_TIME];
     touch->weight = one;
     touch->by_depth = zero;
-    if (!is_weighted(job, normal_law_of(job, g))) return;
+    if (!job->dynamic || !(job->step > 0.0)) return;
+    const dmb_mask resolved = is_resolved(job, g->normal_law);
+    if (!dmb_mask_any(resolved)) return;
     const dmb_mask opens = g->touches & dmb_mask_not(dmb_mask_at_most(g->clearance, zero));
     const dmb_real before = load_line(job->now.penetration, &g->site);
     dmb_normal_touch_at(dmb_real_select(opens, before, one), g->penetration, dmb_real_of(job->step), was, touch, kept);
+    if (!dmb_mask_any(dmb_mask_not(resolved))) return;
+    touch->weight = dmb_real_select(resolved, touch->weight, one);
+    touch->by_depth = dmb_real_select(resolved, touch->by_depth, zero);
+    for (int i = 0; i < DMB_TOUCH_SIZE; i++)
+        kept[i] = dmb_real_select(resolved, kept[i], i == DMB_TOUCH_TIME ? was[i] : zero);
 }
 
 /* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
  * contact that opens let go. */
 static inline void keep_touch(const dmb_wall_job *job, wall_group *g)
 {
-    const dmb_normal_law *law = normal_law_of(job, g);
+    const dmb_local_normal *law = g->normal_law;
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real kept[DMB_TOUCH_SIZE] = {zero, zero, zero, zero};
     if (g->touching != lanes_used(&g->site)) {
         const dmb_real way = dmb_real_abs(g->penetration);
-        const dmb_real spring = law->stiffness * dmb_normal_reduced_power(law->exponent, way) * way;
+        const dmb_real spring = law->stiffness * dmb_normal_reduced_power(law->law->exponent, way) * way;
         kept[DMB_TOUCH_FORCE] = law->damping * g->frame.speed[0] - spring;
     }
     for (int i = 0; g->touching != 0 && i < DMB_TOUCH_SIZE; i++)
@@ -401,7 +425,7 @@ static inline void keep_touch(const dmb_wall_job *job, wall_group *g)
 /* Normal force, its damping weighted where that jumps at touch. */
 static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
 {
-    const dmb_normal_law *law = normal_law_of(job, g);
+    const dmb_local_normal *law = g->normal_law;
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
     if (!job->touches) {
         dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
@@ -412,9 +436,7 @@ static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_co
     at.touch = &touch;
     dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
     g->kept[DMB_TOUCH_FORCE] = c->whole;
-#if DMB_REAL_LANES == 1
-    if (has_sections(job)) g->section.wall.damping_slope *= touch.weight;
-#endif
+    if (has_sections(job)) g->section.damping_slope = g->section.damping_slope * touch.weight;
 }
 
 static inline void press(dmb_wall_job *job, wall_group *g)
@@ -428,9 +450,7 @@ static inline void press(dmb_wall_job *job, wall_group *g)
     press_normally(job, g, &c);
     if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
-#if DMB_REAL_LANES == 1
     if (has_sections(job)) press_section(job, g, &c, wrench);
-#endif
     if (job->tangent) add_tangent(job, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
     add_forces(job, g, &c, wrench);
@@ -438,10 +458,11 @@ static inline void press(dmb_wall_job *job, wall_group *g)
 
 static void walls(dmb_wall_job *job)
 {
+    const wall_laws laws = laws_of(job);
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         wall_group g;
         g.site = group_at(first, job->count);
-        place_rings(job, &g);
+        place_rings(job, &laws, &g);
         const dmb_real zero = dmb_real_of(0.0);
         g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
         g.touching = dmb_mask_bits(g.touches) & lanes_used(&g.site);

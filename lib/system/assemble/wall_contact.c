@@ -252,9 +252,10 @@ void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, i
     double z[2], dv[4], dN[2];
     out->friction[0] = out->friction[1] = 0.0;
     out->sticks = sticks;
+    const dmb_local_friction local = dmb_local_friction_of(law);
     if (law->kind == DMB_FRICTION_NONE) return;
     if (law->kind == DMB_FRICTION_BRISTLE)
-        (void)dmb_friction_bristle(law, N, slip, bristle, slip, sticks != 0, 0.0, z, out->friction, dv, dN);
+        (void)dmb_friction_bristle(&local, N, slip, bristle, slip, sticks != 0, 0.0, z, out->friction, dv, dN);
     else
         dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
 }

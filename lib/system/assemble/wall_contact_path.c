@@ -84,8 +84,9 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
         const dmb_friction_law sliding = dmb_sliding_law(law);
         dmb_friction_smooth(&sliding, N, v, F, dv, dN);
     } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
+        const dmb_local_friction with = dmb_local_friction_of(law);
         sim->trial.path_sticks[p] =
-            dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
+            dmb_friction_bristle(&with, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
                                  sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN);
     } else {
         dmb_friction_smooth(law, N, v, F, dv, dN);

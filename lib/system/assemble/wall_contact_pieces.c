@@ -53,7 +53,7 @@ static void add_sums(const dmb_piece_sums *sums, dmb_wall_job *job)
 /* Sites of strings stand in the order of their nodes; those of bodies come behind them, and last. */
 void dmb_press_rings(const dmb_sim *sim, dmb_wall_job *job)
 {
-    const dmb_kernels *kernels = sim->scene->hole.pieces == 0 ? sim->scene->kernels : dmb_kernels_of(1);
+    const dmb_kernels *kernels = sim->scene->kernels;
     const uint32_t pieces = dmb_pieces_of(sim->scene->sites_in_order);
     if (pieces == 1) {
         kernels->walls(job);

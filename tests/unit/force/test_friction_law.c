@@ -4,6 +4,15 @@
 
 #include "force_test.h"
 
+/* The bristles of a law whose coefficients are those of the whole hole. */
+static int32_t bristle_of(const dmb_friction_law *law, double N, const double v[2], const double z_old[2],
+                          const double v_old[2], int stuck, double h, double z[2], double F[2], double *dF_dv,
+                          double dF_dN[2])
+{
+    const dmb_local_friction local = dmb_local_friction_of(law);
+    return dmb_friction_bristle(&local, N, v, z_old, v_old, stuck, h, z, F, dF_dv, dF_dN);
+}
+
 static dmb_friction_law law_of(int32_t kind, double mu_static, double mu_dynamic)
 {
     dmb_friction_law law;
@@ -88,13 +97,13 @@ static void direction(void **state)
     CHECK_RELATIVE(sqrt(F[0] * F[0] + F[1] * F[1]), 30, 1e-6);
     for (int i = 0; i < 200; ++i) {
         const double z_old[2] = {z[0], z[1]};
-        sticks = dmb_friction_bristle(&law, 100, v, z_old, v, sticks != 0, 1e-4, z, F, dF_dv, dF_dN);
+        sticks = bristle_of(&law, 100, v, z_old, v, sticks != 0, 1e-4, z, F, dF_dv, dF_dN);
     }
     CHECK_CLOSE(-F[0] / sqrt(F[0] * F[0] + F[1] * F[1]), 0.06526669, 5e-9);
     CHECK_RELATIVE(sqrt(F[0] * F[0] + F[1] * F[1]), 30, 1e-14);
     assert_int_equal(sticks, 0);
     law.bristle_damping = 2.0; /* no part of it is left in steady sliding */
-    sticks = dmb_friction_bristle(&law, 100, v, z, v, 0, 1e-4, z, F, dF_dv, dF_dN);
+    sticks = bristle_of(&law, 100, v, z, v, 0, 1e-4, z, F, dF_dv, dF_dN);
     CHECK_CLOSE(-F[0] / sqrt(F[0] * F[0] + F[1] * F[1]), 0.06526669, 5e-9);
     CHECK_RELATIVE(sqrt(F[0] * F[0] + F[1] * F[1]), 30, 1e-14);
 }
@@ -160,9 +169,9 @@ static void table_values(void **state)
         smooth_force(&law, 100, v, F);
         CHECK_RELATIVE(hypot(F[0], F[1]), 50 * at[i][1], 1e-14);
         law = table_law(DMB_FRICTION_BRISTLE, 0.3);
-        (void)dmb_friction_bristle(&law, 100, v, far, v, 0, 1e-3, z, F, dF_dv, dF_dN);
+        (void)bristle_of(&law, 100, v, far, v, 0, 1e-3, z, F, dF_dv, dF_dN);
         CHECK_RELATIVE(hypot(F[0], F[1]), 100 * at[i][1], 1e-14);
-        (void)dmb_friction_bristle(&law, 100, v, far, v, 1, 1e-3, z, F, dF_dv, dF_dN);
+        (void)bristle_of(&law, 100, v, far, v, 1, 1e-3, z, F, dF_dv, dF_dN);
         CHECK_RELATIVE(hypot(F[0], F[1]), 50, 1e-14);
     }
 }
@@ -208,7 +217,7 @@ static void falling_branch(void **state)
     const double curve = 0.3 + 0.05 * exp(-hypot(1e-2, 1e-3) / 1e-2), f0 = curve / hypot(1.0, 0.1);
     CHECK_CLOSE(F[0], -100.0 * (f0 + 0.00115), 100.0 * 2e-4);
     assert_true(dF_dv[0] > 0.8 * expected && dF_dv[0] < 1.15 * expected);
-    (void)dmb_friction_bristle(&bristle, 100, v, z_old, v, 0, 1e-3, z, F, dF_dv, dF_dN);
+    (void)bristle_of(&bristle, 100, v, z_old, v, 0, 1e-3, z, F, dF_dv, dF_dN);
     CHECK_RELATIVE(dF_dv[0], expected, 1e-14);
     CHECK_RELATIVE(F[0], -100 * (0.3 + 0.05 * exp(-1.0)), 1e-14);
 }
@@ -229,12 +238,11 @@ static void rest_and_nonsense(void **state)
             dmb_friction_smooth(&law, i == 3 ? 0.0 : 50.0, zero, F, dF_dv, dF_dN);
             assert_true(F[0] == 0.0 && F[1] == 0.0 && dF_dN[0] == 0.0 && dF_dN[1] == 0.0);
             assert_true(isfinite(dF_dv[0]) && isfinite(dF_dv[1]) && isfinite(dF_dv[2]) && isfinite(dF_dv[3]));
-            sticks =
-                dmb_friction_bristle(&law, i == 3 ? 0.0 : 50.0, zero, zero, zero, i % 2 != 0, 1e-3, z, F, dF_dv, dF_dN);
+            sticks = bristle_of(&law, i == 3 ? 0.0 : 50.0, zero, zero, zero, i % 2 != 0, 1e-3, z, F, dF_dv, dF_dN);
             assert_true(F[0] == 0.0 && F[1] == 0.0 && z[0] == 0.0 && z[1] == 0.0 && sticks == 1);
             assert_true(isfinite(dF_dv[0]) && isfinite(dF_dv[1]) && isfinite(dF_dv[2]) && isfinite(dF_dv[3]));
             const double far[2] = {1e-3, -1e-3}; /* beyond the limit, at rest */
-            sticks = dmb_friction_bristle(&law, 50.0, zero, far, zero, i % 2 != 0, 0.0, z, F, dF_dv, dF_dN);
+            sticks = bristle_of(&law, 50.0, zero, far, zero, i % 2 != 0, 0.0, z, F, dF_dv, dF_dN);
             CHECK_CLOSE(hypot(F[0], F[1]), 50.0 * law.mu_static, 1e-13);
             const double fast[2] = {7.2, 1e-300};
             dmb_friction_smooth(&law, 50.0, fast, F, dF_dv, dF_dN);
@@ -263,7 +271,7 @@ static int32_t bristle_force(const struct bristle_case *c, double N, const doubl
     double z[2], dF_dv[4], dF_dN[2];
     int32_t sticks;
 
-    sticks = dmb_friction_bristle(&c->law, N, v, c->z_old, c->v_old, c->stuck, c->h, z, F, dF_dv, dF_dN);
+    sticks = bristle_of(&c->law, N, v, c->z_old, c->v_old, c->stuck, c->h, z, F, dF_dv, dF_dN);
     return sticks;
 }
 
@@ -286,7 +294,7 @@ static void bristle_tangents(void **state)
         int32_t sticks;
         c.law.bristle_damping = i % 2 == 0 ? 0.0 : 8.0;
         c.h = i % 5 == 0 ? 0.0 : 1e-3;
-        sticks = dmb_friction_bristle(&c.law, c.N, v, c.z_old, c.v_old, c.stuck != 0, c.h, z, F, dF_dv, dF_dN);
+        sticks = bristle_of(&c.law, c.N, v, c.z_old, c.v_old, c.stuck != 0, c.h, z, F, dF_dv, dF_dN);
         stuck += sticks;
         assert_true(hypot(F[0], F[1]) <= c.N * 0.4 * (1 + 1e-14));
         for (int j = 0; j < 2; ++j) {
@@ -339,7 +347,7 @@ static void breaks_away_at_static(void **state)
         sticks = 1;
         for (int i = 0; i < 3600; ++i) {
             const double z_old[2] = {z[0], z[1]};
-            sticks = dmb_friction_bristle(&law, 1, v, z_old, v, sticks != 0, h, z, F, dF_dv, dF_dN);
+            sticks = bristle_of(&law, 1, v, z_old, v, sticks != 0, h, z, F, dF_dv, dF_dN);
             const double limit = i == 3499 ? 0.35 : 0.3 + 0.05 * exp(-speed / 1e-2);
             CHECK_CLOSE(-F[0], i < 3499 ? (i + 1) * 1.0001e-4 : limit, 1e-12);
             assert_int_equal(sticks, i < 3499);
@@ -347,7 +355,7 @@ static void breaks_away_at_static(void **state)
     }
     for (double speed = 1e-3; speed < 0.2; speed *= 1.5) {
         const double v[2] = {speed, 0}, z_old[2] = {z[0], z[1]};
-        sticks = dmb_friction_bristle(&law, 1, v, z_old, v, sticks != 0, 1.0, z, F, dF_dv, dF_dN);
+        sticks = bristle_of(&law, 1, v, z_old, v, sticks != 0, 1.0, z, F, dF_dv, dF_dN);
         CHECK_CLOSE(-F[0], 0.3 + 0.05 * exp(-speed / 1e-2), 1e-15);
         assert_int_equal(sticks, 0);
     }
@@ -367,7 +375,7 @@ static void bristle_dissipates(void **state)
         for (int i = 0; i < 20000; ++i) {
             const double h = 1e-4, z_old[2] = {z[0], z[1]};
             const double v[2] = {v_old[0] + draw(&seed, -0.02, 0.02), 0.99 * v_old[1] + draw(&seed, -0.02, 0.02)};
-            sticks = dmb_friction_bristle(&law, 10, v, z_old, v_old, sticks != 0, h, z, F, dF_dv, dF_dN);
+            sticks = bristle_of(&law, 10, v, z_old, v_old, sticks != 0, h, z, F, dF_dv, dF_dN);
             const double mean_F[2] = {0.5 * (F[0] + F_old[0]), 0.5 * (F[1] + F_old[1])};
             const double mean_v[2] = {0.5 * (v[0] + v_old[0]), 0.5 * (v[1] + v_old[1])};
             const double stored = 0.5 * 10 * law.bristle_stiffness * (z[0] * z[0] + z[1] * z[1]);
@@ -399,7 +407,7 @@ static double friction_at(const struct slider *s, double v, double h, double *z,
 
     *sticks = 0;
     if (s->law.kind == DMB_FRICTION_BRISTLE)
-        *sticks = dmb_friction_bristle(&s->law, s->N, v2, z_old, v_old, s->sticks, h, z2, F, dF_dv, dF_dN);
+        *sticks = bristle_of(&s->law, s->N, v2, z_old, v_old, s->sticks, h, z2, F, dF_dv, dF_dN);
     else
         dmb_friction_smooth(&s->law, s->N, v2, F, dF_dv, dF_dN);
     *z = z2[0];
