@@ -1,3 +1,13 @@
+/* Buckling analysis (dmb_analysis_buckling): options, memory, linear critical factors, queries. Order of find_factors:
+ *
+ *   1. refusal of a moving state; K and G about the present state (buckling_state.c)
+ *   2. linear factors (dmb_buckling_find): symmetric K by counting and bisection (pencil.c), otherwise by Krylov
+ * subspaces
+ *   3. if the loads move nothing, K is linear in them: all factors are confirmed, and for non-symmetric K flutter is
+ *      searched in the present pose (confirm_all)
+ *   4. else, with options.follow and a factor or a bound factor_max for non-symmetric K: path following
+ *      (buckling_follow.c)
+ *   5. else, for non-symmetric K: flutter in the present state alone (judge_present); the factors are extrapolations */
 #include "analysis/buckling/buckling.h"
 
 #include <string.h>
@@ -61,7 +71,7 @@ void dmb_buckling_destroy(dmb_buckling **buckling)
     *buckling = NULL;
 }
 
-/* The copy of the sim is asked for shapes like any sim, and holds the model like one. */
+/* The copy of the sim serves queries of shapes like any sim, and keeps the model. */
 static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
 {
     dmb_arena arena;
@@ -90,7 +100,8 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
 
 /* ---- Factors and shapes ------------------------------------------------------------------------------------------ */
 
-/* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
+/* Scales a shape to a largest displacement of 1 m, or rotation of 1 rad if nothing else moves; its largest component is
+ * positive. */
 void dmb_buckling_normalise(const dmb_scene *scene, double *x)
 {
     double most[2] = {0.0, 0.0};
@@ -106,7 +117,7 @@ void dmb_buckling_normalise(const dmb_scene *scene, double *x)
     for (uint32_t i = 0; i < scene->row_count; i++) x[i] /= unit;
 }
 
-/* Factors this close count as one, with vectors apart from each other. */
+/* [-] Relative difference below which factors count as equal, with mutually orthogonal vectors. */
 #define DMB_SAME_FACTOR 1e-6
 
 static void store_shape(dmb_buckling *buckling, uint32_t k)
@@ -116,7 +127,7 @@ static void store_shape(dmb_buckling *buckling, uint32_t k)
     dmb_buckling_normalise(buckling->work->scene, buckling->shape + k * rows);
 }
 
-/* distance: of the factor from the state that is linearised. */
+/* distance: of the factor from the linearised state. */
 static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
 {
     const size_t unknowns = buckling->pencil.unknowns;
@@ -173,7 +184,8 @@ int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *op
                                                                  : find_symmetric(buckling, options, message);
 }
 
-/* Where the loads move nothing, rigid links in line, the stiffness is linear in them: there is no way to follow. */
+/* 1: the loads move the state. If they do not (rigid links in line), the stiffness is linear in them, and path
+ * following is unnecessary. */
 static int moves(const dmb_buckling *buckling)
 {
     for (uint32_t i = 0; i < buckling->work->scene->row_count; i++)
@@ -181,7 +193,8 @@ static int moves(const dmb_buckling *buckling)
     return 0;
 }
 
-/* Loads that grow in the present pose, which may not be where they lead, up to a factor; `through`: at it too. */
+/* Flutter under loads that grow in the present pose, which may differ from the loaded pose, up to a factor; `through`:
+ * at that factor too. */
 static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, double to,
                           int through, int32_t status)
 {
@@ -196,7 +209,8 @@ static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckli
     return judged < 0 ? judged : dmb_buckling_tell_flutter(buckling, sim, &flutter.message, status);
 }
 
-/* Flutter on the way stays open where the way is not followed; the answer has a note already. */
+/* Flutter of the present state. Beyond it flutter is not assessed without path following; the result already has a
+ * note. */
 static int32_t judge_present(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, int32_t status)
 {
     const dmb_message before = sim->message;
@@ -207,7 +221,8 @@ static int32_t judge_present(dmb_buckling *buckling, dmb_sim *sim, const dmb_buc
     return status;
 }
 
-/* Up to the first factor, where it diverges, or to the last one that is asked for. */
+/* Confirms the linear factors: flutter up to the first factor, at which divergence occurs, or up to the requested
+ * bound. */
 static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     const int none = buckling->count == 0;
@@ -219,7 +234,7 @@ static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckl
     return judge_pose(buckling, sim, options, none ? options->factor_max : buckling->factor[0], none, status);
 }
 
-/* About the present state, and then along the equilibria. */
+/* Factors about the present state, then along the equilibria. */
 static int32_t find_factors(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");
@@ -298,7 +313,7 @@ int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double 
     return status;
 }
 
-/* The shape is a field of small displacements; a field of velocities is interpolated alike. */
+/* A shape is a field of small displacements, interpolated like a field of velocities. */
 int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6])
 {
     int32_t status = check_mode(buckling, mode, shape);

@@ -1,6 +1,6 @@
-/* Strings that are not perfectly straight do not meet a bifurcation: the equilibria bend off into the buckled shape,
- * and the lowest eigenvalue of K x = mu E x, E the displacements across the string, has a minimum above 0 where the
- * perfect string would buckle (Koiter 1945). It is closed in by golden sections of the arc (eq:buckling.dip). */
+/* Strings that are not perfectly straight have no bifurcation: the equilibria bend into the buckled shape, and the
+ * lowest eigenvalue of K x = mu E x, E the lateral displacements of the string, has a minimum above 0 near the factor
+ * at which the perfect string would buckle (Koiter 1945). Golden sections of the arc locate it (eq:buckling.dip). */
 #include <math.h>
 #include <string.h>
 
@@ -10,15 +10,17 @@
 #include "sim/access.h"
 #include "system/system.h"
 
-/* A minimum counts below this part of the largest value before; one to be closed in may lie between the points. */
+/* A minimum counts below the first fraction of the largest value before; below the second one it is located, because
+ * the minimum may be lower between the points. */
 #define DMB_DIP_DEEP 0.5
 #define DMB_DIP_SHALLOW 0.9
-/* The value has to rise by this part of a minimum before the path ends there: it is not one of many on the way down. */
+/* Fraction of a minimum by which the value must rise before the path ends there; otherwise it may be one of many on a
+ * descent. */
 #define DMB_DIP_RISE 0.01
 #define DMB_DIP_SECTIONS 14
 #define DMB_GOLDEN 0.6180339887498949
 
-/* Values of unstable states are negative. */
+/* Lowest eigenvalue [N/m]; negative for unstable states. */
 static int32_t softest_of(dmb_dip *dip, dmb_path *path, double *value)
 {
     int32_t status = dmb_stability_softest(path->work, dip->guessed, value, dip->shape);
@@ -29,7 +31,7 @@ static int32_t softest_of(dmb_dip *dip, dmb_path *path, double *value)
     return status;
 }
 
-/* The point at `arc` from the last one, with its stiffness factored. */
+/* Moves next to the point at `arc` from the last one, with its stiffness factored. */
 static int32_t go_to(dmb_path *path, double arc)
 {
     const int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
@@ -50,7 +52,7 @@ typedef struct ends {
     dmb_dip_point low, high;
 } ends;
 
-/* The minimum between them, with arcs that are from the last point too; the ends come to lie beside it. */
+/* Locates the minimum between the ends by golden sections, arcs from the last point; the ends become its neighbours. */
 static int32_t close_in(dmb_dip *dip, dmb_path *path, ends *e, dmb_dip_point *least)
 {
     dmb_dip_point inner[2] = {{0}};
@@ -80,7 +82,7 @@ static void step_to(dmb_dip *dip, dmb_dip_point next)
     dip->points++;
 }
 
-/* 1: there is a value. Eigenvalues that cannot be found are no failure of the analysis: points are counted anew. */
+/* 1: value found. If eigenvalues cannot be computed, the analysis continues and consecutive points are counted anew. */
 static int32_t value_here(dmb_dip *dip, dmb_path *path, double *value)
 {
     const int32_t status = softest_of(dip, path, value);
@@ -111,7 +113,7 @@ void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim)
     dip->state = NULL;
 }
 
-/* The trial, accepted, into dip->state; the path stays at its last point. `spare`: a state that is overwritten. */
+/* Accepts the trial in dip->state; the path stays at its last point. `spare`: a state that is overwritten. */
 static int32_t keep(dmb_dip *dip, dmb_path *path, dmb_sim *spare)
 {
     dmb_state_take(path->work, spare);
@@ -128,8 +130,8 @@ static int32_t keep(dmb_dip *dip, dmb_path *path, dmb_sim *spare)
     return DMB_OK;
 }
 
-/* The last point is the lowest of three. Where a contact opens or closes the value jumps, and counts by its larger
- * side: a string that lies more softly from there on has not bent off. */
+/* Locates the minimum; the last point is the lowest of three. If a contact opens or closes the value jumps, and the
+ * larger side counts: a string with softer support from there on has not buckled. */
 static int32_t look_closely(dmb_dip *dip, dmb_path *path, const dmb_dip_point *next, dmb_sim *spare)
 {
     dmb_dip_point least;
@@ -187,7 +189,7 @@ static double largest_share(const dmb_sim *at, dmb_id string)
     profile.quantity_count = 1;
     profile.values = values;
     if (dmb_query_profile(at, &profile) < 0) return most;
-    for (int i = 0; i < STATIONS; i++) most = fmax(most, values[i]); /* fmax leaves NaN out */
+    for (int i = 0; i < STATIONS; i++) most = fmax(most, values[i]); /* fmax ignores NaN */
     return most;
 }
 

@@ -1,9 +1,21 @@
-/* From the present state along the equilibria to where they lose their stability. A factor from one linearisation is an
- * extrapolation: forces turn, contacts shift and open, sections turn on the way. So the path of equilibria is followed
- * (by arc length, so that it may end at a limit point) as far as the factor, linearised again there where nothing has
- * happened, and so on until an eigenvalue of its stiffness passes 0. A last linearisation just before it gives the
- * shape, the further factors and, where K is smooth, more digits. Where K is unsymmetric two negative eigenvalues that
- * come of a complex pair are passed by, and growing motion is looked for on the way (flutter.h). */
+/* Path following from the present state along the equilibria to the loss of stability. A factor from one linearisation
+ * is an extrapolation: forces rotate, contacts shift and open, sections rotate along the path. Strategies in their
+ * order:
+ *
+ *   run_and_confirm  1. a run with steps of free length; with flutter or without an end, the result is that of this run
+ *                    2. up to 2 runs with steps half as long as in the previous one, until two consecutive runs agree
+ *                    3. without agreement and after a failure of the last run: a run with steps of free length again;
+ *                       the factor is then not confirmed
+ *   walk (one run)   steps by arc length, so that the path may end at a limit point, with the first that applies:
+ *                    1. a failed step: the run ends with an error, after steps shortened by dmb_path_find_next
+ *                    2. limit point or bifurcation: linearised just before it (at 0.98, 0.9, 0.5, 0 of the last step),
+ *                       which gives the shape, further factors and, if K is smooth, more digits
+ *                    3. symmetric K: a deep minimum of the lowest eigenvalue was passed (buckling_dip.c)
+ *                    4. factor_max reached: stable up to there
+ *                    5. target factor reached: linearised again, which sets the next target (look_ahead)
+ *
+ * For non-symmetric K two negative eigenvalues from a complex pair are ignored, and flutter is assessed between the
+ * points (path_flutter.c). */
 #include <math.h>
 #include <string.h>
 
@@ -11,20 +23,20 @@
 #include "sim/access.h"
 #include "system/system.h"
 
-/* Points and linearisations after which a path that stays stable is given up. */
+/* Limits of points and linearisations after which a stable path is abandoned. */
 #define DMB_FOLLOW_POINTS 2000
 #define DMB_FOLLOW_LINEARISATIONS 400
-/* First step, over the distance of the factor. The last steps: so much of the distance while it is longer than this
- * part of the factor, to linearise there, then a little more than the distance, so that a short unstable stretch is not
- * passed over. Where the linearisation moves away as it is approached it is too careful, and the path goes on by a part
- * of its factor at a time. */
+/* Step lengths. FIRST: first step over the distance of the factor. APPROACH: fraction of the distance while it is
+ * longer than the fraction NEAR of the factor, with a linearisation at its end. PAST: then slightly more than the
+ * distance, so that a short unstable stretch is not missed. If the estimate moves away by more than the fraction MOVES
+ * of the distance, it is too cautious, and the path advances by the fraction GROWTH of its factor at a time. */
 #define DMB_FOLLOW_FIRST 0.25
 #define DMB_FOLLOW_APPROACH 0.9
 #define DMB_FOLLOW_NEAR 0.02
 #define DMB_FOLLOW_PAST 1.05
 #define DMB_FOLLOW_GROWTH 0.05
 #define DMB_FOLLOW_MOVES 0.3
-/* Longest step where growing motion is looked for, over the factor. */
+/* Longest step while flutter is assessed, over the factor. */
 #define DMB_FOLLOW_FLUTTER 0.05
 
 typedef struct follower {
@@ -34,13 +46,13 @@ typedef struct follower {
     dmb_path_options path_options;
     dmb_path path;
     dmb_flutter flutter;
-    double estimate; /* [unit of the factor] where stability is expected to end, by the last linearisation */
-    double target;   /* [unit of the factor] where it is linearised again */
+    double estimate; /* [unit of the factor] loss of stability by the last linearisation */
+    double target;   /* [unit of the factor] of the next linearisation */
     double arc;
-    double longest; /* [m] step so far */
+    double longest; /* [m] longest step so far */
     dmb_dip dip;
     dmb_vector steps;         /* arc_step of this run */
-    const dmb_vector *longer; /* of a run whose steps are halved; NULL: none */
+    const dmb_vector *longer; /* steps of the run whose steps are halved; NULL: none */
 } follower;
 
 /* A step along the path. */
@@ -48,7 +60,7 @@ typedef struct arc_step {
     double end, length; /* [m] of arc */
 } arc_step;
 
-/* [m] Longest step from the last point: half of that of the run before. */
+/* [m] Longest step from the last point: half of that of the previous run. */
 static double longest_step(const follower *f)
 {
     if (f->longer == NULL || f->longer->count == 0) return (double)INFINITY;
@@ -110,10 +122,9 @@ static int32_t say_stable(follower *f)
     return DMB_NOTE_STOPPED;
 }
 
-/* ---- Where it ends -------------------------------------------------------------------------------------------------
- */
+/* ---- End of the path ----- */
 
-/* Part of the last step before its end, at which the state is linearised. */
+/* Fractions of the last step before its end at which the state is linearised. */
 static const double step_back[] = {0.98, 0.9, 0.5, 0.0};
 
 static int32_t linearise_before(follower *f, double arc)
@@ -134,7 +145,7 @@ static int32_t linearise_before(follower *f, double arc)
     return status;
 }
 
-/* Factors are the same to this part of them. */
+/* [-] Relative difference below which factors agree, or are equal. */
 #define DMB_FOLLOW_AGREES 1e-5
 #define DMB_FOLLOW_SAME 1e-6
 
@@ -143,8 +154,8 @@ static int same(double a, double b, double part)
     return fabs(a - b) <= part * fabs(b);
 }
 
-/* The first factor is where the path has its event; others that the first linearisation has told alike, or that are the
- * same as the first, are as good. */
+/* Confirms the factors: the first factor is that of the event; others are confirmed if the first linearisation gave the
+ * same value, or if they equal the first. */
 static void confirm(dmb_buckling *b, double event)
 {
     uint32_t k = 1;
@@ -163,13 +174,13 @@ static int32_t end_at_event(follower *f, int32_t event)
     if (status < 0) return status;
     if (b->count == 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
     b->info.end = event == DMB_EVENT_LIMIT ? DMB_BUCKLING_LIMIT : DMB_BUCKLING_BIFURCATION;
-    /* beyond a limit point, or a corner where a contact opens or closes, this linearisation says nothing */
+    /* beyond a limit point, or a corner with a contact change, this linearisation is not valid */
     if (event == DMB_EVENT_LIMIT || !same(b->factor[0], factor, DMB_FOLLOW_AGREES)) b->count = 1;
     confirm(b, factor);
     return b->count < f->options->count ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
-/* At the deep minimum of the lowest eigenvalue that was passed. */
+/* Result at the deep minimum of the lowest eigenvalue that was passed. */
 static int32_t end_at_dip(follower *f)
 {
     dmb_buckling *b = f->buckling;
@@ -184,7 +195,7 @@ static int32_t end_at_dip(follower *f)
     return f->options->count > 1 ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
-/* ---- The way ----------------------------------------------------------------------------------------------------- */
+/* ---- Stepping ----- */
 
 static void choose_target(follower *f, int careful)
 {
@@ -201,7 +212,7 @@ static void limit_arc(follower *f)
         f->arc = fmin(f->arc, DMB_FOLLOW_FLUTTER * f->estimate / fabs(last->rate));
 }
 
-/* Steps grow as the path's own do, but not past the target. */
+/* Steps grow as those of a path do, but not beyond the target. */
 static void choose_arc(follower *f)
 {
     const dmb_path_place *last = &f->path.last;
@@ -212,7 +223,7 @@ static void choose_arc(follower *f)
 
 #define DMB_FOLLOW_THERE 0.999
 
-/* At the target. 1: to be gone on from; else the status of the whole. */
+/* Linearises at the target. 1: continue; else the final status. */
 static int32_t look_ahead(follower *f)
 {
     const double before = f->estimate, distance = before - f->buckling->at;
@@ -225,9 +236,9 @@ static int32_t look_ahead(follower *f)
     return 1;
 }
 
-/* A step past a bifurcation may come down on the path that crosses, which is stable, and one past a limit point on
- * another one: the direction has turned. It is taken again in shorter ones, until it is a corner, where a contact
- * opens: after so many, or where steps are so short beside the longest, as those are that creep up to a corner. */
+/* A step past a bifurcation may end on the crossing path, which is stable, and one past a limit point on another path:
+ * the direction has changed. The step is repeated with shorter lengths, unless it is a corner with a contact change:
+ * after TRIES repetitions, or if steps are below the fraction BREAKPOINT of the longest one, as near a corner. */
 #define DMB_FOLLOW_STRAIGHT 0.9
 #define DMB_FOLLOW_SHORTER 0.25
 #define DMB_FOLLOW_TRIES 8
@@ -245,10 +256,10 @@ static int32_t find_next(follower *f, int32_t *event)
     }
 }
 
-/* Just before an event: at it a root of the motion is 0. */
+/* Fraction of the step just before an event: at the event a root of the motion is 0. */
 #define DMB_FOLLOW_BEFORE 0.98
 
-/* Growing motion on the way to the next point, which is found again after it. */
+/* Assesses flutter up to the next point, which is then computed again. */
 static int32_t look_for_flutter(follower *f, int32_t event)
 {
     dmb_path *path = &f->path;
@@ -263,15 +274,15 @@ static int32_t look_for_flutter(follower *f, int32_t event)
     return status < 0 ? status : dmb_path_tangent(path, path->last.tangent);
 }
 
-/* 1: the path ends here. An unsymmetric stiffness may have negative eigenvalues in pairs without det K having passed 0:
- * only events count. */
+/* 1: the path ends here. A non-symmetric stiffness may have pairs of negative eigenvalues although det K has not passed
+ * 0: only events count. */
 static int ends(const dmb_path *path, int32_t event)
 {
     if (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION) return 1;
     return path->next.negative > 0 && path->next.stiffness != DMB_STIFFNESS_UNSYMMETRIC;
 }
 
-/* 1: to be gone on from; else the status of the whole. */
+/* 1: continue; else the final status. */
 static int32_t step(follower *f)
 {
     dmb_path *path = &f->path;
@@ -335,12 +346,12 @@ int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, co
     return DMB_NOTE_INCOMPLETE;
 }
 
-/* ---- Runs with steps of half the length -------------------------------------------------------------------------- */
+/* ---- Runs with steps of half the length ----- */
 
 #define DMB_FOLLOW_RUNS 3
 #define DMB_FOLLOW_DIP_AGREES 1e-3
 
-/* End of a run. */
+/* Result of a run. */
 typedef struct outcome {
     int32_t status, end;
     double factor;
@@ -363,7 +374,7 @@ static void begin_run(follower *f, const dmb_vector *longer, int first)
     f->flutter.info = &b->info;
     if (first) return;
     f->flutter = flutter;
-    f->flutter.off = 1; /* judged by the first run */
+    f->flutter.off = 1; /* assessed by the first run */
     b->at = 0.0;
     b->info.linearisations = 1;
     b->info.points = 0;
@@ -372,7 +383,7 @@ static void begin_run(follower *f, const dmb_vector *longer, int first)
     b->info.end = DMB_BUCKLING_EXTRAPOLATED;
 }
 
-/* The path from the present state to its end; the steps are kept. */
+/* Follows the path from the present state to its end; the steps are kept. */
 static outcome run(follower *f, const dmb_vector *longer, int first)
 {
     outcome out;
@@ -403,8 +414,8 @@ static void say_not_confirmed(follower *f, const outcome *coarse, const outcome 
                     fine->factor, coarse->factor);
 }
 
-/* Runs until two in a row end alike; the last one that came to an end is the answer, a limit point that of the run
- * before where they agree: longer steps add less of Newton's tolerance up. */
+/* Runs until two consecutive ones agree. The result is the last successful run; at a limit point the factor is that of
+ * the previous run if they agree, because longer steps accumulate less of Newton's tolerance. */
 static int32_t run_and_confirm(follower *f)
 {
     dmb_vector longer = dmb_vector_of(sizeof(arc_step));

@@ -13,10 +13,9 @@
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
-/* ---- Turning of a node ---------------------------------------------------------------------------------------------
- */
+/* ---- Rotation of a node ----- */
 
-/* The part of Q among the components that are free; a support leaves all, a plane, a line or nothing. */
+/* Restriction of the rotation Q to the free components, of which a support leaves three, two (a plane), one or none. */
 static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9])
 {
     uint32_t free[3], count = 0;
@@ -32,7 +31,7 @@ static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9
     out[3 * a + b] = -sin(angle);
 }
 
-/* T of a node, size x size; a PATH node has its axis and does not turn. */
+/* T of a node, size x size; the identity for a PATH node, whose axis does not rotate. */
 static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
 {
     const uint32_t size = sim->scene->layout.size[node];
@@ -52,15 +51,14 @@ static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
     }
 }
 
-/* ---- Products ------------------------------------------------------------------------------------------------------
- */
+/* ---- Products ----- */
 
 typedef struct square {
     const double *values;
     uint32_t size;
 } square;
 
-/* A (n x m) <- X A Y^T, X (n x n), Y (m x m); transposed: X^T A Y. room: n m */
+/* A (n x m) <- X A Y^T, X (n x n), Y (m x m); transposed: X^T A Y. room: workspace of n m */
 static void congruence(square left, square right, int transposed, double *A, double *room)
 {
     const uint32_t n = left.size, m = right.size;
@@ -102,8 +100,7 @@ void dmb_frames_turn_chains(dmb_sim *sim)
     }
 }
 
-/* ---- Reduced system ------------------------------------------------------------------------------------------------
- */
+/* ---- Reduced system ----- */
 
 static uint32_t largest_block(const dmb_scene *scene)
 {
@@ -121,7 +118,7 @@ void dmb_frames_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_frames *fr
     frames->pivot = DMB_ARENA_ARRAY(arena, uint32_t, largest);
 }
 
-/* Rows of T R of a node of cluster k that are independent coordinates, into W (width x width). */
+/* Stores the rows of T R of a node of cluster k that are independent coordinates in W (width x width). */
 static void put_rows(const dmb_sim *sim, uint32_t k, uint32_t node, uint32_t width, double *W)
 {
     const dmb_scene *scene = sim->scene;
@@ -191,13 +188,13 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
     return 1;
 }
 
-/* Stiffness about the present state and how it changes with the pattern of loads:
+/* Stiffness about the present state and its derivative by the pattern of loads (eq:buckling.pencil):
  *     K = dr/dx,   x' = -K^-1 dr/dfactor,   G = d/dfactor K(x + factor x', factor)
- * G by a central difference of the exact tangent, so that what the state does before it buckles is in it. With joints K
- * is that of the independent coordinates, R^T K R with the forces of constraint in it, and so is its difference: R and
- * those forces change along the response too. All in the frames of the present state. */
+ * G by a central difference of the exact tangent, so that it contains the prebuckling displacements. With joints K is
+ * that of the independent coordinates, R^T K R with the constraint forces, and so is its difference: R and those forces
+ * change along the response too. All matrices are in the frames of the present state. */
 
-/* The pattern moves the state by this part of an element for the difference. */
+/* Displacement for the difference, as a fraction of the length scale. */
 #define DMB_DIFFERENCE_MOVE 1e-6
 
 static int32_t unstable(dmb_sim *sim, int32_t negative)
@@ -209,7 +206,7 @@ static int32_t unstable(dmb_sim *sim, int32_t negative)
     return DMB_ERR_ORDER;
 }
 
-/* x' by the factors of K, which has to be that of a stable state; a motion drive moves its own row by 1. */
+/* x' by the factors of K, which must be that of a stable state; a motion drive moves its own row by 1. */
 static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     dmb_sim *work = buckling->work;
@@ -221,7 +218,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
         return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);
     buckling->info.stiffness = found.stiffness;
-    /* on the way pairs of negative ones may come of a complex pair, without det K passing 0 */
+    /* along the path pairs of negative ones may arise from a complex pair, although det K has not passed 0 */
     const int on_the_way = buckling->info.linearisations > 0 && found.stiffness == DMB_STIFFNESS_UNSYMMETRIC;
     if (found.negative != 0 && !on_the_way) return unstable(sim, found.negative);
     dmb_solve_for(work, buckling->response, buckling->response);
@@ -242,8 +239,8 @@ static double difference_of(const dmb_buckling *buckling, double given)
     return most > 0.0 ? DMB_DIFFERENCE_MOVE * scene->length_scale / most : 1.0;
 }
 
-/* The trial moved by `factor` along the response, its joints closed with the partition as it is: the three matrices are
- * in the same coordinates. */
+/* Moves the trial by `factor` along the response and closes its joints with the same partition, so that the three
+ * matrices have the same coordinates. */
 static int32_t place_at(dmb_buckling *buckling, dmb_static_search *search, double factor)
 {
     dmb_sim *work = buckling->work;
@@ -264,7 +261,7 @@ static int32_t evaluate_at(dmb_buckling *buckling, dmb_static_search *search, do
     return status < 0 ? status : dmb_system_evaluate(&search->evaluation);
 }
 
-/* Matrices to be summed up begin with zeros. */
+/* Sets a matrix to 0 before summation. */
 static void clear(const dmb_scene *scene, dmb_pencil_matrix *A)
 {
     const size_t link = scene->layout.link[scene->layout.n - 1] * sizeof(double);
@@ -279,7 +276,7 @@ static void add_to(size_t n, double factor, const double *from, double *to)
     for (size_t i = 0; i < n; i++) to[i] += factor * from[i];
 }
 
-/* K + T, T the rounding of its rows (eq:signs.amount). */
+/* K + T, T the rounding level of its rows (eq:signs.amount). */
 static void raise_diagonal(dmb_sim *work, const double *amount)
 {
     const dmb_block_layout *layout = &work->scene->layout;
@@ -288,8 +285,8 @@ static void raise_diagonal(dmb_sim *work, const double *amount)
             dmb_stiffness_of(work, i)[(size_t)(layout->size[i] + 1) * c] += amount[layout->row[i] + c];
 }
 
-/* A += factor K of the evaluation, its rows held, in the frames of the present state. 0 where that cannot be done.
- * raised 1: of K + T. */
+/* A += factor K of the evaluation, with constrained rows, in the frames of the present state. 0 if that is not
+ * possible. raised 1: of K + T. */
 static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, int raised,
                        dmb_pencil_matrix *A)
 {
@@ -309,14 +306,15 @@ static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation,
     return 1;
 }
 
-/* Its symmetric part: in an equilibrium of forces with a potential the rest is rounding. */
+/* Replaces a matrix by its symmetric part: at an equilibrium under forces with a potential the skew part is
+ * rounding. */
 static void make_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
 {
     dmb_make_blocks_symmetric(&work->scene->layout, A->diagonal, A->lower, A->upper);
     if (work->scene->cluster_count) dmb_make_reduced_symmetric(work, A->jointed);
 }
 
-/* A state moved by the difference that cannot be evaluated. */
+/* Message if a state displaced by the difference cannot be evaluated. */
 static int32_t explain_difference(dmb_sim *sim, double step, int32_t status)
 {
     if (status >= 0 || dmb_is_final(status) || sim->message.text[0] != '\0') return status;
@@ -341,7 +339,7 @@ static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, do
     return DMB_OK;
 }
 
-/* K and the derivative of the residual by the factor, in an equilibrium. */
+/* K and the derivative of the residual by the factor, at an equilibrium. */
 static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     int32_t status = evaluate_at(buckling, search, 0.0);
@@ -353,7 +351,7 @@ static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_se
     return status;
 }
 
-/* The reduction of the state itself, which shapes are expanded by. */
+/* Computes the reduction of the state itself, which expands the shapes. */
 static int32_t keep_reduction(dmb_buckling *buckling, dmb_static_search *search)
 {
     if (buckling->work->scene->cluster_count == 0) return DMB_OK;
@@ -368,13 +366,13 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
 {
     dmb_sim *work = buckling->work;
     const uint32_t rows = work->scene->row_count;
-    if (work->scene->cluster_count == 0) return; /* the same */
+    if (work->scene->cluster_count == 0) return; /* shape and vector are the same array */
     memcpy(shape, vector, rows * sizeof(double));
     memcpy(work->reduced_solution, vector + rows, work->scene->pattern.rows * sizeof(double));
     dmb_reduced_expand(work, shape);
 }
 
-/* An eigenvalue of rounding size is no instability (dmb_stability_judge has found none beyond): K + T has none. */
+/* An eigenvalue at the rounding level is no instability (dmb_stability_judge has found none beyond): K + T has none. */
 static int32_t raise_stiffness(dmb_buckling *buckling, dmb_static_search *search)
 {
     dmb_pencil *pencil = &buckling->pencil;
@@ -389,7 +387,7 @@ static int32_t raise_stiffness(dmb_buckling *buckling, dmb_static_search *search
 static int32_t stable(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     uint32_t negative;
-    if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK; /* judged before */
+    if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK; /* assessed before */
     for (int raised = 0; raised < 2; raised++) {
         if (!dmb_pencil_count(&buckling->pencil, 0.0, &negative)) {
             dmb_message_set(&sim->message,
@@ -403,7 +401,7 @@ static int32_t stable(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *s
     return unstable(sim, (int32_t)negative);
 }
 
-/* The trial in the state at rest, with a partition that suits it. */
+/* Sets the trial to the state at rest, with a well-conditioned partition. */
 static int32_t begin(dmb_buckling *buckling, dmb_static_search *search)
 {
     dmb_sim *work = buckling->work;

@@ -1,4 +1,4 @@
-/* Paths of equilibrium: loads that grow, a path while it is followed, motion that grows on the way. */
+/* Equilibrium paths (dmb_analysis_path): options, start, path following, events. */
 #include "analysis/buckling/buckling.h"
 
 #include <string.h>
@@ -102,7 +102,7 @@ static int32_t begin(dmb_path *path)
     dmb_load_pattern_begin(&path->pattern, work);
     status = dmb_path_evaluate(path, 1);
     if (status >= 0) status = dmb_stiffness_balanced(path->sim, "path", &path->search.evaluation);
-    if (status >= 0) status = dmb_path_tangent(path, path->next.tangent); /* 0: along a rising factor */
+    if (status >= 0) status = dmb_path_tangent(path, path->next.tangent); /* 0: along an increasing factor */
     if (status >= 0 && path->weakest < DMB_LOOSE_PIVOT) status = DMB_ERR_SINGULAR;
     if (status < 0) return status;
     const double sense = path->options->factor_end < 0.0 ? -1.0 : 1.0;
@@ -116,9 +116,9 @@ static int32_t begin(dmb_path *path)
     return DMB_OK;
 }
 
-/* ---- The way ----------------------------------------------------------------------------------------------------- */
+/* ---- Path following ----- */
 
-/* 0, or DMB_NOTE_STOPPED where the caller says so. */
+/* Reports a point. 0, or DMB_NOTE_STOPPED if the caller requests it. */
 static int32_t tell(dmb_path *path, int32_t kind)
 {
     dmb_path_point point = dmb_path_point_default();
@@ -140,10 +140,10 @@ static int32_t tell(dmb_path *path, int32_t kind)
 }
 
 #define DMB_CUTS_IN_A_ROW 40
-/* Newton iterations of a step that is as long as the one before. */
+/* Newton iterations at which the step length stays the same. */
 #define DMB_GOOD_ITERATIONS 5.0
 
-/* The event, or an end that lies before it. */
+/* Locates the event, or an end before it. */
 static int32_t locate(dmb_path *path, int32_t *event, double arc)
 {
     const int32_t status = dmb_path_locate(path, event, arc);
@@ -153,7 +153,8 @@ static int32_t locate(dmb_path *path, int32_t *event, double arc)
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
-/* The event, and before an end one that the longer step has passed over: there an eigenvalue has come back. */
+/* Locates the event, and before an end a bifurcation that the longer step has passed: an eigenvalue has changed sign
+ * twice. */
 static int32_t locate_first(dmb_path *path, int32_t *event, double arc)
 {
     const int32_t status = locate(path, event, arc);
@@ -163,7 +164,7 @@ static int32_t locate_first(dmb_path *path, int32_t *event, double arc)
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
-/* Where steps went too far lately, that is why. */
+/* Relative distance of the factor within which excessive rotation is the reason of failure. */
 #define DMB_TURNED_NEAR 1e-3
 
 static int32_t lost(const dmb_path *path)
@@ -193,8 +194,8 @@ int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
     }
 }
 
-/* Where another path crosses, the stiffness is singular and the tangent found there is mostly the shape of the other
- * path, by rounding. Both go through in the directions in which they came: that of the point before. */
+/* At a crossing of paths the stiffness is singular and the computed tangent is mostly the shape of the other path, by
+ * rounding. Both paths continue in their previous directions: that of the point before. */
 static void go_straight_on(dmb_path *path)
 {
     memcpy(path->next.tangent, path->last.tangent, path->work->scene->row_count * sizeof(double));
@@ -211,7 +212,7 @@ static int32_t leave(dmb_path *path, double *arc)
     return tell(path, DMB_PATH_BRANCH);
 }
 
-/* A path that has crept for this many points, by less than this part of its longest step, is lost. */
+/* A path is lost after DMB_CREEPS consecutive steps below the fraction DMB_CREEP of its longest step. */
 #define DMB_CREEP 1e-5
 #define DMB_CREEPS 50
 
@@ -222,8 +223,8 @@ static int creeps(double arc, double *longest, uint32_t *points)
     return *points > DMB_CREEPS;
 }
 
-/* Eigenvalues of an unsymmetric stiffness pass 0 both ways, and in a step in which one leaves and one comes back
- * nothing would be seen: a step is no longer than this part of the way to factor_end. */
+/* Eigenvalues of a non-symmetric stiffness pass 0 in both directions, and a step in which one leaves and one returns
+ * would show no change: steps are limited to this fraction of the distance to factor_end. */
 #define DMB_UNSYMMETRIC_STEP 0.05
 
 static double shorten(const dmb_path *path, double arc)
@@ -278,7 +279,7 @@ int32_t dmb_path_open(dmb_path *path)
     path->block = dmb_allocate(&sim->allocator, path->block_size);
     path->work = path->block != NULL ? dmb_state_copy(sim) : NULL;
     if (path->work == NULL) return DMB_ERR_NO_MEMORY;
-    path->work->magic = DMB_HANDLE_SIM; /* so that a callback can ask it, and no more */
+    path->work->magic = DMB_HANDLE_SIM; /* only so that a callback can query it */
     path->work->busy = DMB_BUSY_READABLE;
     dmb_arena_place(&arena, path->block, path->block_size);
     lay_out(&arena, scene, path);

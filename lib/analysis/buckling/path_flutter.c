@@ -8,9 +8,9 @@
 #include "sim/layout.h"
 #include "system/system.h"
 
-/* Growth below this part of a root is rounding: undamped modes stand on the imaginary axis. */
+/* [-] Growth below this fraction of a root is rounding: undamped modes lie on the imaginary axis. */
 #define DMB_GROWTH_ROUNDING 1e-6
-/* The factor of flutter, by this part of the stretch that it was found in. */
+/* Accuracy of the factor of flutter, as a fraction of its interval. */
 #define DMB_FLUTTER_LOCATED 1e-6
 #define DMB_FLUTTER_TRIES 40
 #define DMB_FLUTTER_PARTS 20
@@ -31,7 +31,7 @@ void dmb_flutter_conclude(dmb_flutter *flutter)
     if (flutter->failed && flutter->info->flutter == DMB_FLUTTER_NONE) flutter->info->flutter = DMB_FLUTTER_NOT_JUDGED;
 }
 
-/* Modes that cannot be found are no failure of the analysis. */
+/* Skips a state whose modes cannot be computed; the analysis continues. */
 static int32_t pass_by(dmb_flutter *flutter, int32_t status)
 {
     flutter->failed = 1;
@@ -39,8 +39,7 @@ static int32_t pass_by(dmb_flutter *flutter, int32_t status)
     return dmb_is_final(status) ? status : DMB_OK;
 }
 
-/* Largest real part of a damped mode about flutter->state, 0 where it is rounding of one that neither grows nor decays.
- */
+/* Largest real part of a damped mode about flutter->state; 0 if it is rounding of a mode without growth or decay. */
 static int32_t judge(dmb_flutter *flutter, double factor)
 {
     const double growth = flutter->pattern->scale == DMB_SCALE_ALL ? factor : 0.0;
@@ -57,7 +56,7 @@ static int32_t judge(dmb_flutter *flutter, double factor)
     return DMB_OK;
 }
 
-/* flutter->state is where the trial of `at` stands. */
+/* Sets flutter->state to the trial of `at`. */
 static int32_t take(dmb_flutter *flutter, const dmb_sim *at)
 {
     if (flutter->state == NULL) flutter->state = dmb_state_copy(at);
@@ -76,7 +75,7 @@ int32_t dmb_flutter_begin(dmb_flutter *flutter, const dmb_path *path)
     return status < 0 ? status : judge(flutter, path->last.factor);
 }
 
-/* Growth of the point `arc` beyond the last one. */
+/* Assesses growth at the point `arc` beyond the last one. */
 static int32_t probe(dmb_flutter *flutter, dmb_path *path, double arc)
 {
     int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
@@ -84,14 +83,14 @@ static int32_t probe(dmb_flutter *flutter, dmb_path *path, double arc)
     return status < 0 ? status : judge(flutter, path->next.factor);
 }
 
-/* By halves: the growing mode need not be the same one. */
+/* Bisection, because the growing mode may change. */
 static int32_t close_in(dmb_flutter *flutter, dmb_path *path, double arc)
 {
     double low = 0.0, high = arc;
     for (int k = 0; k < DMB_FLUTTER_TRIES && high - low > DMB_FLUTTER_LOCATED * arc; k++) {
         const double middle = 0.5 * (low + high);
         const int32_t status = probe(flutter, path, middle);
-        if (status < 0) { /* the point that was judged may lie on another path */
+        if (status < 0) { /* the assessed point may lie on another path */
             flutter->info->flutter = DMB_FLUTTER_NOT_JUDGED;
             return status;
         }

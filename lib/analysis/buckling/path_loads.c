@@ -62,7 +62,7 @@ void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim)
     for (uint32_t i = 0; i < scene->drive_count; i++) *base++ = sim->trial.drive_target[i];
 }
 
-/* Gravity, loads and bit loads scale in the evaluation where all do; else one by one. */
+/* Sets the loads. Gravity, loads and bit loads scale in the evaluation if all of them do; else individually. */
 void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -80,8 +80,8 @@ void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evalu
     }
 }
 
-/* Column of the tangent that belongs to the moved row, which is one of the first node of its chain: the rig end of a
- * string, a body. */
+/* Column of the tangent of the moved row, which is in the first node of its chain: the rig end of a string, or a
+ * body. */
 static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
 {
     const dmb_scene *scene = sim->scene;
@@ -96,8 +96,8 @@ static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
             out[layout->row[node + 1] + i] = sim->stiffness_lower[layout->link[node] + size * i + c];
 }
 
-/* Loads enter the residual linearly: its change over a unit of the factor is the derivative. The second evaluation is
- * that of the factor itself, so that the trial is left as it was found. */
+/* Loads enter the residual linearly: its change over a unit of the factor is the derivative. The second evaluation, at
+ * the factor itself, restores the trial. */
 int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor,
                                     double *derivative)
 {

@@ -1,7 +1,8 @@
-/* One point of a path: the tangent, the step along it, and Newton with the factor as one more unknown,
+/* One point of a path: the tangent, the step along it, and Newton with the factor as additional unknown
+ * (eq:buckling.arc),
  *     [K  q; t^T D  0] [z; dfactor] = [-r; 0],   q = dr/dfactor,
- * by two solutions with K: z = z_r + dfactor z_q, dfactor = -(t.D z_r)/(t.D z_q) (eq:buckling.arc).
- * Cylindrical: the factor does not count in the arc, so that its unit does not matter. */
+ * by two solutions with K: z = z_r + dfactor z_q, dfactor = -(t.D z_r)/(t.D z_q). Cylindrical: the arc excludes the
+ * factor, so that its unit does not matter. */
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
@@ -37,13 +38,13 @@ int32_t dmb_path_evaluate(dmb_path *path, int32_t tangent)
     return status < 0 ? status : evaluate(path, tangent);
 }
 
-/* x <- -K^-1 x by the factors at hand; a motion drive moves its own row by 1 a unit of the factor. */
+/* x <- -K^-1 x by the present factors. */
 static void solve(dmb_path *path, double *x)
 {
     dmb_solve_for(path->work, x, x);
 }
 
-/* Factors of the stiffness; `judged`: its stability too, for the next point. */
+/* Factors the stiffness; `judged`: assesses its stability too, for the next point. */
 static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, int64_t *bad)
 {
     dmb_stability found = {.amount = path->amounts};
@@ -58,7 +59,8 @@ static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, in
     return status;
 }
 
-/* Motion by a unit of the factor, from the stiffness evaluated just now; path->move: the residual's correction. */
+/* path->loaded: displacements per unit of the factor, from the last evaluated stiffness; path->move: correction of the
+ * residual. A motion drive moves its own row by 1 per unit of the factor. */
 static int32_t solve_both(dmb_path *path, int judged)
 {
     dmb_sim *work = path->work;
@@ -95,7 +97,7 @@ static int32_t predict(dmb_path *path, const double *direction, double rate, dou
     path->next.factor = path->last.factor;
     path->next.arc = path->last.arc + arc;
     path->search.evaluation.extrapolated = 0;
-    const int32_t status = dmb_path_evaluate(path, 0); /* strains to extrapolate from */
+    const int32_t status = dmb_path_evaluate(path, 0); /* strains for the extrapolation */
     if (status < 0) return status;
     for (uint32_t i = 0; i < work->scene->row_count; i++) path->move[i] = arc * direction[i];
     return advance(path, arc * rate);
@@ -128,9 +130,9 @@ static double watched_of(const dmb_path *path)
 {
     dmb_pose pose = dmb_pose_default();
     if (path->options->place.part.generation == 0) return 0.0;
-    const dmb_configuration now = path->work->now; /* the query looks at `now` */
+    const dmb_configuration now = path->work->now; /* the query reads `now` */
     path->work->now = path->work->trial;
-    (void)dmb_query_pose(path->work, path->options->place, &pose); /* a place that was taken from the options */
+    (void)dmb_query_pose(path->work, path->options->place, &pose); /* the place was checked with the options */
     path->work->now = now;
     return pose.displacement[path->options->component];
 }
@@ -170,7 +172,7 @@ int32_t dmb_path_accept(dmb_path *path)
 
 /* ---- Events ------------------------------------------------------------------------------------------------------ */
 
-/* Events between two points of a path, and the way onto a branch. */
+/* Events between two points of a path, and branches. */
 
 static int passes(double end, double last, double next)
 {
@@ -194,7 +196,7 @@ int32_t dmb_path_event(const dmb_path *path)
     return dmb_path_end(path, DMB_EVENT_NONE);
 }
 
-/* ---- The softest shape ------------------------------------------------------------------------------------------- */
+/* ---- Softest shape ----- */
 
 #define DMB_MODE_ITERATIONS 12
 
@@ -215,8 +217,8 @@ static double normalise(const dmb_path *path, double *x)
     return length;
 }
 
-/* The last mode and a little of everything, the same in every run: a shape across the plane of the last one would not
- * be found from that one alone. */
+/* Start of the inverse iteration: the last mode plus a small reproducible random vector. A shape orthogonal to the last
+ * mode would not be found from that mode alone. */
 #define DMB_MODE_SEED 0.01
 
 static void begin_mode(const dmb_path *path)
@@ -234,7 +236,7 @@ static void begin_mode(const dmb_path *path)
     (void)normalise(path, path->mode);
 }
 
-/* Eigenvalue of K x = mu D x that is smallest in magnitude, by inverse iteration on the factors at hand, which give
+/* Eigenvalue of K x = mu D x of smallest magnitude [N/m], by inverse iteration with the present factors, which give
  * -K^-1 D x. */
 static double softness(dmb_path *path)
 {
@@ -254,13 +256,13 @@ static double softness(dmb_path *path)
 
 /* ---- Locating ---------------------------------------------------------------------------------------------------- */
 
-/* Event sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
- * or two do, and the count has to do, which finds the first. */
+/* Event between the last point and `arc`. counted 1: bisection by the number of negative eigenvalues, which finds the
+ * first change, because the softest shape does not change sign, or two do. */
 typedef struct quest {
     int32_t event, counted;
 } quest;
 
-/* Quantity that vanishes at the event, at `arc` from the last point. */
+/* Function that vanishes at the event, at `arc` from the last point. */
 static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
 {
     int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
@@ -278,7 +280,7 @@ static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
 #define DMB_LOCATE_ITERATIONS 60
 #define DMB_LOCATED 1e-8
 
-/* An interval of the arc, and what is sought at its ends. */
+/* An interval of the arc, and the function at its ends. */
 typedef struct bracket {
     double low, high, at_low, at_high;
 } bracket;
@@ -289,7 +291,7 @@ static int32_t probe_ends(dmb_path *path, const quest *q, bracket *b)
     return status < 0 ? status : probe(path, q, b->low, &b->at_low);
 }
 
-/* Regula falsi, the Illinois way: an end that stays twice counts half. Where only signs are known, halves. */
+/* Regula falsi with the Illinois modification: a retained end value is halved. Bisection if only signs are known. */
 static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double within)
 {
     const double unit = fmax(fabs(b->at_low), fabs(b->at_high));
@@ -315,13 +317,12 @@ static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double withi
     return DMB_OK;
 }
 
-/* Where a contact opens or closes the stiffness jumps, and may change its sign without ever being singular. The path
- * then has a corner, and goes on so that det K times the sense of (-K^-1 q, 1) stays as it was: the factor turns back.
- */
+/* If a contact opens or closes the stiffness jumps, and its determinant may change sign without singularity. The path
+ * then has a corner, and continues so that det K times the sense of (-K^-1 q, 1) is unchanged: the factor reverses. */
 #define DMB_CORNER 1e-4
 #define DMB_ROUNDINGS 3.0
 
-/* next stands just beyond it. */
+/* Reverses the path at a corner; next is just beyond it. */
 static void turn_corner(dmb_path *path, int32_t *event)
 {
     *event = DMB_EVENT_NONE;
@@ -332,8 +333,8 @@ static void turn_corner(dmb_path *path, int32_t *event)
     path->side = path->next.rate;
 }
 
-/* The first place where the count changes, by the count to a thousandth of the step, and then by the eigenvalue that
- * changes sign there, which the count raises by its idea of rounding: so from further back. */
+/* First change of the count: by the count to a thousandth of the step, and then by the eigenvalue that changes sign
+ * there. The count is shifted by its rounding level: therefore the second interval begins further back. */
 #define DMB_ISOLATED 1e-3
 #define DMB_STEP_BACK 0.1
 
@@ -357,16 +358,15 @@ static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t 
     status = close_in(path, q, &soft, DMB_LOCATED * arc);
     if (status < 0) return status;
     const double rounding = DMB_ROUNDINGS * path->rounding;
-    if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral all the way: it does not matter which sign it has */
+    if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral along the whole step: the sign does not matter */
     const int corner = fabs(path->softest) > fmax(DMB_CORNER * size, rounding);
     if (corner) status = probe(path, q, soft.high, &soft.at_high);
-    path->next.negative = beyond; /* at the bifurcation itself it is a matter of rounding */
+    path->next.negative = beyond; /* at the bifurcation itself the sign is rounding */
     if (corner && status >= 0) turn_corner(path, event);
     return status;
 }
 
-/* From where the stiffness is singular, a step may come out on another path far away: between the two there is no end.
- */
+/* From a singular stiffness a step may reach another, distant path: no end exists between the two. */
 #define DMB_AT_END 1e-6
 
 static int is_at_end(const dmb_path *path, int32_t event, double before)
@@ -389,7 +389,7 @@ int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
     if (status >= 0) status = close_in(path, &q, &b, DMB_LOCATED * arc);
     if (status < 0) return status;
     if (*event != DMB_EVENT_LIMIT) return is_at_end(path, *event, before) ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
-    path->next.negative = beyond; /* at the limit point itself it is a matter of rounding */
+    path->next.negative = beyond; /* at the limit point itself the sign is rounding */
     path->side = side;
     return DMB_OK;
 }
@@ -398,7 +398,7 @@ int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
 
 #define DMB_LEAVE_TRIES 12
 
-/* The mode across the path, its largest entry positive. */
+/* Component of the mode orthogonal to the path, with its largest entry positive (options.branch >= 0). */
 static void straighten_mode(dmb_path *path)
 {
     const uint32_t rows = path->work->scene->row_count;

@@ -1,8 +1,8 @@
-/* Symmetric pencil K + factor G (eq:buckling.pencil) of block-tridiagonal matrices, and block-sparse ones where joints
- * connect chains, K positive definite: its critical factors > 0, counted by Sylvester's law of inertia, found by
+/* Symmetric pencil K + factor G (eq:buckling.pencil) of block-tridiagonal matrices, and block-sparse ones if joints
+ * connect chains, K positive definite: its critical factors > 0, counted by Sylvester's law of inertia, computed by
  * bisection, and their vectors by inverse iteration (Parlett, The symmetric eigenvalue problem, 3.3 and 4.2).
  *
- * A vector has the rows of the scene, 0 in those of jointed chains, and then the reduced coordinates of these. */
+ * A vector has the rows of the scene, 0 in those of jointed chains, followed by the reduced coordinates of these. */
 #include "analysis/buckling/buckling.h"
 
 #include <math.h>
@@ -74,7 +74,8 @@ static dmb_block_sparse sparse_of(const dmb_pencil *pencil, const dmb_pencil_mat
     return matrix;
 }
 
-/* Chains without joints as they are; the others by the factors of `work`. */
+/* Number of negative eigenvalues of K + factor G: chains without joints directly, the others by the factors of
+ * `work`. */
 static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
 {
     const dmb_scene *scene = pencil->scene;
@@ -90,8 +91,8 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
     return 1;
 }
 
-/* A factor at which one block is singular before its turn, though the whole is not, is stepped aside from: by a part of
- * itself, and at 0 by one that changes K in the same digits. */
+/* If a block is singular at a factor although the whole is not, the factor changes: by this fraction of itself, and at
+ * 0 by a factor that changes K in the same digits. */
 #define DMB_ASIDE 1e-13
 #define DMB_ASIDE_TRIES 8
 
@@ -126,7 +127,7 @@ int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
     return 0;
 }
 
-/* 1 where more than k factors lie below this one, 0 where not, -1 where they cannot be counted. */
+/* 1 if more than k factors lie below this one, 0 if not, -1 if they cannot be counted. */
 static int exceeds(dmb_pencil *pencil, double factor, uint32_t k)
 {
     uint32_t count;
@@ -134,7 +135,7 @@ static int exceeds(dmb_pencil *pencil, double factor, uint32_t k)
 }
 
 /* Powers of 4 from the guess on, upwards or downwards, until the factor lies between low and high: 1. 0 if it is beyond
- * `most`, -1 if it cannot be told. */
+ * `most`, -1 if it cannot be counted. */
 static int bracket(dmb_pencil *pencil, uint32_t k, double guess, double most, double *low, double *high)
 {
     *high = fmin(guess, most);
@@ -215,7 +216,7 @@ void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
     dmb_block_sparse_solve(&scene->pattern, &reduced, pencil->sim->reduced_row, x + scene->row_count);
 }
 
-/* Vectors of one factor are taken apart in x . G x, which is negative for factors > 0. */
+/* Orthogonalises vectors of one factor in x . G x, which is negative for factors > 0. */
 static void take_apart(dmb_pencil *pencil, const double *other, uint32_t others, double *x)
 {
     const uint32_t rows = pencil->unknowns;
@@ -239,7 +240,7 @@ static int is_reduced(const dmb_scene *scene, uint32_t node)
     return scene->cluster_count > 0 && scene->node_block[node] != DMB_NONE;
 }
 
-/* Any vector with a part in the one sought; the same in every run. */
+/* Random vector with a component in the wanted one; the same in every run. */
 void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x)
 {
     const dmb_scene *scene = pencil->scene;
@@ -253,7 +254,8 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x)
         if (is_reduced(scene, i)) memset(x + scene->layout.row[i], 0, scene->layout.size[i] * sizeof(double));
 }
 
-/* So close to the factor one iteration makes 7 digits of what is near, and one less of what is a hundredth away. */
+/* Offset from the factor: one iteration gives 7 digits relative to distant vectors, and one digit less for each factor
+ * of ten by which their relative distance is smaller. */
 #define DMB_PENCIL_OFFSET 1e-7
 #define DMB_PENCIL_ITERATIONS 6
 
@@ -276,9 +278,8 @@ double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other,
     return -stiff / dmb_dot(rows, x, pencil->image);
 }
 
-/* Critical factors of a pencil that is not symmetric (friction, moments with a fixed axis): K x = -factor G x is
- * A x = x/factor with A = -K^-1 G. Complex eigenvalues of A belong to no factor: det (K + factor G) does not vanish
- * there. */
+/* Critical factors of a non-symmetric pencil (friction, moments with a fixed axis): K x = -factor G x is A x = x/factor
+ * with A = -K^-1 G. Complex eigenvalues of A are not factors: det (K + factor G) does not vanish there. */
 
 static void metric(void *context, const double *x, double *y)
 {
@@ -309,12 +310,12 @@ static int32_t go_on(void *context)
     return dmb_progress_pulse(pencil->sim);
 }
 
-/* A double real value is split by rounding into two, or into a pair this close to the real axis. */
+/* [-] Rounding splits a real double eigenvalue into two, or into a pair this close to the real axis. */
 #define DMB_REAL_PAIR 1e-5
 #define DMB_GENERAL_TOLERANCE 1e-9
 #define DMB_GENERAL_MORE 10
 #define DMB_GENERAL_MOST 120
-/* A value this small beside the largest is rounding of 0: no factor. */
+/* A value below this fraction of the largest is rounding of 0, not a factor. */
 #define DMB_GENERAL_NOISE 1e-7
 
 static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, double most, double *factors,
