@@ -32,7 +32,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "SEGMEN
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "STUCK_AXIAL": "StuckHolds", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES", "STUCK")  # prefixes of bits of masks
-STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
+STRUCT_NAMES = {"dmb_error": "ErrorStruct", "dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
 MIXINS = {"Id": "IdPart", "Segment": "SegmentPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
           "SpringDef": "SpringPart", "DriveDef": "DrivePart", "Motor": "MotorPart", "ForceDef": "ForcePart"}

@@ -4,9 +4,7 @@
 
 #include "query.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* Same bits, by level. Same build, same machine and same calls give
  *   1. steps, and all that is read off a state: the same bits, beside other work, in any number of threads;
@@ -345,7 +343,5 @@ enum {
     DMB_CONTACT_CLOSED = 2 /* contact rings up to `contact_gap` from the wall are held across it too */
 };
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

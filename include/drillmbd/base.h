@@ -7,8 +7,13 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
-extern "C" {
+#define DMB_C_BEGIN extern "C" {
+#define DMB_C_END }
+#else
+#define DMB_C_BEGIN
+#define DMB_C_END
 #endif
+DMB_C_BEGIN
 
 #if defined(_WIN32) && defined(DMB_BUILDING)
 #define DMB_API __declspec(dllexport)
@@ -38,7 +43,7 @@ DMB_API const char *dmb_build_info(void);
 
 /* ---- Status ------------------------------------------------------------------------------------------------------
  * Every function that can fail returns an int32_t: 0 done, > 0 done with a note, < 0 refused or failed with
- * nothing changed. dmb_model_message and dmb_sim_message state the part, the field, the value and the bound. */
+ * nothing changed. dmb_last_error states the part, the field, the value and the bound. */
 /* clang-format off */
 #define DMB_STATUS_LIST(X)                                                                                            \
     X(DMB_OK, 0, "done")                                                                                              \
@@ -149,11 +154,32 @@ DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *all
 /* [byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail. */
 DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
 
+/* ---- Errors as data ---------------------------------------------------------------------------------------------- */
+/* dmb_last_error gives the last call of this thread that failed, on any object; a call that succeeds leaves it
+ * unchanged. dmb_model_message and dmb_sim_message give the message alone. */
+typedef struct dmb_error {
+    uint32_t struct_size;
+    int32_t status;          /* DMB_ERR_...; 0: no call of this thread has failed */
+    uint32_t number;         /* [-] of the part among those of its kind; DMB_NONE: it has none */
+    uint32_t component;      /* [-] of a field that is an array; DMB_NONE: it is none */
+    double value, low, high; /* [unit of the field] refused value and its range; NaN: no number, no range */
+    char part[128];          /* "string 0 (main), pipe 12 (collars)", as in the message; all texts end with 0 */
+    char kind[32], name[24]; /* "pipe", "collars": of the innermost part; "" as all that a failure does not have */
+    char field[64];          /* "outer_diameter" */
+    char given[96];          /* the value as text: "0.07", "(1, 2, 3)" */
+    char bound[256];         /* "be finite and > inner_diameter (0.08)"; a bound after > or < is not in the range */
+    char advice[384];        /* the remedy */
+    char message[512];       /* all of it in one sentence */
+} dmb_error;
+DMB_SIZED_STRUCT(dmb_error)
+/* The last failing call of this thread. Errors: DMB_ERR_NULL, DMB_ERR_STRUCT_SIZE. */
+DMB_API int32_t dmb_last_error(dmb_error *error);
+/* Sees each failing call on a model and its sims, at its end and in its thread; may not change them. */
+typedef void (*dmb_error_fn)(void *context, const dmb_error *error);
+
 enum { DMB_LOG_ERROR = 0, DMB_LOG_WARNING = 1, DMB_LOG_INFO = 2 };
 /* Called with a line of text, never during a step. The text lives only for the call. */
 typedef void (*dmb_log_fn)(void *context, int32_t level, const char *text);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

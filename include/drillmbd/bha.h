@@ -5,9 +5,7 @@
 #include "control.h"
 #include "joints.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* A place that can be stuck in the hole: a jammed bit, tool joint, key seat. While it is stuck, springs and dampers
  * hold it at the pose where it got stuck, in the axes that its section had there: k s + c s', s along the axis, about
@@ -114,7 +112,5 @@ DMB_API int32_t dmb_model_add_sub(dmb_model *model, const dmb_sub_def *def, dmb_
 DMB_API int32_t dmb_model_place_at_end(dmb_model *model, dmb_id string, double length, dmb_body_def *body,
                                        dmb_string_def *section);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -5,9 +5,7 @@
 
 #include "output.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 /* clang-format off */
 enum { /* quantity that an input sets; 1 .. 4 are of CONTROL drives, 7 .. 11, 14 of wall and environment, >= 0 */
     DMB_TARGET_SET_POINT = 0, /* of a drive, instead of its time function; its excitation continues */
@@ -121,7 +119,5 @@ DMB_SIZED_STRUCT(dmb_event_report)
  * DMB_ERR_VALUE: no events. */
 DMB_API int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

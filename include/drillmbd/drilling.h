@@ -7,9 +7,7 @@
 
 #include "sim.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 enum {
     DMB_OPERATION_PICK_UP = 0,   /* pulled without turning */
@@ -183,7 +181,5 @@ DMB_API int32_t dmb_fatigue_restore(dmb_fatigue *fatigue, const void *block, siz
 /* Sets *fatigue to NULL. NULL-safe. */
 DMB_API void dmb_fatigue_destroy(dmb_fatigue **fatigue);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -8,9 +8,7 @@
 #include "model.h"
 #include "query.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 enum { DMB_SPRING_BOTH = 0, DMB_SPRING_TENSION = 1, DMB_SPRING_COMPRESSION = 2 }; /* sides on which a spring acts */
 enum { DMB_TABLE_LINES = 0, DMB_TABLE_CUBIC = 1 };                                /* curve through a table */
@@ -90,7 +88,5 @@ DMB_API int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, 
 DMB_API int32_t dmb_query_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose);
 DMB_API int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_motion *motion);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -4,9 +4,7 @@
 
 #include "model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 enum {
     DMB_HOLE_STEP = 0, /* the values hold up to the next section, or on and on */
@@ -40,7 +38,5 @@ DMB_SIZED_STRUCT(dmb_hole_section)
  * _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections). */
 DMB_API int32_t dmb_model_add_hole_sections(dmb_model *model, const dmb_hole_section *sections, uint32_t count);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -4,9 +4,7 @@
 
 #include "model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------
  * A joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
@@ -128,7 +126,5 @@ typedef struct dmb_constraint_def {
 DMB_SIZED_STRUCT(dmb_constraint_def)
 DMB_API int32_t dmb_model_add_constraint(dmb_model *model, const dmb_constraint_def *def, dmb_id *constraint);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -10,9 +10,7 @@
 
 #include "base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 typedef struct dmb_model dmb_model; /* a scene: described, then compiled */
 
@@ -22,6 +20,8 @@ typedef struct dmb_model_options {
     const dmb_allocator *allocator; /* copied; NULL: malloc and free */
     dmb_log_fn log;                 /* NULL: silent */
     void *log_context;
+    dmb_error_fn on_error; /* NULL: none */
+    void *error_context;
 } dmb_model_options;
 DMB_SIZED_STRUCT(dmb_model_options)
 
@@ -32,9 +32,8 @@ DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **m
  * within a call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER.
  * NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
-/* Message of the last failing or noteworthy call on this model: "part, field, value, bound". Never NULL; lives until
- * the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a
- * dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model. */
+/* Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of
+ * a compiled model, and of questions, each thread reads the failure of its own calls. */
 DMB_API const char *dmb_model_message(const dmb_model *model);
 /* Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it
  * was added after all: a later one of its kind with the same name, or with at most one other field where one of them
@@ -444,7 +443,5 @@ DMB_SIZED_STRUCT(dmb_model_info)
 /* Counts of a compiled model. Errors: DMB_ERR_ORDER before compile. */
 DMB_API int32_t dmb_model_get_info(const dmb_model *model, dmb_model_info *info);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -4,9 +4,7 @@
 
 #include "analysis.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* Free vibration M d'' + C d' + K d = 0, d small body-frame displacements, with everything that acts in the state:
  * preload, wall, friction, joints, drives, and the gyroscopic terms of a steady rotation. */
@@ -122,7 +120,5 @@ DMB_API int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id pa
 DMB_API int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase,
                                    uint32_t per_element, const char *path);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -7,9 +7,7 @@
 
 #include "model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 enum { DMB_NAME_SIZE = 24 }; /* [byte] of a name and its 0 */
 /* clang-format off */
@@ -34,7 +32,5 @@ DMB_API int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char 
 DMB_API int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first,
                                      uint32_t *count);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

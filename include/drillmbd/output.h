@@ -5,9 +5,7 @@
 
 #include "query.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------
  * Numbers of dmb_output.quantity that continue those of query.h. Where six follow each other, the number is the one
@@ -232,7 +230,5 @@ DMB_API int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const 
 /* CSV, a line for each row and station: time [s], station, then the quantities with their units. DMB_ERR_IO. */
 DMB_API int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

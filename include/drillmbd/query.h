@@ -7,9 +7,7 @@
 
 #include "sim.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 typedef struct dmb_pose {
     uint32_t struct_size;
@@ -393,7 +391,5 @@ DMB_API int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, 
 DMB_API int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing,
                                    uint32_t around, const char *path);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

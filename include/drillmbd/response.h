@@ -4,9 +4,7 @@
 
 #include "analysis.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* ---- Excitation --------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
@@ -244,7 +242,5 @@ DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *opti
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,
                                     double *severity);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

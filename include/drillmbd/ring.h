@@ -4,9 +4,7 @@
 
 #include "model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at
  * its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at
@@ -37,7 +35,5 @@ DMB_SIZED_STRUCT(dmb_stabiliser_def)
  * overlap, are thinner than their pipe or too wide for the hole (DMB_ERR_GEOMETRY). */
 DMB_API int32_t dmb_model_add_stabiliser(dmb_model *model, const dmb_stabiliser_def *def, dmb_id *stabiliser);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

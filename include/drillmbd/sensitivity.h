@@ -9,9 +9,7 @@
 
 #include "output.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 typedef struct dmb_sensitivity dmb_sensitivity; /* derivatives of one run */
 
@@ -68,7 +66,5 @@ DMB_API int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t para
  * none. */
 DMB_API int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t parameter, uint64_t *kinks);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

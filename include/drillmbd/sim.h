@@ -13,9 +13,7 @@
 
 #include "model.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 typedef struct dmb_sim dmb_sim; /* one simulation of a compiled scene */
 
@@ -26,15 +24,12 @@ enum {
 
 /* One part of the work of a step. */
 typedef void (*dmb_part_fn)(void *work, uint32_t index);
-/* Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this
- * function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in
- * any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else,
- * and parts left out, end the step with DMB_ERR_CALLBACK, the sim unchanged. Results have the same bits as without it
- * in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal
- * numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions,
- * constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A
- * part that is still running when it returns, or that runs twice at once, is the caller's error and not always found.
- * It is faster with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores. */
+/* Long strings on several cores, with threads of the caller's: dmb_sim_step and _advance call this function some ten
+ * times an iteration. It calls part(work, i) once for each i < count, in any threads and order, and returns 0 when all
+ * have returned; another value, or parts left out, end the step with DMB_ERR_CALLBACK, the sim unchanged. Results have
+ * the same bits in any number of parts, if all threads round to nearest and keep denormal numbers. A part needs 64 kB
+ * of stack and calls no callback. A part that still runs when the function returns, or that runs twice at once, is the
+ * caller's error and not always found. It is faster with threads that spin (start in 2 us): examples/two_cores. */
 typedef int32_t (*dmb_parallel_fn)(void *context, uint32_t count, dmb_part_fn part, void *work);
 
 typedef struct dmb_sim_options {
@@ -85,7 +80,8 @@ DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *optio
                                   dmb_sim **sim);
 /* Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe. */
 DMB_API void dmb_sim_destroy(dmb_sim **sim);
-/* Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim. */
+/* Message of the last failing or noteworthy call on this sim, of questions that of the calling thread. Never NULL;
+ * lives until the next call on the sim. */
 DMB_API const char *dmb_sim_message(const dmb_sim *sim);
 /* [s] time of the last accepted state; NaN for NULL. */
 DMB_API double dmb_sim_time(const dmb_sim *sim);
@@ -137,29 +133,24 @@ DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *repo
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
- * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message states by how much), accelerations follow.
- * That energy, and the energy stored in springs and stops that are released or engaged, goes to `impact`. Couplings and
- * drives of an open joint do not act: a drive follows the coordinate and continues from where it is when the joint
- * closes; a coupling keeps its offset, so a gear that has slipped meanwhile cannot close. A joint that a motion drive
- * moves cannot be locked. Errors, which change nothing: DMB_ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings
- * do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's
- * speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE. */
+ * impulse of least kinetic energy (DMB_NOTE_PROJECTED, the message gives the change); that energy, and the energy of
+ * springs and stops that are disconnected or connected, goes to `impact`. Couplings and drives of an open joint do not
+ * act: a drive follows the coordinate, a coupling keeps its offset, so a gear that has slipped cannot close. A joint
+ * that a motion drive moves cannot be locked. Errors, with nothing changed: DMB_ERR_ID, _VALUE, _GEOMETRY (parts or
+ * couplings do not fit within 1e-6 m and rad, or axes point against each other; a drive's speed cannot be reached),
+ * _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE. */
 DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 
-/* Continues from the state of `from`, in a sim of another model: the same but for pipes more or fewer at the rig end of
- * its strings, rods added or taken off; where the model describes its strings to begin, and its time functions from now
- * on, may differ. The head releases the string, draws back and grips the new rig end: support, drives and bodies fixed
- * to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they
- * are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the
- * wall; dmb_analysis_static settles the string, but restarts the ledger). Supports hold the new rig end where it is;
- * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message states by how much.
- * Time, statistics, drives, contacts, joints and cut rock continue. So does the energy ledger: energies change by those
- * of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses
- * the new model describes; revolutions continue, but for the difference about the axis in a hole that bends. Random
- * numbers of pipes follow their place in the string counted from the rig, so they are drawn again. Fails unless all
- * else is of the same kind and number: DMB_ERR_VALUE, with the difference; DMB_ERR_GEOMETRY: a joint that is not open
- * does not fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is
- * not changed. O(number of elements). */
+/* Continues from the state of `from` in a sim of another model that has pipes more or fewer at the rig end of its
+ * strings; the start of its strings and its time functions may differ, all else must be of the same kind and number
+ * (DMB_ERR_VALUE names the difference). Pipes are matched from the far end and keep pose and state; added pipes start
+ * unstressed in line with the old rig end and move with it. Supports, drives and bodies fixed to the rig end act on the
+ * new one at once, so do it at rest; speeds that they do not allow are projected (DMB_NOTE_PROJECTED). Time,
+ * statistics, drives, contacts, joints, cut rock and the energy ledger continue; energies change by those of the
+ * pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses of the
+ * new model. Random numbers of pipes are drawn again. Added pipes of a tilted rig end may penetrate the wall:
+ * dmb_analysis_static settles the string, but restarts the ledger. Errors, with sim as before: also DMB_ERR_GEOMETRY (a
+ * joint does not fit), _SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE. O(number of elements). */
 DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
@@ -173,7 +164,5 @@ DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);
 /* FNV-1a hash of all that changes; equal states give equal hashes on one build. */
 DMB_API int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

@@ -6,9 +6,7 @@
 #include "modes.h"
 #include "response.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+DMB_C_BEGIN
 
 /* ---- State space -------------------------------------------------------------------------------------------------
  * M d'' + C d' + K d = f about a state, as a frequency response has it, in first order:
@@ -145,7 +143,5 @@ DMB_API int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t f
  */
 DMB_API int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
 
-#ifdef __cplusplus
-}
-#endif
+DMB_C_END
 #endif

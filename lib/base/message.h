@@ -10,7 +10,7 @@
 #include "drillmbd/base.h"
 
 typedef struct dmb_message {
-    char text[384];
+    char text[512];
 } dmb_message;
 
 #if defined(__MINGW32__) && !defined(__clang__) /* printf of that system has no %zu; the formatter has */

@@ -1,25 +1,43 @@
 #include "base/value_check.h"
 
-static void fail_component(dmb_check *check, int32_t status, const dmb_field_value *is, const char *bound)
+#include "base/failure.h"
+
+/* The bound of a value: as text, and as a range where it is one. */
+typedef struct limits {
+    const char *text;
+    double low, high; /* NaN: no range */
+} limits;
+
+static limits limits_of(const char *text)
+{
+    return (limits){text, (double)NAN, (double)NAN};
+}
+
+static void fail_component(dmb_check *check, int32_t status, const dmb_field_value *is, const limits *must)
 {
     if (check->status < 0) return;
     check->status = status;
-    dmb_message_component(check->message, check->part, check->index, is, bound);
+    dmb_message_component(check->message, check->part, check->index, is, must->text);
+    const dmb_refused_number number = {is->value, must->low, must->high};
+    dmb_failure_note(check->message, &number);
 }
 
 void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double value, const char *bound)
 {
     const dmb_field_value is = {field, DMB_NONE, value};
-    fail_component(check, status, &is, bound);
+    const limits must = limits_of(bound);
+    fail_component(check, status, &is, &must);
 }
 
+static const limits any_finite = {"finite", -(double)INFINITY, (double)INFINITY};
+
 /* The verdict on one number; `holds` is the verdict on a finite value. */
-static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const char *bound)
+static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const limits *must)
 {
     if (!dmb_is_finite(is->value)) {
-        fail_component(check, DMB_ERR_NOT_FINITE, is, bound);
+        fail_component(check, DMB_ERR_NOT_FINITE, is, must);
     } else if (!holds) {
-        fail_component(check, DMB_ERR_VALUE, is, bound);
+        fail_component(check, DMB_ERR_VALUE, is, must);
     }
 }
 
@@ -28,7 +46,8 @@ static void judge_bound(dmb_check *check, const dmb_field_value *is, bool holds,
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(is->value))) return;
     dmb_message_set(&text, "finite and %s %g", relation, bound);
-    judge(check, is, holds, text.text);
+    const limits must = {text.text, bound, (double)INFINITY};
+    judge(check, is, holds, &must);
 }
 
 /* low < value < high; with the bounds themselves where closed. */
@@ -39,13 +58,14 @@ static void judge_range(dmb_check *check, const dmb_field_value *is, bool closed
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(value))) return;
     dmb_message_set(&text, closed ? "finite, >= %g and <= %g" : "finite, > %g and < %g", low, high);
-    judge(check, is, holds, text.text);
+    const limits must = {text.text, low, high};
+    judge(check, is, holds, &must);
 }
 
 void dmb_check_finite(dmb_check *check, const char *field, double value)
 {
     const dmb_field_value is = {field, DMB_NONE, value};
-    judge(check, &is, true, "finite");
+    judge(check, &is, true, &any_finite);
 }
 
 void dmb_check_above(dmb_check *check, const char *field, double value, double bound)
@@ -79,7 +99,8 @@ static void judge_field(dmb_check *check, const dmb_field_value *is, bool holds,
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(is->value) && dmb_is_finite(other->value))) return;
     dmb_message_set(&text, "finite and %s %s (%g)", relation, other->field, other->value);
-    judge(check, is, holds && dmb_is_finite(other->value), text.text);
+    const limits must = {text.text, other->value, (double)INFINITY};
+    judge(check, is, holds && dmb_is_finite(other->value), &must);
 }
 
 void dmb_check_above_field(dmb_check *check, const char *field, double value, const char *other, double bound)
@@ -98,7 +119,7 @@ void dmb_check_all_finite(dmb_check *check, const char *field, const double *val
 {
     for (size_t i = 0; i < count; ++i) {
         const dmb_field_value is = {field, (uint32_t)i, values[i]};
-        judge(check, &is, true, "finite");
+        judge(check, &is, true, &any_finite);
     }
 }
 
@@ -107,7 +128,7 @@ void dmb_check_increasing(dmb_check *check, const char *field, const double *val
     for (size_t i = 0; i < count; ++i) {
         const dmb_field_value is = {field, (uint32_t)i, values[i * stride]};
         if (i == 0) {
-            judge(check, &is, true, "finite");
+            judge(check, &is, true, &any_finite);
         } else {
             const double before = values[(i - 1) * stride];
             judge_bound(check, &is, is.value > before, ">", before);
@@ -120,7 +141,9 @@ void dmb_check_choice(dmb_check *check, const char *field, int32_t value, int32_
     dmb_message text;
     if (value >= low && value <= high) return;
     dmb_message_set(&text, "%d .. %d", low, high);
-    dmb_check_fail(check, DMB_ERR_VALUE, field, value, text.text);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    const limits must = {text.text, low, high};
+    fail_component(check, DMB_ERR_VALUE, &is, &must);
 }
 
 void dmb_check_count(dmb_check *check, const char *field, uint32_t value, uint32_t low, uint32_t high)
@@ -128,7 +151,9 @@ void dmb_check_count(dmb_check *check, const char *field, uint32_t value, uint32
     dmb_message text;
     if (value >= low && value <= high) return;
     dmb_message_set(&text, "%u .. %u", low, high);
-    dmb_check_fail(check, DMB_ERR_VALUE, field, value, text.text);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    const limits must = {text.text, low, high};
+    fail_component(check, DMB_ERR_VALUE, &is, &must);
 }
 
 void dmb_check_mask(dmb_check *check, const char *field, int32_t value, int32_t allowed)

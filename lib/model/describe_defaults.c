@@ -3,7 +3,7 @@
 #include "model/describe.h"
 
 /* clang-format off */
-DMB_DEFINE_INIT(dmb_model_options, 32, {.log = NULL})
+DMB_DEFINE_INIT(dmb_model_options, 48, {.log = NULL})
 
 DMB_DEFINE_INIT(dmb_environment_def, 64, {.gravity = {0.0, 0.0, -9.81}, .inner_density = -1.0, .flow_exponent = 1.0})
 

@@ -27,6 +27,8 @@ static void judge_each(dmb_check *check, const char *field, const double *values
         check->status = dmb_is_finite(values[i]) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
         const dmb_field_value is = {field, (uint32_t)i, values[i]};
         dmb_message_component(check->message, check->part, check->index, &is, bound.text);
+        const dmb_refused_number number = {values[i], l->low, l->high};
+        dmb_failure_note(check->message, &number);
     }
 }
 

@@ -11,7 +11,7 @@
 #include "model/scene.h"
 
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
-static uint32_t next_stamp(void)
+uint32_t dmb_new_stamp(void)
 {
     static atomic_uint last;
     uint32_t stamp = 0;
@@ -25,20 +25,21 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
     dmb_allocator allocator;
     dmb_model *created;
     int32_t status = DMB_OK;
-    if (model == NULL) return DMB_ERR_NULL;
+    if (model == NULL) return dmb_told("model", DMB_ERR_NULL);
     *model = NULL;
     if (options != NULL) status = dmb_model_options_read(&read, options);
     if (status >= 0) status = dmb_allocator_copy(&allocator, read.allocator);
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("model", status);
     created = dmb_allocate(&allocator, sizeof *created);
-    if (created == NULL) return DMB_ERR_NO_MEMORY;
+    if (created == NULL) return dmb_told("model", DMB_ERR_NO_MEMORY);
     created->magic = DMB_HANDLE_MODEL;
-    created->stamp = next_stamp();
+    created->stamp = dmb_new_stamp();
     atomic_init(&created->holders, 1u);
     atomic_init(&created->owned, 1u);
     created->allocator = allocator;
     created->log = read.log;
     created->log_context = read.log_context;
+    created->on_error = (dmb_error_handler){read.on_error, read.error_context};
     created->sparse_nodes = DMB_SPARSE_NODES;
     created->environment = dmb_environment_def_default();
     *model = created;
@@ -126,8 +127,9 @@ const char *dmb_model_message(const dmb_model *model)
 {
     if (model == NULL) return dmb_status_text(DMB_ERR_NULL);
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_status_text(DMB_ERR_HANDLE);
-    const char *create = dmb_create_message(model);
-    return create != NULL ? create : model->message.text;
+    const dmb_failed_object of = dmb_failed_model(model);
+    const char *failed = dmb_failure_text(&of);
+    return failed != NULL ? failed : model->message.text;
 }
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
@@ -185,17 +187,24 @@ dmb_coupled_coordinate dmb_coupled_coordinate_of(const dmb_coupling_def *def, ui
 
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
 
+static int32_t refuse_compiled(const dmb_model *model, const char *part)
+{
+    dmb_message message;
+    dmb_message_set(&message, "%s: the model is compiled and does not change any more; describe a new one", part);
+    return dmb_model_fail(model, DMB_ERR_ORDER, part, message.text);
+}
+
 int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def)
 {
-    if (model == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
-    if (model->scene != NULL) return DMB_ERR_ORDER;
+    if (model == NULL) return dmb_model_fail(model, DMB_ERR_NULL, part, NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_fail(model, DMB_ERR_HANDLE, part, NULL);
+    if (model->scene != NULL) return refuse_compiled(model, part);
     if (model->busy) {
         refuse_re_entry(model);
-        return DMB_ERR_ORDER;
+        return dmb_model_fail(model, DMB_ERR_ORDER, part, model->message.text);
     }
     model->busy = 1;
-    dmb_create_message_clear(model);
+    dmb_model_failure_forget(model);
     dmb_message_clear(&model->message);
     if (def != NULL) return DMB_OK;
     return dmb_describe_end(model, part, NULL, 0, DMB_ERR_NULL);
@@ -209,7 +218,7 @@ int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
         dmb_log_text(&log, DMB_LOG_ERROR, model->message.text);
     }
     model->busy = 0;
-    return status;
+    return status < 0 ? dmb_model_fail(model, status, part, model->message.text) : status;
 }
 
 int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t status)
@@ -282,31 +291,24 @@ void dmb_list_release(dmb_list *list, const dmb_allocator *allocator, size_t ite
     list->count = list->capacity = 0;
 }
 
-typedef struct create_failure {
-    uint32_t stamp; /* of the model; 0: no failure. No two models of a process have the same */
-    dmb_message message;
-} create_failure;
+/* ---- Calls that fail --------------------------------------------------------------------------------------------- */
 
-/* The only memory of the library outside its objects beside the stamp: a slot in the model would be written by one
- * thread while another one reads it. */
-#if DMB_WITH_THREADS
-static _Thread_local create_failure last_failure;
-#else
-static create_failure last_failure; /* sims are created by one thread */
-#endif
-
-void dmb_create_message_set(const dmb_model *model, const char *text)
+dmb_failed_object dmb_failed_model(const dmb_model *model)
 {
-    last_failure.stamp = model->stamp;
-    dmb_message_set(&last_failure.message, "%s", text);
+    const dmb_failed_object of = {model, model->stamp};
+    return of;
 }
 
-void dmb_create_message_clear(const dmb_model *model)
+int32_t dmb_model_fail(const dmb_model *model, int32_t status, const char *call, const char *text)
 {
-    if (last_failure.stamp == model->stamp) last_failure.stamp = 0;
+    if (model == NULL) return dmb_failure(NULL, NULL, status, call, text);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_failure(NULL, NULL, status, call, text);
+    const dmb_failed_object of = dmb_failed_model(model);
+    return dmb_failure(&of, &model->on_error, status, call, text);
 }
 
-const char *dmb_create_message(const dmb_model *model)
+void dmb_model_failure_forget(const dmb_model *model)
 {
-    return last_failure.stamp == model->stamp ? last_failure.message.text : NULL;
+    const dmb_failed_object of = dmb_failed_model(model);
+    dmb_failure_forget(&of);
 }

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/failure.h"
 #include "base/message.h"
 #include "base/value_check.h"
 #include "drillmbd/bha.h"
@@ -110,6 +111,7 @@ struct dmb_model {
     dmb_allocator allocator;
     dmb_log_fn log;
     void *log_context;
+    dmb_error_handler on_error;
     dmb_message message;
     dmb_environment_def environment;
     dmb_wall_def wall;            /* survey points to the model's own copy */
@@ -178,14 +180,21 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index);
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
                             dmb_id *id);
 
-/* Why the last dmb_sim_create of a model failed. Threads share a compiled model, which never changes then, so each
- * thread has the reason of its own last failure. */
+/* Public calls that fail and leave the model as it is: threads share a compiled model, which never changes, so each has
+ * the failure of its own last call. */
 
-/* In the calling thread, until the next create or description of the model there. */
-void dmb_create_message_set(const dmb_model *model, const char *text);
-void dmb_create_message_clear(const dmb_model *model);
-/* NULL: none of this model in this thread. */
-const char *dmb_create_message(const dmb_model *model);
+/* A number of its own: of a model for its ids, of a sim for its calls. Never 0. */
+uint32_t dmb_new_stamp(void);
+dmb_failed_object dmb_failed_model(const dmb_model *model);
+/* A call fails, with that text, or NULL for that of the status; the model may be none. Returns status. */
+int32_t dmb_model_fail(const dmb_model *model, int32_t status, const char *call, const char *text);
+/* The same for a call that asks; passes on what is no failure. */
+static inline int32_t dmb_model_told(const dmb_model *model, const char *call, int32_t status)
+{
+    return status >= 0 ? status : dmb_model_fail(model, status, call, NULL);
+}
+/* From now on dmb_model_message is again that of the model. */
+void dmb_model_failure_forget(const dmb_model *model);
 
 /* ---- Names of parts ---------------------------------------------------------------------------------------------- */
 
@@ -200,6 +209,9 @@ typedef struct dmb_time_function_name {
 void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name);
 /* The same for pipes that are added together. */
 void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name);
+
+/* DMB_ERR_ID: no part has the name. */
+int32_t dmb_model_refuse_name(const dmb_model *model, const char *word, const char *name);
 
 /* "string 0 (main)", "bit 0"; into text. */
 const char *dmb_model_part_text(const dmb_model *model, uint32_t kind, uint32_t index, dmb_message *text);

@@ -192,41 +192,52 @@ int32_t dmb_model_set_name(dmb_model *model, dmb_id part, const char *name)
 int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *name, uint32_t size)
 {
     uint32_t kind, index;
-    if (model == NULL || name == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
-    if (size < DMB_NAME_SIZE) return DMB_ERR_VALUE;
+    if (model == NULL || name == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
+    if (size < DMB_NAME_SIZE) return dmb_model_told(model, "model", DMB_ERR_VALUE);
     const int32_t status = take_id(model, part, &kind, &index);
-    if (status < 0) return status;
+    if (status < 0) return dmb_model_told(model, "model", status);
     const char *own = name_of(model, kind, index);
     memcpy(name, own, strlen(own) + 1);
     return DMB_OK;
 }
 
+int32_t dmb_model_refuse_name(const dmb_model *model, const char *word, const char *name)
+{
+    dmb_message text;
+    dmb_message_set(&text, "%s: no %s of this model has the name \"%s\"; upper and lower case differ", word, word,
+                    dmb_is_text(name, strlen(name) + 1) && strlen(name) < 2 * DMB_NAME_SIZE ? name : "?");
+    return dmb_model_fail(model, DMB_ERR_ID, word, text.text);
+}
+
 int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, dmb_id *part)
 {
     uint32_t found = DMB_NONE, found_kind = 0;
-    if (model == NULL || name == NULL || part == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
-    if (kind < 0 || kind >= KINDS || (kind > 0 && places[kind].word == NULL)) return DMB_ERR_VALUE;
+    if (model == NULL || name == NULL || part == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
+    if (kind < 0 || kind >= KINDS || (kind > 0 && places[kind].word == NULL))
+        return dmb_model_told(model, "find", DMB_ERR_VALUE);
     for (uint32_t k = 1; k < KINDS; ++k) {
         if (places[k].word == NULL || (kind != DMB_PART_ANY && k != (uint32_t)kind)) continue;
         const uint32_t index = find_in(model, k, name);
         if (index == DMB_NONE) continue;
-        if (found != DMB_NONE) return DMB_ERR_VALUE;
+        if (found != DMB_NONE)
+            return dmb_model_fail(model, DMB_ERR_VALUE, "find",
+                                  "find: parts of two kinds have this name; give the kind");
         found = index;
         found_kind = k;
     }
-    if (found == DMB_NONE) return DMB_ERR_ID;
+    if (found == DMB_NONE) return dmb_model_refuse_name(model, kind == DMB_PART_ANY ? "part" : places[kind].word, name);
     *part = dmb_model_id(model, found_kind, found);
     return DMB_OK;
 }
 
 int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first, uint32_t *count)
 {
-    if (model == NULL || name == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model == NULL || name == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
     const uint32_t found = find_run(model, name);
-    if (found == DMB_NONE) return DMB_ERR_ID;
+    if (found == DMB_NONE) return dmb_model_refuse_name(model, "run of pipes", name);
     const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, found);
     if (string != NULL) *string = dmb_model_id(model, DMB_PART_STRING, run->string);
     if (first != NULL) *first = run->first;

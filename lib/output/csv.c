@@ -89,11 +89,11 @@ static void put_rows(dmb_text_file *file, const dmb_recorder *r)
     }
 }
 
-int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
+static int32_t write_recorder(const dmb_recorder *recorder, const char *path, dmb_message *why)
 {
     dmb_recorder r;
     dmb_text_file file;
-    int32_t status = dmb_recorder_take_struct(&r, recorder);
+    int32_t status = dmb_recorder_take_struct(&r, recorder, why);
     if (status < 0) return status;
     if (path == NULL) return DMB_ERR_NULL;
     status = dmb_text_open(&file, path);
@@ -101,6 +101,14 @@ int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
     put_header(&file, &r);
     put_rows(&file, &r);
     return dmb_text_close(&file);
+}
+
+int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
+{
+    dmb_message why;
+    dmb_message_clear(&why);
+    const int32_t status = write_recorder(recorder, path, &why);
+    return dmb_file_told("recorder", path, status, &why);
 }
 
 /* A frequency response as comma-separated values: frequency, then amplitude and phase of each transfer function and of
@@ -152,7 +160,7 @@ static void put_row(dmb_text_file *file, const dmb_response *response, uint32_t 
     dmb_text_put(file, "\n");
 }
 
-int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
+static int32_t write_response(const dmb_response *response, const char *path)
 {
     dmb_text_file file;
     if (response == NULL || path == NULL) return DMB_ERR_NULL;
@@ -162,4 +170,9 @@ int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
     put_response_header(&file, response);
     for (uint32_t point = 0; point < response->points; point++) put_row(&file, response, point);
     return dmb_text_close(&file);
+}
+
+int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
+{
+    return dmb_file_told("response", path, write_response(response, path), NULL);
 }

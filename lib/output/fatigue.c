@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/failure.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/query.h"
@@ -58,7 +59,7 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
 {
     for (uint32_t i = 0; i < count; i++) {
         dmb_section unused = dmb_section_default();
-        const int32_t status = dmb_query_section(sim, places[i], &unused);
+        const int32_t status = dmb_answer_section(sim, places[i], &unused);
         if (status == DMB_OK && bends_unseen(sim, places[i])) {
             dmb_message_set(&sim->message,
                             "fatigue: place %u, pipe %u: an axial-torsional pipe in a hole that bends, whose bending "
@@ -157,9 +158,9 @@ static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_
 int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                            uint32_t place_count, dmb_fatigue **fatigue)
 {
-    if (fatigue == NULL) return DMB_ERR_NULL;
+    if (fatigue == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
     *fatigue = NULL;
-    if (sim == NULL || options == NULL || places == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || options == NULL || places == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, create(sim, options, places, place_count, fatigue));
 }
@@ -243,7 +244,7 @@ static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < fatigue->place_count && status >= 0; i++) {
         dmb_section loads = dmb_section_default();
-        status = dmb_query_section(sim, fatigue->sections[i].place, &loads);
+        status = dmb_answer_section(sim, fatigue->sections[i].place, &loads);
         for (int k = 0; k < 6 && status >= 0; k++)
             if (!isfinite(loads.force[k])) status = DMB_ERR_NOT_FINITE;
     }
@@ -253,14 +254,14 @@ static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
 int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 {
     int32_t status = dmb_sim_check(sim);
-    if (status < 0) return status;
-    if (fatigue == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return DMB_ERR_HANDLE;
+    if (status < 0) return dmb_sim_told(sim, "fatigue", status);
+    if (fatigue == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
+    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return dmb_sim_told(sim, "fatigue", DMB_ERR_HANDLE);
     status = ask_all(fatigue, sim);
-    if (status < 0) return status;
+    if (status < 0) return dmb_sim_told(sim, "fatigue", status);
     for (uint32_t i = 0; i < fatigue->place_count; i++) {
         dmb_section loads = dmb_section_default();
-        (void)dmb_query_section(sim, fatigue->sections[i].place, &loads);
+        (void)dmb_answer_section(sim, fatigue->sections[i].place, &loads);
         take_section_stress(fatigue, i, &loads);
     }
     if (fatigue->samples++ == 0) fatigue->first = dmb_sim_time(sim);
@@ -314,7 +315,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
 {
     const int32_t status = check_ask(fatigue, place, result);
     dmb_fatigue_result answer = {0};
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("fatigue", status);
     answer.point = worst_point(fatigue, place);
     const dmb_fatigue_counter found = whole(fatigue, place, answer.point);
     answer.samples = fatigue->samples;
@@ -326,7 +327,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
     answer.highest = fatigue->samples > 0 ? found.highest : 0.0;
     answer.time = fatigue->last - fatigue->first;
     answer.life = found.damage > 0.0 ? answer.time / found.damage : (double)INFINITY;
-    return dmb_fatigue_result_write(result, &answer);
+    return dmb_told("fatigue", dmb_fatigue_result_write(result, &answer));
 }
 
 static void add_to_histogram(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
@@ -338,7 +339,7 @@ int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double
 {
     const int32_t status = check_ask(fatigue, place, cycles);
     const dmb_fatigue_counter *at;
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("fatigue", status);
     at = &fatigue->counters[(size_t)place * fatigue->options.points + worst_point(fatigue, place)];
     memcpy(cycles, at->cycles, fatigue->options.classes * sizeof(double));
     dmb_rainflow_rest(&at->flow, add_to_histogram, cycles);

@@ -11,7 +11,7 @@
 /* ---- Recorders --------------------------------------------------------------------------------------------------- */
 
 /* Copies the caller's struct. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _NOT_FINITE, _VALUE. */
-int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given);
+int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why);
 
 /* 1: the next sample is due: samples belong to whole multiples of the interval [s] since the first one, so that they do
  * not drift with the steps; with an interval of 0 each is. */

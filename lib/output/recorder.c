@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "output/output.h"
 #include "output/text_file.h"
 #include "query/query.h"
@@ -19,18 +20,38 @@ int dmb_table_fits(uint64_t row_count, uint64_t capacity, uint64_t width)
     return row_count <= capacity && capacity <= SIZE_MAX / sizeof(double) / width;
 }
 
-int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given)
+/* Rows in a table that the caller keeps. */
+static void check_table(dmb_check *check, const double *table, uint64_t row_count, uint64_t capacity, uint64_t width)
 {
-    int32_t status;
+    if (capacity > 0) dmb_check_pointer(check, "table", table);
+    if (!dmb_table_fits(row_count, capacity, width))
+        dmb_check_fail(check, DMB_ERR_VALUE, "row_count", (double)row_count,
+                       "<= capacity, and capacity one whose table fits into memory; start with row_count 0");
+}
+
+int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why)
+{
+    dmb_check check = dmb_check_of(why, "recorder", DMB_NONE);
     if (given == NULL) return DMB_ERR_NULL;
-    status = dmb_recorder_read(out, given);
+    const int32_t status = dmb_recorder_read(out, given);
     if (status < 0) return status;
-    if (out->output_count < 1 || out->output_count > DMB_OUTPUTS_MAX) return DMB_ERR_VALUE;
-    if (out->outputs == NULL || (out->table == NULL && out->capacity > 0)) return DMB_ERR_NULL;
-    if (!isfinite(out->interval)) return DMB_ERR_NOT_FINITE;
-    if (out->interval < 0.0 || !dmb_table_fits(out->row_count, out->capacity, 1u + out->output_count))
-        return DMB_ERR_VALUE;
-    return DMB_OK;
+    dmb_check_count(&check, "output_count", out->output_count, 1, DMB_OUTPUTS_MAX);
+    dmb_check_pointer(&check, "outputs", out->outputs);
+    dmb_check_at_least(&check, "interval", out->interval, 0.0);
+    if (check.status == DMB_OK)
+        check_table(&check, out->table, out->row_count, out->capacity, 1 + (uint64_t)out->output_count);
+    return check.status;
+}
+
+/* A sim that went back to before the last row would write rows out of order, or none until it is there again. */
+static int32_t check_order(double last, double time, const char *what, dmb_message *why)
+{
+    if (!(time < last)) return DMB_OK;
+    dmb_message_set(why,
+                    "%s: time of the sim = %g s, must be >= %g s, that of the last row; set row_count to the number of "
+                    "rows to keep after a restore",
+                    what, time, last);
+    return DMB_ERR_ORDER;
 }
 
 static double *row_of(const dmb_recorder *r, uint64_t row)
@@ -58,12 +79,14 @@ static int32_t value_of(const dmb_recorder *r, const dmb_sim *sim, const dmb_out
 }
 
 /* The row counts only once it is whole. */
-int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim)
+static int32_t take(dmb_recorder *recorder, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);
     dmb_recorder r;
     double *row;
-    if (status == DMB_OK) status = dmb_recorder_take_struct(&r, recorder);
+    if (status == DMB_OK) status = dmb_recorder_take_struct(&r, recorder, why);
+    if (status == DMB_OK && r.row_count > 0)
+        status = check_order(row_of(&r, r.row_count - 1)[0], dmb_sim_time(sim), "recorder", why);
     if (status < 0) return status;
     if (!is_due(&r, dmb_sim_time(sim))) return DMB_OK;
     if (r.row_count == r.capacity) return DMB_NOTE_FULL;
@@ -71,10 +94,19 @@ int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim)
     row[0] = dmb_sim_time(sim);
     for (uint32_t i = 0; i < r.output_count; ++i) {
         status = value_of(&r, sim, &r.outputs[i], &row[1 + i]);
+        if (status < 0) dmb_output_explain(&r.outputs[i], i, status, why);
         if (status < 0) return status;
     }
     recorder->row_count = r.row_count + 1;
     return DMB_OK;
+}
+
+int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim)
+{
+    dmb_message why;
+    dmb_message_clear(&why);
+    const int32_t status = take(recorder, sim, &why);
+    return status < 0 ? dmb_sim_fail(sim, status, "recorder", why.text) : status;
 }
 
 /* ---- Profiles ---------------------------------------------------------------------------------------------------- */
@@ -93,33 +125,38 @@ static uint64_t width_of(const dmb_profile *profile)
 }
 
 /* Copies of both structs, as far as they can be checked without a sim. */
-static int32_t take_structs(const dmb_profile_recorder *given, dmb_profile_recorder *r, dmb_profile *profile)
+static int32_t take_structs(const dmb_profile_recorder *given, dmb_profile_recorder *r, dmb_profile *profile,
+                            dmb_message *why)
 {
-    int32_t status;
+    dmb_check check = dmb_check_of(why, "profile recorder", DMB_NONE);
     if (given == NULL) return DMB_ERR_NULL;
-    status = dmb_profile_recorder_read(r, given);
+    int32_t status = dmb_profile_recorder_read(r, given);
     if (status < 0) return status;
-    if (r->profile == NULL || (r->table == NULL && r->capacity > 0)) return DMB_ERR_NULL;
+    dmb_check_pointer(&check, "profile", r->profile);
+    if (check.status < 0) return check.status;
     status = dmb_profile_read(profile, r->profile);
     if (status < 0) return status;
-    if (profile->quantities == NULL) return DMB_ERR_NULL;
-    if (profile->station_count < 1 || profile->station_count > STATIONS_MAX) return DMB_ERR_VALUE;
-    if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_COUNT) return DMB_ERR_VALUE;
-    if (!isfinite(r->interval)) return DMB_ERR_NOT_FINITE;
-    return r->interval < 0.0 || !dmb_table_fits(r->row_count, r->capacity, width_of(profile)) ? DMB_ERR_VALUE : DMB_OK;
+    dmb_check_pointer(&check, "quantities of the profile", profile->quantities);
+    dmb_check_count(&check, "station_count of the profile", profile->station_count, 1, STATIONS_MAX);
+    dmb_check_count(&check, "quantity_count of the profile", profile->quantity_count, 1, DMB_PROFILE_COUNT);
+    dmb_check_at_least(&check, "interval", r->interval, 0.0);
+    if (check.status == DMB_OK) check_table(&check, r->table, r->row_count, r->capacity, width_of(profile));
+    return check.status;
 }
 
 /* The row counts only once it is whole. */
-int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim *sim)
+static int32_t take_profile(dmb_profile_recorder *recorder, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);
     dmb_profile_recorder r;
     dmb_profile profile;
     double *row;
-    if (status == DMB_OK) status = take_structs(recorder, &r, &profile);
+    if (status == DMB_OK) status = take_structs(recorder, &r, &profile, why);
     if (status < 0) return status;
     const double time = dmb_sim_time(sim);
     const size_t width = (size_t)width_of(&profile);
+    if (r.row_count > 0) status = check_order(r.table[(r.row_count - 1) * width], time, "profile recorder", why);
+    if (status < 0) return status;
     if (r.row_count > 0 && !dmb_sample_is_due(r.interval, r.table[0], r.table[(r.row_count - 1) * width], time))
         return DMB_OK;
     if (r.row_count == r.capacity) return DMB_NOTE_FULL;
@@ -127,11 +164,19 @@ int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim 
     profile.values = row + 1;
     profile.station_stride = profile.quantity_count;
     profile.quantity_stride = 1;
-    status = dmb_query_profile(sim, &profile);
+    status = dmb_answer_profile(sim, &profile);
     if (status < 0) return status;
     row[0] = time;
     recorder->row_count = r.row_count + 1;
     return DMB_OK;
+}
+
+int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim *sim)
+{
+    dmb_message why;
+    dmb_message_clear(&why);
+    const int32_t status = take_profile(recorder, sim, &why);
+    return status < 0 ? dmb_sim_fail(sim, status, "profile recorder", why.text) : status;
 }
 
 static void put_header(dmb_text_file *file, const dmb_profile *profile)
@@ -163,12 +208,12 @@ static void put_row(dmb_text_file *file, const dmb_profile *profile, const doubl
     }
 }
 
-int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path)
+static int32_t write_profiles(const dmb_profile_recorder *recorder, const char *path, dmb_message *why)
 {
     dmb_profile_recorder r;
     dmb_profile profile;
     dmb_text_file file;
-    int32_t status = take_structs(recorder, &r, &profile);
+    int32_t status = take_structs(recorder, &r, &profile, why);
     if (status < 0) return status;
     if (path == NULL) return DMB_ERR_NULL;
     status = dmb_text_open(&file, path);
@@ -176,4 +221,12 @@ int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, con
     put_header(&file, &profile);
     for (uint64_t i = 0; i < r.row_count; i++) put_row(&file, &profile, r.table + (size_t)(i * width_of(&profile)));
     return dmb_text_close(&file);
+}
+
+int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path)
+{
+    dmb_message why;
+    dmb_message_clear(&why);
+    const int32_t status = write_profiles(recorder, path, &why);
+    return dmb_file_told("profile recorder", path, status, &why);
 }

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/failure.h"
 #include "base/number.h"
 #include "drillmbd/base.h"
 
@@ -169,4 +170,20 @@ void dmb_text_end_base64(dmb_text_file *file)
     const uint32_t count = file->waiting_count;
     if (count > 0) put_group(file, file->waiting << 8 * (3 - count), count);
     file->base64 = 0;
+}
+
+/* ---- Failures ---------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_file_told(const char *call, const char *path, int32_t status, const dmb_message *why)
+{
+    enum { SHOWN = 200 }; /* [byte] of the end of a path: a message has room for them */
+    dmb_message text;
+    if (status >= 0) return status;
+    if (status != DMB_ERR_IO || path == NULL)
+        return dmb_failure(NULL, NULL, status, call, why == NULL ? NULL : why->text);
+    const size_t length = strlen(path), from = length > SHOWN ? length - SHOWN : 0;
+    dmb_message_set(&text,
+                    "%s: file %s%s cannot be written; give a folder that is there, may be written to and has room",
+                    call, from > 0 ? "..." : "", path + from);
+    return dmb_failure(NULL, NULL, status, call, text.text);
 }

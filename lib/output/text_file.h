@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/build.h"
+#include "base/message.h"
 
 #if DMB_WITH_FILES
 #include <stdio.h>
@@ -40,6 +41,9 @@ void dmb_text_put_count(dmb_text_file *file, uint64_t value);
 void dmb_text_begin_base64(dmb_text_file *file);
 void dmb_text_put_word(dmb_text_file *file, uint64_t word);
 void dmb_text_end_base64(dmb_text_file *file);
+/* Ends a public call that writes the file: a failure is the thread's last error, `why` its message unless that is empty
+ * (NULL: empty). Returns status. */
+int32_t dmb_file_told(const char *call, const char *path, int32_t status, const dmb_message *why);
 /* DMB_OK if everything has reached the file, else DMB_ERR_IO. */
 int32_t dmb_text_close(dmb_text_file *file);
 

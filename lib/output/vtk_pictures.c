@@ -18,7 +18,7 @@ static void put_position(dmb_text_file *file, const void *context, const dmb_vtk
 {
     const dmb_sim *sim = context;
     dmb_pose pose = dmb_pose_default();
-    (void)dmb_query_pose(sim, at->place, &pose);
+    (void)dmb_answer_pose(sim, at->place, &pose);
     dmb_vtk_put_tuple(file, pose.position, 3);
 }
 
@@ -26,7 +26,7 @@ static void put_displacement(dmb_text_file *file, const void *context, const dmb
 {
     const dmb_sim *sim = context;
     dmb_pose pose = dmb_pose_default();
-    (void)dmb_query_pose(sim, at->place, &pose);
+    (void)dmb_answer_pose(sim, at->place, &pose);
     dmb_vtk_put_tuple(file, pose.displacement, 3);
 }
 
@@ -34,7 +34,7 @@ static void put_velocity(dmb_text_file *file, const void *context, const dmb_vtk
 {
     const dmb_sim *sim = context;
     dmb_motion motion = dmb_motion_default();
-    (void)dmb_query_motion(sim, at->place, &motion);
+    (void)dmb_answer_motion(sim, at->place, &motion);
     dmb_vtk_put_tuple(file, motion.velocity, 3);
 }
 
@@ -49,7 +49,7 @@ static void put_diameter(dmb_text_file *file, const void *context, const dmb_vtk
 static dmb_section section_at(const dmb_sim *sim, const dmb_vtk_station *at)
 {
     dmb_section section = dmb_section_default();
-    (void)dmb_query_section(sim, at->place, &section);
+    (void)dmb_answer_section(sim, at->place, &section);
     return section;
 }
 
@@ -97,7 +97,7 @@ static void put_normal_force(dmb_text_file *file, const void *context, const dmb
     dmb_vtk_put_tuple(file, &force, 1);
 }
 
-int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path)
+static int32_t write_strings(const dmb_sim *sim, uint32_t per_element, const char *path)
 {
     static const dmb_vtk_array arrays[] = {
         {"displacement", 3, put_displacement}, {"velocity", 3, put_velocity}, {"diameter", 1, put_diameter},
@@ -113,6 +113,11 @@ int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const ch
                                      0};
     const int32_t status = dmb_sim_check(sim);
     return status < 0 ? status : dmb_vtk_write_lines(sim, &picture, path);
+}
+
+int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path)
+{
+    return dmb_file_told("picture of strings", path, write_strings(sim, per_element, path), NULL);
 }
 
 /* The hole as a tube of quadrilaterals, for ParaView. */
@@ -238,8 +243,8 @@ static int32_t tube_of(tube *t, double spacing)
     return DMB_OK;
 }
 
-int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
-                           const char *path)
+static int32_t write_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
+                          const char *path)
 {
     int32_t status = check_model(model);
     tube t = {NULL, depth0, depth1, 0, around, 0};
@@ -260,6 +265,12 @@ int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1,
     put_polygons(&file, &t);
     dmb_vtk_end(&file);
     return dmb_text_close(&file);
+}
+
+int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
+                           const char *path)
+{
+    return dmb_file_told("picture of hole", path, write_hole(model, depth0, depth1, spacing, around, path), NULL);
 }
 
 /* A frame of a mode's animation: the strings displaced by its shape. */
@@ -284,7 +295,7 @@ static void put_mode_position(dmb_text_file *file, const void *context, const dm
     const frame *f = context;
     dmb_pose pose = dmb_pose_default();
     double d[6];
-    (void)dmb_query_pose(f->modes->state, at->place, &pose);
+    (void)dmb_answer_pose(f->modes->state, at->place, &pose);
     displacement_at(f, at, d);
     for (int i = 0; i < 3; i++) d[i] += pose.position[i];
     dmb_vtk_put_tuple(file, d, 3);
@@ -304,8 +315,8 @@ static void put_rotation(dmb_text_file *file, const void *context, const dmb_vtk
     dmb_vtk_put_tuple(file, d + 3, 3);
 }
 
-int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
-                           const char *path)
+static int32_t write_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
+                          const char *path)
 {
     static const dmb_vtk_array arrays[] = {{"displacement", 3, put_mode_displacement}, {"rotation", 3, put_rotation}};
     const frame f = {modes, scale * cos(phase), -scale * sin(phase), index, 0};
@@ -315,4 +326,10 @@ int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale,
     if (!dmb_handle_is(modes, DMB_HANDLE_MODES)) return DMB_ERR_HANDLE;
     if (!dmb_is_finite(scale) || !dmb_is_finite(phase)) return DMB_ERR_NOT_FINITE;
     return index < modes->count ? dmb_vtk_write_lines(modes->state, &picture, path) : DMB_ERR_VALUE;
+}
+
+int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
+                           const char *path)
+{
+    return dmb_file_told("picture of mode", path, write_mode(modes, index, scale, phase, per_element, path), NULL);
 }

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
@@ -113,9 +114,9 @@ int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const d
                           uint32_t output_count, dmb_window **window)
 {
     dmb_window_options options = dmb_window_options_defaults;
-    if (window == NULL) return DMB_ERR_NULL;
+    if (window == NULL) return dmb_sim_told(sim, "window", DMB_ERR_NULL);
     *window = NULL;
-    if (sim == NULL || outputs == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || outputs == NULL) return dmb_sim_told(sim, "window", DMB_ERR_NULL);
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     if (given != NULL) status = dmb_window_options_read(&options, given);
@@ -142,8 +143,8 @@ void dmb_window_destroy(dmb_window **window)
 
 int32_t dmb_window_reset(dmb_window *window)
 {
-    if (window == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
+    if (window == NULL) return dmb_told("window", DMB_ERR_NULL);
+    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return dmb_told("window", DMB_ERR_HANDLE);
     window->taken = 0;
     for (uint32_t k = 0; k < window->slot_count; k++) window->slots[k].number = -1.0;
     return DMB_OK;
@@ -181,26 +182,33 @@ static void add_sample(watched *c, double step, int is_first, slot_sum *sum)
 }
 
 /* All outputs are asked before the first is counted, so that a sim without one of them changes nothing. */
-static int32_t ask_all(dmb_window *w, const dmb_sim *sim)
+static int32_t ask_all(dmb_window *w, const dmb_sim *sim, dmb_message *why)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
-        const int32_t status = dmb_output_value(sim, &w->outputs[i].output, &w->outputs[i].next);
+        int32_t status = dmb_output_value(sim, &w->outputs[i].output, &w->outputs[i].next);
+        if (status >= 0 && !isfinite(w->outputs[i].next)) status = DMB_ERR_NOT_FINITE;
+        if (status < 0) dmb_output_explain(&w->outputs[i].output, i, status, why);
         if (status < 0) return status;
-        if (!isfinite(w->outputs[i].next)) return DMB_ERR_NOT_FINITE;
     }
     return DMB_OK;
 }
 
-int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
+static int32_t take(dmb_window *window, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);
     if (status < 0) return status;
     if (window == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
     const double time = dmb_sim_time(sim);
-    if (window->taken && time < window->last) return DMB_ERR_ORDER;
+    if (window->taken && time < window->last) {
+        dmb_message_set(why,
+                        "window: time of the sim = %g s, must be >= %g s, that of the last sample; reset the window "
+                        "after a restore",
+                        time, window->last);
+        return DMB_ERR_ORDER;
+    }
     if (window->taken && !(time > window->last)) return DMB_OK;
-    status = ask_all(window, sim);
+    status = ask_all(window, sim, why);
     if (status < 0) return status;
     if (!window->taken) window->first = window->last = time;
     const double step = time - window->last;
@@ -217,6 +225,14 @@ int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
     window->last = time;
     window->taken = 1;
     return DMB_OK;
+}
+
+int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
+{
+    dmb_message why;
+    dmb_message_clear(&why);
+    const int32_t status = take(window, sim, &why);
+    return status < 0 ? dmb_sim_fail(sim, status, "window", why.text) : status;
 }
 
 /* ---- Answers ----------------------------------------------------------------------------------------------------- */
@@ -261,10 +277,10 @@ static int32_t check_ask(const dmb_window *window, uint32_t output)
 int32_t dmb_window_get(const dmb_window *window, uint32_t output, dmb_window_result *result)
 {
     const int32_t status = check_ask(window, output);
-    if (result == NULL) return DMB_ERR_NULL;
-    if (status < 0) return status;
+    if (result == NULL) return dmb_told("window", DMB_ERR_NULL);
+    if (status < 0) return dmb_told("window", status);
     const dmb_window_result answer = result_of(window, output);
-    return dmb_window_result_write(result, &answer);
+    return dmb_told("window", dmb_window_result_write(result, &answer));
 }
 
 int32_t dmb_window_value(const dmb_window *window, const dmb_output *output, double *value)

@@ -49,7 +49,7 @@ static void describe(const dmb_scene *scene, uint32_t site, dmb_contact *contact
     contact->length = site < full ? scene->sites[site].length : scene->path_sites[site - full].length;
 }
 
-int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact)
+int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact)
 {
     const int32_t status = dmb_ask(sim, contact);
     dmb_site_force force;
@@ -72,7 +72,7 @@ int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contac
     return dmb_contact_write(contact, &answer);
 }
 
-int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
+int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
 {
     const int32_t status = dmb_ask(sim, sum);
     dmb_contact_total answer = {0};
@@ -185,11 +185,11 @@ int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *poi
 {
     const dmb_hole *hole;
     const int32_t status = hole_of(model, &hole);
-    if (status < 0) return status;
-    return point == NULL ? DMB_ERR_NULL : tell_hole(model, hole, depth, point);
+    if (status < 0) return dmb_model_told(model, "hole", status);
+    return dmb_model_told(model, "hole", point == NULL ? DMB_ERR_NULL : tell_hole(model, hole, depth, point));
 }
 
-int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)
+int32_t dmb_answer_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)
 {
     const int32_t status = dmb_ask(sim, point);
     if (status < 0) return status;
@@ -202,7 +202,7 @@ int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *poi
 
 DMB_DEFINE_INIT(dmb_stuck_state, 88, {.stuck = 0})
 
-int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state)
+int32_t dmb_answer_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state)
 {
     const int32_t status = dmb_ask(sim, state);
     dmb_stuck_state answer = {0};

@@ -254,7 +254,7 @@ static void balance(const dmb_ledger *ledger, dmb_energy *e)
     e->error = share_of(e->balance, e->scale);
 }
 
-int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy)
+int32_t dmb_answer_energy(const dmb_sim *sim, dmb_energy *energy)
 {
     const int32_t status = dmb_ask(sim, energy);
     dmb_energy answer = {0};
@@ -343,7 +343,7 @@ static int32_t pipe_energy(const dmb_sim *sim, dmb_id part, uint32_t number, dou
     return DMB_OK;
 }
 
-int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy)
+int32_t dmb_answer_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy)
 {
     const int32_t status = dmb_ask(sim, energy);
     uint32_t body;
@@ -366,7 +366,7 @@ static void count_constraints(const dmb_sim *sim, dmb_statistics *answer)
         answer->violation = fmax(answer->violation, dmb_joint_violation(sim, j));
 }
 
-int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)
+int32_t dmb_answer_statistics(const dmb_sim *sim, dmb_statistics *statistics)
 {
     const int32_t status = dmb_ask(sim, statistics);
     dmb_statistics answer = {0};

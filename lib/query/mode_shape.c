@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "analysis/modes/modes.h"
+#include "base/failure.h"
 #include "element/beam.h"
 #include "math/real.h"
 #include "query/query.h"
@@ -44,7 +45,7 @@ static int parts_of(const dmb_modes *modes)
 int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info)
 {
     const int32_t status = check_modes(modes, info);
-    return status < 0 ? status : dmb_modes_info_write(info, &modes->info);
+    return dmb_told("modes", status < 0 ? status : dmb_modes_info_write(info, &modes->info));
 }
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
@@ -105,7 +106,7 @@ static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
         dmb_momentum momentum = dmb_momentum_default();
         add_kinetic_parts(&view, parts);
         add_strain_parts(&view, 0, view.scene->element_count, strain);
-        (void)dmb_query_momentum(&view, &momentum);
+        (void)dmb_answer_momentum(&view, &momentum);
         for (int i = 0; i < 3; i++) {
             if (part == 0) mode->participation[i] = momentum.linear[i];
             mode->effective_mass[i] += momentum.linear[i] * momentum.linear[i];
@@ -122,10 +123,10 @@ int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
 {
     const int32_t status = check_index(modes, index, mode);
     dmb_mode answer;
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("modes", status);
     memset(&answer, 0, sizeof answer);
     describe(modes, index, &answer);
-    return dmb_mode_write(mode, &answer);
+    return dmb_told("modes", dmb_mode_write(mode, &answer));
 }
 
 /* ---- By part ----------------------------------------------------------------------------------------------------- */
@@ -140,7 +141,7 @@ static int32_t add_pipe(const dmb_sim *view, dmb_id string, uint32_t pipe, part_
     double kinetic;
     const dmb_pipe_map *map = dmb_pipe_of(view, string, pipe, &status);
     if (map == NULL) return status;
-    status = dmb_query_kinetic_energy(view, string, pipe, &kinetic);
+    status = dmb_answer_kinetic_energy(view, string, pipe, &kinetic);
     if (status < 0) return status;
     sum->kinetic += kinetic;
     sum->strain += strain_energy(view, map->element, map->elements);
@@ -152,7 +153,7 @@ static int32_t add_part(const dmb_sim *view, dmb_id part, uint32_t pipe, part_en
     const uint32_t string = dmb_model_part_index(view->model, part, DMB_PART_STRING);
     double kinetic;
     if (string == DMB_NONE) {
-        const int32_t status = dmb_query_kinetic_energy(view, part, pipe, &kinetic);
+        const int32_t status = dmb_answer_kinetic_energy(view, part, pipe, &kinetic);
         if (status >= 0) sum->kinetic += kinetic;
         return status;
     }
@@ -168,12 +169,12 @@ int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint
 {
     int32_t status = check_index(modes, index, kinetic);
     part_energy sum = {0.0, 0.0};
-    if (status < 0) return status;
-    if (strain == NULL) return DMB_ERR_NULL;
+    if (status < 0) return dmb_told("modes", status);
+    if (strain == NULL) return dmb_told("modes", DMB_ERR_NULL);
     for (int i = 0; i < parts_of(modes); i++) {
         const dmb_sim view = moving(modes, index, i);
         status = add_part(&view, part, pipe, &sum);
-        if (status < 0) return status;
+        if (status < 0) return dmb_told("modes", status);
     }
     const double *s = modes->s + 2 * (size_t)index;
     *kinetic = (s[0] * s[0] + s[1] * s[1]) * sum.kinetic;
@@ -196,10 +197,10 @@ int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place,
     dmb_material_point point;
     dmb_material_point_pose pose;
     if (status == DMB_OK) status = dmb_mode_shape_read(&answer, shape);
-    if (status < 0) return status;
-    if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return DMB_ERR_VALUE;
+    if (status < 0) return dmb_told("modes", status);
+    if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return dmb_told("modes", DMB_ERR_VALUE);
     status = dmb_material_point_of(modes->state, place, &point);
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("modes", status);
     dmb_material_point_pose_of(modes->state->scene, &modes->state->now, &point, &pose);
     memset(answer.im, 0, sizeof answer.im);
     for (int part = 0; part < parts_of(modes); part++) {
@@ -210,5 +211,5 @@ int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place,
         dmb_vec6_copy(motion.velocity, to);
         if (answer.frame == DMB_FRAME_WORLD) turn_to_world(pose.rotation, to);
     }
-    return dmb_mode_shape_write(shape, &answer);
+    return dmb_told("modes", dmb_mode_shape_write(shape, &answer));
 }

@@ -133,7 +133,7 @@ static void add_added_mass(const dmb_scene *scene, const dmb_configuration *c, c
     add_momentum(&at, p, sum);
 }
 
-int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum)
+int32_t dmb_answer_momentum(const dmb_sim *sim, dmb_momentum *momentum)
 {
     const int32_t status = dmb_ask(sim, momentum);
     dmb_momentum answer = {0};

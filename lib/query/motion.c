@@ -278,7 +278,7 @@ double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration 
 
 DMB_DECLARE_STRUCT(dmb_pose)
 
-int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)
+int32_t dmb_answer_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)
 {
     int32_t status = dmb_ask(sim, pose);
     dmb_material_point point;
@@ -294,7 +294,7 @@ int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)
     return dmb_pose_write(pose, &answer);
 }
 
-int32_t dmb_query_rotation(const dmb_sim *sim, dmb_place place, double *angle)
+int32_t dmb_answer_rotation(const dmb_sim *sim, dmb_place place, double *angle)
 {
     int32_t status = dmb_ask(sim, angle);
     dmb_material_point point;
@@ -319,7 +319,7 @@ static void to_world(const dmb_material_point_motion *body, const double R[9], d
     dmb_mat3_vec(R, a + 3, out->acceleration + 3);
 }
 
-int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion)
+int32_t dmb_answer_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion)
 {
     int32_t status = dmb_ask(sim, motion);
     dmb_material_point point;
@@ -367,14 +367,14 @@ static void move_pose(const double offset[3], const double R0[9], dmb_pose *pose
     dmb_vec3_sub(pose->displacement, start, pose->displacement);
 }
 
-int32_t dmb_query_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose)
+int32_t dmb_answer_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose)
 {
     dmb_pose answer = dmb_pose_default();
     dmb_material_point point;
     double R0[9];
     int32_t status = dmb_ask(sim, pose);
     if (status >= 0) status = check_offset(offset);
-    if (status >= 0) status = dmb_query_pose(sim, place, &answer);
+    if (status >= 0) status = dmb_answer_pose(sim, place, &answer);
     if (status >= 0) status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
     dmb_material_point_start_axes(sim->scene, &point, R0);
@@ -398,7 +398,7 @@ static void move_motion(const double r[3], int32_t world, dmb_motion *motion)
     if (world) dmb_vec3_add(motion->acceleration, turn, motion->acceleration);
 }
 
-int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_motion *motion)
+int32_t dmb_answer_motion_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_motion *motion)
 {
     dmb_motion answer;
     dmb_pose pose = dmb_pose_default();
@@ -406,8 +406,8 @@ int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const double of
     int32_t status = dmb_ask(sim, motion);
     if (status >= 0) status = dmb_motion_read(&answer, motion);
     if (status >= 0) status = check_offset(offset);
-    if (status >= 0) status = dmb_query_motion(sim, place, &answer);
-    if (status >= 0) status = dmb_query_pose(sim, place, &pose);
+    if (status >= 0) status = dmb_answer_motion(sim, place, &answer);
+    if (status >= 0) status = dmb_answer_pose(sim, place, &pose);
     if (status < 0) return status;
     dmb_vec3_copy(offset, r);
     if (answer.frame == DMB_FRAME_WORLD) dmb_mat3_vec(pose.rotation, offset, r);

@@ -47,7 +47,7 @@ static int32_t section_of_rig_end(const asked_string *s, int32_t component, doub
         *value = signed_value(sign, load[component == DMB_RX]);
         return DMB_OK;
     }
-    const int32_t status = dmb_query_section(s->sim, rig_end(s), &section);
+    const int32_t status = dmb_answer_section(s->sim, rig_end(s), &section);
     if (status >= 0) *value = signed_value(sign, section.force[component]);
     return status;
 }
@@ -56,7 +56,7 @@ static int32_t body_velocity(const asked_string *s, dmb_place place, int32_t com
 {
     dmb_motion motion = dmb_motion_default();
     motion.frame = DMB_FRAME_BODY;
-    const int32_t status = dmb_query_motion(s->sim, place, &motion);
+    const int32_t status = dmb_answer_motion(s->sim, place, &motion);
     if (status >= 0) *value = motion.velocity[component];
     return status;
 }
@@ -64,7 +64,7 @@ static int32_t body_velocity(const asked_string *s, dmb_place place, int32_t com
 static int32_t depth_of_far_end(const asked_string *s, double *value)
 {
     dmb_pose pose = dmb_pose_default();
-    const int32_t status = dmb_query_pose(s->sim, far_end(s), &pose);
+    const int32_t status = dmb_answer_pose(s->sim, far_end(s), &pose);
     if (status >= 0) *value = pose.depth;
     return status;
 }
@@ -132,7 +132,7 @@ static int32_t force_of_rig(const asked_string *s, int32_t component, double sig
 {
     const dmb_scene *scene = s->sim->scene;
     double reaction[6], sum;
-    const int32_t status = dmb_query_reaction(s->sim, s->id, reaction);
+    const int32_t status = dmb_answer_reaction(s->sim, s->id, reaction);
     if (status < 0) return status;
     sum = reaction[component];
     for (uint32_t i = 0; i < scene->drive_count; i++) {

@@ -13,7 +13,7 @@
 static int32_t pose_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_pose pose = dmb_pose_default();
-    const int32_t status = dmb_query_pose(sim, output->place, &pose);
+    const int32_t status = dmb_answer_pose(sim, output->place, &pose);
     if (status < 0) return status;
     *value = output->quantity >= DMB_OUTPUT_POSITION_X ? pose.position[output->quantity - DMB_OUTPUT_POSITION_X]
                                                        : pose.displacement[output->quantity];
@@ -27,7 +27,7 @@ static int32_t motion_value(const dmb_sim *sim, const dmb_output *output, int32_
     dmb_motion motion = dmb_motion_default();
     int32_t status;
     motion.frame = frame;
-    status = dmb_query_motion(sim, output->place, &motion);
+    status = dmb_answer_motion(sim, output->place, &motion);
     if (status < 0) return status;
     *value = rate == 0 ? motion.velocity[component] : motion.acceleration[component];
     return DMB_OK;
@@ -36,7 +36,7 @@ static int32_t motion_value(const dmb_sim *sim, const dmb_output *output, int32_
 static int32_t section_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_section section = dmb_section_default();
-    const int32_t status = dmb_query_section(sim, output->place, &section), q = output->quantity;
+    const int32_t status = dmb_answer_section(sim, output->place, &section), q = output->quantity;
     if (status < 0) return status;
     if (q == DMB_OUTPUT_AXIAL_FORCE) *value = section.force[0];
     if (q == DMB_OUTPUT_TORQUE) *value = section.force[3];
@@ -56,16 +56,16 @@ static int32_t first_value(const dmb_sim *sim, const dmb_output *output, double 
         return motion_value(sim, output, DMB_FRAME_WORLD, 0, q - DMB_OUTPUT_VELOCITY_X, value);
     if (q <= DMB_OUTPUT_POSITION_Z) return pose_value(sim, output, value);
     if (q == DMB_OUTPUT_SPIN) return motion_value(sim, output, DMB_FRAME_BODY, 0, DMB_RX, value);
-    if (q == DMB_OUTPUT_ROTATION) return dmb_query_rotation(sim, output->place, value);
+    if (q == DMB_OUTPUT_ROTATION) return dmb_answer_rotation(sim, output->place, value);
     if (q == DMB_OUTPUT_KINETIC_ENERGY)
-        return dmb_query_kinetic_energy(sim, output->place.part, output->place.pipe, value);
+        return dmb_answer_kinetic_energy(sim, output->place.part, output->place.pipe, value);
     return dmb_normal_force_at(sim, output->place.part, output->place.pipe, value);
 }
 
 static int32_t drive_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_drive_state drive = dmb_drive_state_default();
-    const int32_t status = dmb_query_drive(sim, output->place.part, &drive);
+    const int32_t status = dmb_answer_drive(sim, output->place.part, &drive);
     if (status < 0) return status;
     switch (output->quantity) {
     case DMB_OUTPUT_DRIVE_FORCE: *value = drive.force; break;
@@ -83,7 +83,7 @@ static int32_t drive_value(const dmb_sim *sim, const dmb_output *output, double 
 static int32_t bit_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_bit_state bit = dmb_bit_state_default();
-    const int32_t status = dmb_query_bit(sim, output->place.part, &bit);
+    const int32_t status = dmb_answer_bit(sim, output->place.part, &bit);
     if (status < 0) return status;
     switch (output->quantity) {
     case DMB_OUTPUT_BIT_WEIGHT: *value = bit.weight + bit.load; break;
@@ -101,7 +101,7 @@ static int32_t bit_value(const dmb_sim *sim, const dmb_output *output, double *v
 static int32_t stuck_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_stuck_state stuck = dmb_stuck_state_default();
-    const int32_t status = dmb_query_stuck(sim, output->place.part, &stuck);
+    const int32_t status = dmb_answer_stuck(sim, output->place.part, &stuck);
     if (status < 0) return status;
     const double values[] = {stuck.stuck, stuck.force[0], stuck.force[3]};
     *value = values[output->quantity - DMB_OUTPUT_STUCK];
@@ -111,7 +111,7 @@ static int32_t stuck_value(const dmb_sim *sim, const dmb_output *output, double 
 static int32_t spring_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_spring_state s = dmb_spring_state_default();
-    const int32_t status = dmb_query_spring(sim, output->place.part, &s);
+    const int32_t status = dmb_answer_spring(sim, output->place.part, &s);
     if (status < 0) return status;
     const double values[] = {s.length, s.elongation, s.speed, s.force, s.elastic, s.damper, s.energy};
     *value = values[output->quantity - DMB_OUTPUT_SPRING_LENGTH];
@@ -131,7 +131,7 @@ static int32_t input_value(const dmb_sim *sim, const dmb_output *output, double 
 static int32_t site_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     dmb_contact contact = dmb_contact_default();
-    const int32_t status = dmb_query_contact(sim, output->place.pipe, &contact);
+    const int32_t status = dmb_answer_contact(sim, output->place.pipe, &contact);
     if (status < 0) return status;
     const double values[] = {contact.gap,         contact.normal_force, contact.approach,
                              contact.friction[0], contact.friction[1],  contact.slip[0],
@@ -143,7 +143,7 @@ static int32_t site_value(const dmb_sim *sim, const dmb_output *output, double *
 static int32_t contacts_value(const dmb_sim *sim, int32_t quantity, double *value)
 {
     dmb_contact_total sum = dmb_contact_total_default();
-    const int32_t status = dmb_query_contact_total(sim, &sum);
+    const int32_t status = dmb_answer_contact_total(sim, &sum);
     if (status < 0) return status;
     const double values[] = {sum.closed, sum.normal_force, sum.friction[0], sum.friction[1], sum.deepest};
     *value = values[quantity - DMB_OUTPUT_CONTACTS_CLOSED];
@@ -153,7 +153,7 @@ static int32_t contacts_value(const dmb_sim *sim, int32_t quantity, double *valu
 static int32_t energy_value(const dmb_sim *sim, int32_t quantity, double *value)
 {
     dmb_energy e = dmb_energy_default();
-    const int32_t status = dmb_query_energy(sim, &e);
+    const int32_t status = dmb_answer_energy(sim, &e);
     if (status < 0) return status;
     const double values[] = {e.kinetic, e.strain,  e.gravity, e.contact, e.drives, e.loads,   e.friction,
                              e.impact,  e.damping, e.rock,    e.scheme,  e.input,  e.balance, e.unexplained};
@@ -164,7 +164,7 @@ static int32_t energy_value(const dmb_sim *sim, int32_t quantity, double *value)
 static int32_t momentum_value(const dmb_sim *sim, int32_t quantity, double *value)
 {
     dmb_momentum m = dmb_momentum_default();
-    const int32_t status = dmb_query_momentum(sim, &m);
+    const int32_t status = dmb_answer_momentum(sim, &m);
     if (status < 0) return status;
     const double values[] = {m.linear[0],  m.linear[1], m.linear[2], m.angular[0], m.angular[1],
                              m.angular[2], m.mass,      m.centre[0], m.centre[1],  m.centre[2]};
@@ -175,7 +175,7 @@ static int32_t momentum_value(const dmb_sim *sim, int32_t quantity, double *valu
 static int32_t statistics_value(const dmb_sim *sim, int32_t quantity, double *value)
 {
     dmb_statistics s = dmb_statistics_default();
-    const int32_t status = dmb_query_statistics(sim, &s);
+    const int32_t status = dmb_answer_statistics(sim, &s);
     if (status < 0) return status;
     const double values[] = {(double)s.steps,   (double)s.rejected, (double)s.iterations, (double)s.limited_steps,
                              s.most_iterations, s.largest_residual, (double)s.switches,   s.dependent,
@@ -199,7 +199,7 @@ static int32_t joint_value(const dmb_sim *sim, const dmb_output *output, double 
     dmb_joint_state joint = dmb_joint_state_default();
     const int in_body = q >= DMB_OUTPUT_JOINT_REACTION_BODY && q < DMB_OUTPUT_JOINT_ACTION;
     joint.frame = in_body ? DMB_FRAME_BODY : DMB_FRAME_WORLD;
-    const int32_t status = dmb_query_joint(sim, output->place.part, &joint);
+    const int32_t status = dmb_answer_joint(sim, output->place.part, &joint);
     if (status < 0) return status;
     switch (q - c) {
     case DMB_OUTPUT_JOINT_POSITION: *value = joint.position[c]; break;
@@ -221,7 +221,7 @@ static int32_t multiplier_value(const dmb_sim *sim, const dmb_output *output, do
     const uint32_t k = (uint32_t)(output->quantity - DMB_OUTPUT_MULTIPLIER);
     double multipliers[6];
     uint32_t count = 0;
-    const int32_t status = dmb_query_multipliers(sim, output->place.part, multipliers, &count);
+    const int32_t status = dmb_answer_multipliers(sim, output->place.part, multipliers, &count);
     if (status < 0) return status;
     if (k >= count) return DMB_ERR_VALUE;
     *value = multipliers[k];
@@ -231,7 +231,7 @@ static int32_t multiplier_value(const dmb_sim *sim, const dmb_output *output, do
 static int32_t reaction_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     double reaction[6];
-    const int32_t status = dmb_query_reaction(sim, output->place.part, reaction);
+    const int32_t status = dmb_answer_reaction(sim, output->place.part, reaction);
     if (status >= 0) *value = reaction[output->quantity - DMB_OUTPUT_REACTION];
     return status;
 }
@@ -273,7 +273,7 @@ int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *v
     }
 }
 
-int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *value)
+int32_t dmb_answer_output(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     const int32_t status = dmb_ask(sim, value);
     double found = 0.0;
@@ -309,27 +309,36 @@ static const char *wanted(int32_t place)
     }
 }
 
-static int32_t refuse(dmb_sim *sim, uint32_t i, const dmb_output *output, int32_t status)
+void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dmb_message *message)
 {
     const dmb_output_entry *name = dmb_output_name_of(output->quantity);
     if (name == NULL)
-        dmb_message_set(&sim->message, "output %u: quantity = %d, must be one that dmb_output_name knows", i,
+        dmb_message_set(message, "output %u: quantity = %d, must be one that dmb_output_name knows", i,
                         (int)output->quantity);
     else
-        dmb_message_set(&sim->message, "output %u, %s at pipe %u, fraction %g: %s; %s", i, name->name,
-                        output->place.pipe, output->place.fraction, dmb_status_text(status), wanted(name->place));
-    return status;
+        dmb_message_set(message, "output %u, %s at pipe %u, fraction %g: %s; %s", i, name->name, output->place.pipe,
+                        output->place.fraction, dmb_status_text(status), wanted(name->place));
+}
+
+int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *value)
+{
+    const int32_t status = dmb_answer_output(sim, output, value);
+    dmb_message why;
+    if (status >= 0) return status;
+    dmb_message_clear(&why);
+    if (dmb_sim_check(sim) == DMB_OK && output != NULL && value != NULL) dmb_output_explain(output, 0, status, &why);
+    return dmb_sim_fail(sim, status, "output", why.text);
 }
 
 int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count)
 {
-    if (sim == NULL || outputs == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || outputs == NULL) return dmb_sim_told(sim, "outputs", DMB_ERR_NULL);
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     for (uint32_t i = 0; i < output_count && status >= 0; i++) {
         double unused;
         status = dmb_output_value(sim, outputs + i, &unused);
-        if (status < 0) status = refuse(sim, i, outputs + i, status);
+        if (status < 0) dmb_output_explain(outputs + i, i, status, &sim->message);
     }
     return dmb_sim_leave(sim, status);
 }

@@ -156,7 +156,7 @@ static void bending_values(station *at, const double force[6])
 static int32_t section_values(station *at)
 {
     dmb_section section = dmb_section_default();
-    const int32_t status = dmb_query_section(at->sim, at->place, &section);
+    const int32_t status = dmb_answer_section(at->sim, at->place, &section);
     double *v = at->values;
     if (status < 0) return status;
     v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
@@ -289,7 +289,7 @@ static int32_t contact_values(station *at)
 {
     const uint32_t site = nearest_site(at);
     dmb_contact contact = dmb_contact_default();
-    const int32_t status = site == DMB_NONE ? DMB_OK : dmb_query_contact(at->sim, site, &contact);
+    const int32_t status = site == DMB_NONE ? DMB_OK : dmb_answer_contact(at->sim, site, &contact);
     const double per_metre = contact.length > 0.0 ? 1.0 / contact.length : 0.0;
     if (site != DMB_NONE) at->values[DMB_PROFILE_GAP] = contact.gap;
     at->values[DMB_PROFILE_NORMAL_FORCE] = contact.normal_force * per_metre;
@@ -397,7 +397,7 @@ static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint
     return status;
 }
 
-int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *given)
+int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *given)
 {
     int32_t status = dmb_ask(sim, given), groups = 0;
     dmb_profile profile;

@@ -3,8 +3,11 @@
 #ifndef DMB_QUERY_QUERY_H
 #define DMB_QUERY_QUERY_H
 
+#include "drillmbd/bha.h"
+#include "drillmbd/forces.h"
 #include "drillmbd/output.h"
 #include "drillmbd/query.h"
+#include "drillmbd/state_space.h"
 #include "element/beam.h"
 #include "model/model.h"
 #include "sim/sim.h"
@@ -263,6 +266,8 @@ typedef struct dmb_output_entry {
 const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 
 /* The present value. Errors: those of dmb_query_output. */
+/* Why output number i has no value. */
+void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dmb_message *message);
 int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *value);
 
 /* Those of a driller, DMB_OUTPUT_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
@@ -287,5 +292,36 @@ int32_t dmb_profile_groups(int32_t quantity);
 
 /* A quantity DMB_PROFILE_... at a place of a string. Errors: DMB_ERR_VALUE, _ID, _NOT_FINITE. O(runs of pipes). */
 int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity, double *value);
+
+/* ---- Answers ------------------------------------------------------------------------------------------------------
+ */
+
+/* Answers to the questions of the public headers, without a message where they fail: what the library itself asks.
+ * query/question gives them to the caller. Errors as of dmb_query_ with the same name. */
+int32_t dmb_answer_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state);
+int32_t dmb_answer_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count);
+int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact);
+int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum);
+int32_t dmb_answer_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state);
+int32_t dmb_answer_energy(const dmb_sim *sim, dmb_energy *energy);
+int32_t dmb_answer_flow(const dmb_sim *sim, dmb_flow_state *flow);
+int32_t dmb_answer_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point);
+int32_t dmb_answer_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state);
+int32_t dmb_answer_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy);
+int32_t dmb_answer_momentum(const dmb_sim *sim, dmb_momentum *momentum);
+int32_t dmb_answer_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion);
+int32_t dmb_answer_motion_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_motion *motion);
+int32_t dmb_answer_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count);
+int32_t dmb_answer_output(const dmb_sim *sim, const dmb_output *output, double *value);
+int32_t dmb_answer_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose);
+int32_t dmb_answer_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose);
+int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *profile);
+int32_t dmb_answer_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
+int32_t dmb_answer_rotation(const dmb_sim *sim, dmb_place place, double *angle);
+int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer);
+int32_t dmb_answer_section(const dmb_sim *sim, dmb_place place, dmb_section *section);
+int32_t dmb_answer_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *state);
+int32_t dmb_answer_statistics(const dmb_sim *sim, dmb_statistics *statistics);
+int32_t dmb_answer_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state);
 
 #endif

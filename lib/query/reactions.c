@@ -77,7 +77,7 @@ static void frame_b(const dmb_sim *sim, uint32_t j, double world[9])
     dmb_mat3_mul(R, sim->scene->joints[j].b.M, world);
 }
 
-int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state)
+int32_t dmb_answer_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state)
 {
     int32_t status = dmb_ask(sim, state);
     dmb_joint_state asked, answer = {0};
@@ -105,7 +105,7 @@ int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state
     return dmb_joint_state_write(state, &answer);
 }
 
-int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
+int32_t dmb_answer_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
 {
     const int32_t status = dmb_ask(sim, multipliers);
     if (status < 0) return status;
@@ -178,7 +178,7 @@ static void held_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
     }
 }
 
-int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
+int32_t dmb_answer_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
 {
     const int32_t status = dmb_ask(sim, reaction);
     uint32_t string, body, node;
@@ -206,7 +206,7 @@ int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
 
 DMB_DECLARE_STRUCT(dmb_drive_state)
 
-int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state)
+int32_t dmb_answer_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state)
 {
     const int32_t status = dmb_ask(sim, state);
     dmb_drive_state answer = {0};
@@ -230,7 +230,7 @@ int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state
 
 DMB_DECLARE_STRUCT(dmb_bit_state)
 
-int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
+int32_t dmb_answer_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
 {
     const int32_t status = dmb_ask(sim, state);
     dmb_bit_state answer = {0};
@@ -262,7 +262,7 @@ static void world_point(const dmb_scene *scene, const dmb_point_motion *point, d
     if (point->nodes > 0) dmb_vec3_add(x, scene->reference_position + 3 * (size_t)point->node[0], x);
 }
 
-int32_t dmb_query_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *state)
+int32_t dmb_answer_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *state)
 {
     const int32_t status = dmb_ask(sim, state);
     dmb_spring_state answer = {0};
@@ -296,7 +296,7 @@ static int32_t is_driven(const dmb_scene *scene, uint32_t row)
     return 0;
 }
 
-int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
+int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
 {
     static const int32_t path_component[2] = {DMB_X, DMB_RX};
     const int32_t status = dmb_ask(sim, answer);
@@ -315,7 +315,7 @@ int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
     return dmb_row_write(answer, &found);
 }
 
-int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count)
+int32_t dmb_answer_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count)
 {
     const int32_t status = dmb_ask(sim, first);
     uint32_t before = 0;

@@ -32,7 +32,7 @@ static void section_strain(const dmb_scene *scene, const dmb_configuration *conf
     for (int i = 1; i < 3; i++) strain[i] *= type->stiffness[i] * type->length / type->strain_stiffness[i];
 }
 
-int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *section)
+int32_t dmb_answer_section(const dmb_sim *sim, dmb_place place, dmb_section *section)
 {
     int32_t status = dmb_ask(sim, section);
     dmb_material_point point;
@@ -198,7 +198,7 @@ static void sum_pieces(const dmb_sim *sim, dmb_flow_state *answer)
     }
 }
 
-int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow)
+int32_t dmb_answer_flow(const dmb_sim *sim, dmb_flow_state *flow)
 {
     const int32_t status = dmb_ask(sim, flow);
     dmb_flow_state answer = {0};

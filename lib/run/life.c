@@ -38,7 +38,7 @@ static void tell(const dmb_sim_options *options, int32_t status, const dmb_messa
 /* Ends a call that failed, whose model is one. */
 static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int32_t status, const dmb_message *message)
 {
-    dmb_create_message_set(model, message->text[0] != '\0' ? message->text : dmb_status_text(status));
+    (void)dmb_model_fail(model, status, "sim", message->text);
     tell(options, status, message);
     return status;
 }
@@ -87,8 +87,7 @@ static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_option
     if (status == DMB_OK) status = take_allocator(c, model);
     if (status == DMB_OK) status = take_size(c, model);
     if (status >= 0) return status;
-    if (dmb_handle_is(model, DMB_HANDLE_MODEL))
-        dmb_create_message_set(model, c->message.text[0] != '\0' ? c->message.text : dmb_status_text(status));
+    if (dmb_handle_is(model, DMB_HANDLE_MODEL)) (void)dmb_model_fail(model, status, "sim", c->message.text);
     tell_refusal(options, status, &c->message);
     return status;
 }
@@ -97,7 +96,7 @@ int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *optio
 {
     creation c;
     int32_t status;
-    if (size == NULL) return DMB_ERR_NULL;
+    if (size == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
     status = prepare(&c, model, options);
     if (status == DMB_OK) *size = c.bytes;
     return status;
@@ -136,6 +135,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     }
     sim->owns_memory = owns_memory;
     sim->model = model;
+    sim->calls = (uint64_t)dmb_new_stamp() << 32;
     sim->options = c->options;
     sim->allocator = c->allocator;
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
@@ -150,7 +150,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
         give_back(sim);
         return status;
     }
-    dmb_create_message_clear(model);
+    dmb_model_failure_forget(model);
     tell(&sim->options, status, &sim->message);
     sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
     const int32_t asked = dmb_events_check(sim);
@@ -168,7 +168,7 @@ int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim
     creation c;
     void *block;
     int32_t status;
-    if (sim == NULL) return DMB_ERR_NULL;
+    if (sim == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
     *sim = NULL;
     status = prepare(&c, model, options);
     if (status < 0) return status;
@@ -187,9 +187,9 @@ int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void
 {
     creation c;
     int32_t status;
-    if (sim == NULL) return DMB_ERR_NULL;
+    if (sim == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
     *sim = NULL;
-    if (block == NULL) return DMB_ERR_NULL;
+    if (block == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
     status = prepare(&c, model, options);
     if (status < 0) return status;
     if (size < c.bytes) {
@@ -216,7 +216,10 @@ void dmb_sim_destroy(dmb_sim **sim)
 const char *dmb_sim_message(const dmb_sim *sim)
 {
     if (sim == NULL) return dmb_status_text(DMB_ERR_NULL);
-    return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->message.text : dmb_status_text(DMB_ERR_HANDLE);
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_status_text(DMB_ERR_HANDLE);
+    const dmb_failed_object of = {sim, sim->calls};
+    const char *failed = dmb_failure_text(&of);
+    return failed != NULL ? failed : sim->message.text;
 }
 
 double dmb_sim_time(const dmb_sim *sim)
@@ -283,11 +286,11 @@ static void fill_info(const dmb_scene *scene, dmb_model_info *info)
 int32_t dmb_model_get_info(const dmb_model *model, dmb_model_info *info)
 {
     dmb_model_info answer = dmb_model_info_default();
-    if (model == NULL || info == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
-    if (model->scene == NULL) return DMB_ERR_ORDER;
+    if (model == NULL || info == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
+    if (model->scene == NULL) return dmb_model_told(model, "model", DMB_ERR_ORDER);
     fill_info(model->scene, &answer);
-    return dmb_model_info_write(info, &answer);
+    return dmb_model_told(model, "model", dmb_model_info_write(info, &answer));
 }
 
 /* The abilities of this build. */
@@ -301,7 +304,7 @@ int32_t dmb_has(int32_t what)
     case DMB_HAS_CHOLMOD: return dmb_has_cholmod();
     case DMB_HAS_FILES: return DMB_WITH_FILES;
     case DMB_HAS_HEAP: return DMB_WITH_HEAP;
-    default: return DMB_ERR_VALUE;
+    default: return dmb_told("ability", DMB_ERR_VALUE);
     }
 }
 

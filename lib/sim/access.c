@@ -19,13 +19,23 @@ void dmb_sim_refuse_re_entry(dmb_sim *sim)
                     sim->clock->time);
 }
 
+/* A call on a sim fails; within a call of the library's own it is for that one to tell. */
+int32_t dmb_sim_fail(const dmb_sim *sim, int32_t status, const char *call, const char *text)
+{
+    if (sim == NULL) return dmb_failure(NULL, NULL, status, call, text);
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_failure(NULL, NULL, status, call, text);
+    if (sim->progress->nested > 0 || sim->progress != &sim->own_progress) return status; /* a copy for an analysis */
+    const dmb_failed_object of = {sim, sim->calls};
+    return dmb_failure(&of, &sim->model->on_error, status, call, text);
+}
+
 static int32_t take(dmb_sim *sim, int32_t busy)
 {
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    if (sim == NULL) return dmb_sim_fail(sim, DMB_ERR_NULL, "sim", NULL);
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_sim_fail(sim, DMB_ERR_HANDLE, "sim", NULL);
     if (sim->busy != DMB_BUSY_NOT) {
         dmb_sim_refuse_re_entry(sim);
-        return DMB_ERR_ORDER;
+        return dmb_sim_fail(sim, DMB_ERR_ORDER, "sim", sim->message.text);
     }
     sim->busy = busy;
     return DMB_OK;
@@ -35,6 +45,7 @@ int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy)
 {
     const int32_t status = take(sim, busy);
     if (status == DMB_OK) {
+        sim->calls++;
         dmb_message_clear(&sim->message);
         dmb_progress_begin(sim);
     }
@@ -52,18 +63,20 @@ int32_t dmb_sim_occupy(const dmb_sim *sim)
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
+    sim->calls++; /* calls that its callbacks made in vain are over */
     if (status == DMB_ERR_CALLBACK && sim->message.text[0] == '\0')
         dmb_message_set(
             &sim->message,
             "sim: the callback of a time function, force or constraint failed or gave a value beyond +-1e30 on "
             "the way from time %g",
             sim->clock->time);
-    if (status >= 0 || !sim->progress->cancelled) return status;
+    if (status >= 0) return status;
+    if (!sim->progress->cancelled) return dmb_sim_fail(sim, status, "sim", sim->message.text);
     dmb_message_set(&sim->message,
                     "sim: the caller's progress function ended the call at time %g, %g %% of it done; make "
                     "it again for its answer",
                     sim->clock->time, floor(100.0 * sim->progress->done + 0.5));
-    return DMB_ERR_CANCELLED;
+    return dmb_sim_fail(sim, DMB_ERR_CANCELLED, "sim", sim->message.text);
 }
 
 void dmb_sim_hand_on(dmb_sim *sim, double from, double to)

@@ -26,12 +26,21 @@ static inline int32_t dmb_ask(const dmb_sim *sim, const void *answer)
     return answer != NULL ? DMB_OK : DMB_ERR_NULL;
 }
 
+/* A call on the sim fails: dmb_last_error and the error handler have it. text NULL: that of the status. Returns status.
+ */
+int32_t dmb_sim_fail(const dmb_sim *sim, int32_t status, const char *call, const char *text);
+/* The same for a call that asks; passes on what is no failure. */
+static inline int32_t dmb_sim_told(const dmb_sim *sim, const char *call, int32_t status)
+{
+    return status >= 0 ? status : dmb_sim_fail(sim, status, call, NULL);
+}
+
 /* Begins a call that changes the sim or runs functions of the caller's: the message is clear and the sim busy until
  * dmb_sim_leave. Errors: DMB_ERR_NULL, _HANDLE; DMB_ERR_ORDER with a message where it is busy already. sim/access */
 int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy);
 /* The same for a call that asks only and leaves the message; a sim is never made const, and `busy` is all it writes. */
 int32_t dmb_sim_occupy(const dmb_sim *sim);
-/* Gives the status back. */
+/* Gives the status back; a failure is the thread's last error, with the message of the sim. */
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status);
 /* Between these two the sim is handed to a public call that is part of the one under way, from .. to of it. */
 void dmb_sim_hand_on(dmb_sim *sim, double from, double to);

@@ -420,6 +420,7 @@ struct dmb_sim {
     int32_t owns_memory; /* 1: block came from `allocator` */
     int32_t busy;        /* DMB_BUSY_...: a call on it is under way; neither saved nor hashed */
     int32_t reserved;
+    uint64_t calls; /* number of the last call that changes the sim, from one of its own on; tells failures apart */
     dmb_model *model;
     const dmb_scene *scene;
     dmb_sim_options options;

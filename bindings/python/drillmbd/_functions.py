@@ -48,6 +48,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
     "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
+    "dmb_error_init": (c_int32, POINTER(ErrorStruct), c_uint32,),
     "dmb_event_def_init": (c_int32, POINTER(EventDef), c_uint32,),
     "dmb_event_report_init": (c_int32, POINTER(EventReport), c_uint32,),
     "dmb_excitation_init": (c_int32, POINTER(Excitation), c_uint32,),
@@ -72,6 +73,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_input_state_init": (c_int32, POINTER(InputState), c_uint32,),
     "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
     "dmb_joint_state_init": (c_int32, POINTER(JointState), c_uint32,),
+    "dmb_last_error": (c_int32, POINTER(ErrorStruct),),
     "dmb_load_def_init": (c_int32, POINTER(LoadDef), c_uint32,),
     "dmb_mode_init": (c_int32, POINTER(Mode), c_uint32,),
     "dmb_mode_shape_init": (c_int32, POINTER(ModeShape), c_uint32,),
@@ -316,6 +318,8 @@ FUNCTION_DOCS = {
         "Takes a sample; call it after each step, 20 times a revolution or more: stress peaks between samples are not counted. Another sim of the same model may be given. Allocates nothing. O(places x points).",
     "dmb_has":
         "1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there. ERR_VALUE: none of the above. Thread-safe.",
+    "dmb_last_error":
+        "The last failing call of this thread. Errors: ERR_NULL, ERR_STRUCT_SIZE.",
     "dmb_model_add_force":
         "Errors as of a spring; ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady` of statics) are refused where it acts on moving parts.",
     "dmb_model_add_hole_sections":
@@ -361,7 +365,7 @@ FUNCTION_DOCS = {
     "dmb_model_input_count":
         "[-] inputs described so far; 0 for a bad handle. Number `index` in that order, by name: ERR_ID for none.",
     "dmb_model_message":
-        "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
+        "Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of a compiled model, and of questions, each thread reads the failure of its own calls.",
     "dmb_model_place_at_end":
         "Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other joints hold there. Either may be NULL. Errors: as above.",
     "dmb_model_set_name":
@@ -473,7 +477,7 @@ FUNCTION_DOCS = {
     "dmb_sim_memory_size":
         "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled), ERR_VALUE.",
     "dmb_sim_message":
-        "Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim.",
+        "Message of the last failing or noteworthy call on this sim, of questions that of the calling thread. Never NULL; lives until the next call on the sim.",
     "dmb_sim_record_inputs":
         "From now on set points go into `records`, shape (capacity), which the caller keeps alive; NULL with 0: no more. A call beyond the capacity still sets its value: NOTE_FULL. The log is neither saved in snapshots nor hashed.",
     "dmb_sim_replay_inputs":
@@ -483,7 +487,7 @@ FUNCTION_DOCS = {
     "dmb_sim_set_input":
         "From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are adapted to jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where a bound was taken instead. Setting a value again does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR. O(elements).",
     "dmb_sim_set_joint":
-        "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message states by how much), accelerations follow. That energy, and the energy stored in springs and stops that are released or engaged, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and continues from where it is when the joint closes; a coupling keeps its offset, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
+        "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED, the message gives the change); that energy, and the energy of springs and stops that are disconnected or connected, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate, a coupling keeps its offset, so a gear that has slipped cannot close. A joint that a motion drive moves cannot be locked. Errors, with nothing changed: ERR_ID, _VALUE, _GEOMETRY (parts or couplings do not fit within 1e-6 m and rad, or axes point against each other; a drive's speed cannot be reached), _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_progress":
         "From now on dmb_sim_step, _steps, _advance and all analyses of this sim call `function` at bounded intervals in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK is one interval. Nonzero ends the call with ERR_CANCELLED and nothing changed (dmb_sim_steps and dmb_analysis_stepped_sine: in the last accepted state); dmb_sim_advance ends with NOTE_CANCELLED in its last accepted state. A signal handler or another thread sets a flag that the function reads. NULL (default): no callback. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
     "dmb_sim_snapshot_size":
@@ -495,7 +499,7 @@ FUNCTION_DOCS = {
     "dmb_sim_time":
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":
-        "Continues from the state of `from`, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and its time functions from now on, may differ. The head releases the string, draws back and grips the new rig end: support, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but restarts the ledger). Supports hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message states by how much. Time, statistics, drives, contacts, joints and cut rock continue. So does the energy ledger: energies change by those of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; revolutions continue, but for the difference about the axis in a hole that bends. Random numbers of pipes follow their place in the string counted from the rig, so they are drawn again. Fails unless all else is of the same kind and number: ERR_VALUE, with the difference; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
+        "Continues from the state of `from` in a sim of another model that has pipes more or fewer at the rig end of its strings; the start of its strings and its time functions may differ, all else must be of the same kind and number (ERR_VALUE names the difference). Pipes are matched from the far end and keep pose and state; added pipes start unstressed in line with the old rig end and move with it. Supports, drives and bodies fixed to the rig end act on the new one at once, so do it at rest; speeds that they do not allow are projected (NOTE_PROJECTED). Time, statistics, drives, contacts, joints, cut rock and the energy ledger continue; energies change by those of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses of the new model. Random numbers of pipes are drawn again. Added pipes of a tilted rig end may penetrate the wall: dmb_analysis_static settles the string, but restarts the ledger. Errors, with sim as before: also ERR_GEOMETRY (a joint does not fit), _SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE. O(number of elements).",
     "dmb_state_space_dense":
         "One of A, B, C, D, row by row.",
     "dmb_state_space_destroy":

@@ -47,6 +47,60 @@ class Allocator(Sized):
     }
 
 
+class ErrorStruct(Sized):
+    c_name, about = "dmb_error", "dmb_last_error gives the last call of this thread that failed, on any object; a call that succeeds leaves it unchanged. dmb_model_message and dmb_sim_message give the message alone."
+    struct_size: int
+    status: int
+    number: int
+    component: int
+    value: float
+    low: float
+    high: float
+    part: bytes
+    kind: bytes
+    name: bytes
+    field: bytes
+    given: bytes
+    bound: bytes
+    advice: bytes
+    message: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, status: int = ..., number: int = ..., component: int = ..., value: SupportsFloat = ..., low: SupportsFloat = ..., high: SupportsFloat = ..., part: str | bytes = ..., kind: str | bytes = ..., name: str | bytes = ..., field: str | bytes = ..., given: str | bytes = ..., bound: str | bytes = ..., advice: str | bytes = ..., message: str | bytes = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("status", c_int32),
+        ("number", c_uint32),
+        ("component", c_uint32),
+        ("value", c_double),
+        ("low", c_double),
+        ("high", c_double),
+        ("part", c_char * 128),
+        ("kind", c_char * 32),
+        ("name", c_char * 24),
+        ("field", c_char * 64),
+        ("given", c_char * 96),
+        ("bound", c_char * 256),
+        ("advice", c_char * 384),
+        ("message", c_char * 512),
+    ]
+    field_docs = {
+        "status": ("", "ERR_...; 0: no call of this thread has failed"),
+        "number": ("-", "of the part among those of its kind; NONE: it has none"),
+        "component": ("-", "of a field that is an array; NONE: it is none"),
+        "value": ("unit of the field", "refused value and its range; NaN: no number, no range"),
+        "low": ("unit of the field", "refused value and its range; NaN: no number, no range"),
+        "high": ("unit of the field", "refused value and its range; NaN: no number, no range"),
+        "part": ("", "\"string 0 (main), pipe 12 (collars)\", as in the message; all texts end with 0"),
+        "kind": ("", "\"pipe\", \"collars\": of the innermost part; \"\" as all that a failure does not have"),
+        "name": ("", "\"pipe\", \"collars\": of the innermost part; \"\" as all that a failure does not have"),
+        "field": ("", "\"outer_diameter\""),
+        "given": ("", "the value as text: \"0.07\", \"(1, 2, 3)\""),
+        "bound": ("", "\"be finite and > inner_diameter (0.08)\"; a bound after > or < is not in the range"),
+        "advice": ("", "the remedy"),
+        "message": ("", "all of it in one sentence"),
+    }
+
+
 class EnvironmentDef(Sized):
     c_name, about = "dmb_environment_def", "For dmb_model_set_environment."
     struct_size: int
@@ -2152,29 +2206,6 @@ class Place(Record):
     }
 
 
-class ModelOptions(Sized):
-    c_name, about = "dmb_model_options", "For dmb_model_create."
-    struct_size: int
-    reserved: int
-    allocator: Any
-    log: Any
-    log_context: Any
-    if TYPE_CHECKING:
-        def __init__(self, *, allocator: Any = ..., log: Any = ..., log_context: Any = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("allocator", POINTER(Allocator)),
-        ("log", LOG_FN),
-        ("log_context", c_void_p),
-    ]
-    field_docs = {
-        "allocator": ("", "copied; NULL: malloc and free"),
-        "log": ("", "NULL: silent"),
-        "log_context": ("", ""),
-    }
-
-
 class Segment(SegmentPart, Sized):
     c_name, about = "dmb_segment", "For dmb_model_add_time_function."
     struct_size: int
@@ -2962,12 +2993,45 @@ class Row(Sized):
     }
 
 
+ERROR_FN = CFUNCTYPE(None, c_void_p, POINTER(ErrorStruct))
+ERROR_FN.__doc__ = "Sees each failing call on a model and its sims, at its end and in its thread; may not change them."
+
+
 PARALLEL_FN = CFUNCTYPE(c_int32, c_void_p, c_uint32, PART_FN, c_void_p)
-PARALLEL_FN.__doc__ = "Long strings on several cores, by threads of the caller's: a step of dmb_sim_step or _advance hands its work to this function some ten times an iteration, in the thread of the call. It calls part(work, i) once for each i < count, in any threads and order, several at once if it can, and returns 0 when all of these calls have returned; anything else, and parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits as without it in any number of parts, where threads have the usual floating-point environment (rounding to nearest, denormal numbers kept). They need 64 kB of free stack. Parts call no function of the caller's: forces, time functions, constraints stay in the thread of the call, as do drives, joints and bits. The function must not change the sim. A part that is still running when it returns, or that runs twice at once, is the caller's error and not always found. It is faster with threads that wait for work in a loop (a start in 2 us, not in 20): examples/two_cores."
+PARALLEL_FN.__doc__ = "Long strings on several cores, with threads of the caller's: dmb_sim_step and _advance call this function some ten times an iteration. It calls part(work, i) once for each i < count, in any threads and order, and returns 0 when all have returned; another value, or parts left out, end the step with ERR_CALLBACK, the sim unchanged. Results have the same bits in any number of parts, if all threads round to nearest and keep denormal numbers. A part needs 64 kB of stack and calls no callback. A part that still runs when the function returns, or that runs twice at once, is the caller's error and not always found. It is faster with threads that spin (start in 2 us): examples/two_cores."
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
 PATH_FN.__doc__ = "Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the call, restored into the sim the path began with. Returns 0, or nonzero to stop."
+
+
+class ModelOptions(Sized):
+    c_name, about = "dmb_model_options", "For dmb_model_create."
+    struct_size: int
+    reserved: int
+    allocator: Any
+    log: Any
+    log_context: Any
+    on_error: Any
+    error_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, allocator: Any = ..., log: Any = ..., log_context: Any = ..., on_error: Any = ..., error_context: Any = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(Allocator)),
+        ("log", LOG_FN),
+        ("log_context", c_void_p),
+        ("on_error", ERROR_FN),
+        ("error_context", c_void_p),
+    ]
+    field_docs = {
+        "allocator": ("", "copied; NULL: malloc and free"),
+        "log": ("", "NULL: silent"),
+        "log_context": ("", ""),
+        "on_error": ("", "NULL: none"),
+        "error_context": ("", ""),
+    }
 
 
 class LoadDef(Sized):
@@ -3651,6 +3715,7 @@ STRUCTS: dict[str, Any] = {}  # name in C -> class
 STRUCTS["dmb_id"] = Id
 STRUCTS["dmb_place"] = Place
 STRUCTS["dmb_allocator"] = Allocator
+STRUCTS["dmb_error"] = ErrorStruct
 STRUCTS["dmb_model_options"] = ModelOptions
 STRUCTS["dmb_environment_def"] = EnvironmentDef
 STRUCTS["dmb_segment"] = Segment

@@ -12,9 +12,11 @@
 
 #include <string.h>
 
+#include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "system/system.h"
 
@@ -281,7 +283,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
 
 int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
 {
-    if (sim == NULL || buckling == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || buckling == NULL) return dmb_sim_told(sim, "buckling", DMB_ERR_NULL);
     *buckling = NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, buckling));
@@ -289,9 +291,9 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
 
 int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info)
 {
-    if (buckling == NULL || info == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return DMB_ERR_HANDLE;
-    return dmb_buckling_info_write(info, &buckling->info);
+    if (buckling == NULL || info == NULL) return dmb_told("buckling", DMB_ERR_NULL);
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return dmb_told("buckling", DMB_ERR_HANDLE);
+    return dmb_told("buckling", dmb_buckling_info_write(info, &buckling->info));
 }
 
 uint32_t dmb_buckling_count(const dmb_buckling *buckling)
@@ -310,7 +312,7 @@ int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double 
 {
     const int32_t status = check_mode(buckling, mode, factor);
     if (status == DMB_OK) *factor = buckling->factor[mode];
-    return status;
+    return dmb_told("buckling", status);
 }
 
 /* A shape is a field of small displacements, interpolated like a field of velocities. */
@@ -318,10 +320,10 @@ int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_plac
 {
     int32_t status = check_mode(buckling, mode, shape);
     dmb_motion motion = dmb_motion_default();
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("buckling", status);
     const size_t rows = buckling->work->scene->row_count;
     memcpy(buckling->work->now.velocity, buckling->shape + mode * rows, rows * sizeof(double));
-    status = dmb_query_motion(buckling->work, place, &motion);
+    status = dmb_answer_motion(buckling->work, place, &motion);
     if (status == DMB_OK) memcpy(shape, motion.velocity, sizeof motion.velocity);
-    return status;
+    return dmb_told("buckling", status);
 }

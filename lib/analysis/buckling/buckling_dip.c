@@ -7,6 +7,7 @@
 #include "analysis/buckling/buckling.h"
 #include "base/memory.h"
 #include "drillmbd/query.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "system/system.h"
 
@@ -188,7 +189,7 @@ static double largest_share(const dmb_sim *at, dmb_id string)
     profile.quantities = quantity;
     profile.quantity_count = 1;
     profile.values = values;
-    if (dmb_query_profile(at, &profile) < 0) return most;
+    if (dmb_answer_profile(at, &profile) < 0) return most;
     for (int i = 0; i < STATIONS; i++) most = fmax(most, values[i]); /* fmax ignores NaN */
     return most;
 }

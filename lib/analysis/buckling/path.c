@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"
@@ -45,7 +46,7 @@ static int32_t check_place(dmb_sim *sim, const dmb_path_options *options)
 {
     dmb_pose pose = dmb_pose_default();
     if (options->place.part.generation == 0) return DMB_OK;
-    const int32_t status = dmb_query_pose(sim, options->place, &pose);
+    const int32_t status = dmb_answer_pose(sim, options->place, &pose);
     if (status < 0) dmb_message_set(&sim->message, "path options: place is no place of this model");
     return status;
 }

@@ -8,6 +8,7 @@
 #include "analysis/buckling/buckling.h"
 #include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/assemble.h"
@@ -132,7 +133,7 @@ static double watched_of(const dmb_path *path)
     if (path->options->place.part.generation == 0) return 0.0;
     const dmb_configuration now = path->work->now; /* the query reads `now` */
     path->work->now = path->work->trial;
-    (void)dmb_query_pose(path->work, path->options->place, &pose); /* the place was checked with the options */
+    (void)dmb_answer_pose(path->work, path->options->place, &pose); /* the place was checked with the options */
     path->work->now = now;
     return pose.displacement[path->options->component];
 }

@@ -16,7 +16,7 @@ static int32_t motion_component(const dmb_sim *copy, dmb_place place, int32_t fr
 {
     dmb_motion motion = dmb_motion_default();
     motion.frame = frame;
-    const int32_t status = dmb_query_motion(copy, place, &motion);
+    const int32_t status = dmb_answer_motion(copy, place, &motion);
     *value = motion.velocity[component];
     return status;
 }
@@ -193,35 +193,35 @@ static double of_motion(const dmb_sim *sim, const dmb_response_output *o, int32_
 {
     dmb_motion motion = dmb_motion_default();
     motion.frame = o->frame;
-    *status = dmb_query_motion(sim, o->place, &motion);
+    *status = dmb_answer_motion(sim, o->place, &motion);
     return o->kind == DMB_RESPONSE_VELOCITY ? motion.velocity[o->component] : motion.acceleration[o->component];
 }
 
 static double of_section(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
 {
     dmb_section section = dmb_section_default();
-    *status = dmb_query_section(sim, o->place, &section);
+    *status = dmb_answer_section(sim, o->place, &section);
     return o->kind == DMB_RESPONSE_SECTION_FORCE ? section.force[o->component] : section.strain[o->component];
 }
 
 static double of_contact(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
 {
     dmb_contact contact = dmb_contact_default();
-    *status = dmb_query_contact(sim, o->place.pipe, &contact);
+    *status = dmb_answer_contact(sim, o->place.pipe, &contact);
     return o->component == DMB_Z ? contact.normal_force : contact.friction[o->component == DMB_Y];
 }
 
 static double of_drive(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
 {
     dmb_drive_state state = dmb_drive_state_default();
-    *status = dmb_query_drive(sim, o->place.part, &state);
+    *status = dmb_answer_drive(sim, o->place.part, &state);
     return state.force;
 }
 
 static double of_support(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
 {
     double reaction[6] = {0.0};
-    *status = dmb_query_reaction(sim, o->place.part, reaction);
+    *status = dmb_answer_reaction(sim, o->place.part, reaction);
     return reaction[o->component];
 }
 
@@ -229,7 +229,7 @@ static double of_joint(const dmb_sim *sim, const dmb_response_output *o, int32_t
 {
     dmb_joint_state state = dmb_joint_state_default();
     state.frame = o->frame;
-    *status = dmb_query_joint(sim, o->place.part, &state);
+    *status = dmb_answer_joint(sim, o->place.part, &state);
     switch (o->kind) {
     case DMB_RESPONSE_JOINT_POSITION: return state.position[o->component];
     case DMB_RESPONSE_JOINT_SPEED: return state.speed[o->component];
@@ -243,7 +243,7 @@ static double of_multiplier(const dmb_sim *sim, const dmb_response_output *o, in
 {
     double multipliers[6] = {0.0};
     uint32_t count = 0;
-    *status = dmb_query_multipliers(sim, o->place.part, multipliers, &count);
+    *status = dmb_answer_multipliers(sim, o->place.part, multipliers, &count);
     if (*status >= 0 && (uint32_t)o->component >= count) *status = DMB_ERR_VALUE;
     return multipliers[o->component];
 }
@@ -251,7 +251,7 @@ static double of_multiplier(const dmb_sim *sim, const dmb_response_output *o, in
 static double of_bit(const dmb_sim *sim, const dmb_response_output *o, int32_t *status)
 {
     dmb_bit_state state = dmb_bit_state_default();
-    *status = dmb_query_bit(sim, o->place.part, &state);
+    *status = dmb_answer_bit(sim, o->place.part, &state);
     return o->component == DMB_X ? state.weight : state.torque;
 }
 

@@ -110,7 +110,9 @@ int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *findings)
     int32_t status = dmb_sim_occupy(sim);
     if (status < 0) return status;
     status = make(sim, findings);
-    return status < 0 ? dmb_sim_leave((dmb_sim *)sim, status) : DMB_OK;
+    if (status >= 0) return DMB_OK;
+    dmb_message_clear(&((dmb_sim *)sim)->message); /* that of an earlier call, which an answer would leave */
+    return dmb_sim_leave((dmb_sim *)sim, status);
 }
 
 void dmb_model_check_close(dmb_model_check *findings)
@@ -122,7 +124,7 @@ void dmb_model_check_close(dmb_model_check *findings)
 int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
 {
     dmb_model_check findings;
-    if (sim == NULL || report == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || report == NULL) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
     int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
     status = dmb_check_report_write(report, &findings.report);

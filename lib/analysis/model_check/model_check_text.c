@@ -4,6 +4,7 @@
 #include "analysis/model_check/model_check.h"
 #include "base/number.h"
 #include "base/sized_struct.h"
+#include "sim/access.h"
 
 enum { NAME_WIDTH = 22, NUMBER_WIDTH = 10 };
 
@@ -222,14 +223,14 @@ int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, siz
 {
     dmb_model_check findings;
     sheet s = {text, size, 0};
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    if (text == NULL && (size > 0 || needed == NULL)) return DMB_ERR_NULL;
+    if (sim == NULL) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_sim_told(sim, "model check", DMB_ERR_HANDLE);
+    if (text == NULL && (size > 0 || needed == NULL)) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
     const int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
     put_all(&s, &findings);
     dmb_model_check_close(&findings);
     if (size > 0) text[s.used < size ? s.used : size - 1] = '\0';
     if (needed != NULL) *needed = s.used + 1;
-    return s.used < size ? DMB_OK : DMB_NOTE_FULL;
+    return dmb_sim_told(sim, "model check", s.used < size ? DMB_OK : DMB_NOTE_FULL);
 }

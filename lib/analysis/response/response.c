@@ -3,6 +3,7 @@
 
 #include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
+#include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
@@ -71,7 +72,7 @@ static int32_t ask(const dmb_response *response, const void *answer)
 int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3])
 {
     const int32_t status = ask(response, dimensions);
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("response", status);
     dimensions[0] = response->points;
     dimensions[1] = response->excitations;
     dimensions[2] = response->outputs;
@@ -82,7 +83,7 @@ int32_t dmb_response_frequencies(const dmb_response *response, double *frequenci
 {
     const int32_t status = ask(response, frequencies);
     if (status == DMB_OK) memcpy(frequencies, response->frequency, response->points * sizeof(double));
-    return status;
+    return dmb_told("response", status);
 }
 
 /* to += amplitude e^(i phase) value */
@@ -104,8 +105,9 @@ void dmb_response_combined(const dmb_response *response, size_t point, uint32_t 
 int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values)
 {
     const int32_t status = ask(response, values);
-    if (status < 0) return status;
-    if (output >= response->outputs || (input >= response->excitations && input != DMB_COMBINED)) return DMB_ERR_VALUE;
+    if (status < 0) return dmb_told("response", status);
+    if (output >= response->outputs || (input >= response->excitations && input != DMB_COMBINED))
+        return dmb_told("response", DMB_ERR_VALUE);
     for (size_t point = 0; point < response->points; point++) {
         double *to = values + 2 * point;
         if (input != DMB_COMBINED)
@@ -312,9 +314,9 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
                               uint32_t excitation_count, const dmb_response_output *outputs, uint32_t output_count,
                               dmb_response **response)
 {
-    if (response == NULL) return DMB_ERR_NULL;
+    if (response == NULL) return dmb_sim_told(sim, "response", DMB_ERR_NULL);
     *response = NULL;
-    if (sim == NULL || excitations == NULL || outputs == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || excitations == NULL || outputs == NULL) return dmb_sim_told(sim, "response", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     dmb_response_work w;

@@ -12,6 +12,7 @@
 
 #include "analysis/linear/linear.h"
 #include "drillmbd/output.h"
+#include "query/query.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
@@ -81,7 +82,7 @@ static double contact_answer(const dmb_sim *copy, const void *what)
 {
     const contact_question *q = what;
     dmb_contact contact = dmb_contact_default();
-    (void)dmb_query_contact(copy, q->site, &contact);
+    (void)dmb_answer_contact(copy, q->site, &contact);
     if (q->what == ASK_APPROACH) return contact.approach;
     return q->what == ASK_NORMAL ? contact.normal_force : contact.slip[q->what - ASK_SLIP];
 }
@@ -278,7 +279,7 @@ static void law_of_joint(const request *r, uint32_t j)
     coordinate(r, j, c, &position);
     (void)take_joint_nodes(r, j, &r->out->functional);
     if (joint->law == DMB_NONE || (joint->law_mask >> c & 1) == 0 || r->copy->joint_state[j] == DMB_JOINT_OPEN) return;
-    (void)dmb_query_joint(r->copy, r->output->place.part, &state);
+    (void)dmb_answer_joint(r->copy, r->output->place.part, &state);
     dmb_joint_force_at(r->copy->scene->laws + joint->law + c, state.position[c], state.speed[c], &force);
     dmb_functional_add(force.by_position, &position, &r->out->functional);
     dmb_functional_add_rate(force.by_speed, &position, &r->out->functional);

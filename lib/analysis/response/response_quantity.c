@@ -149,7 +149,7 @@ static int32_t moves(const meaning *m, int from)
 {
     dmb_motion motion = dmb_motion_default();
     double most = 0.0;
-    (void)dmb_query_motion(m->sim, m->out->place, &motion);
+    (void)dmb_answer_motion(m->sim, m->out->place, &motion);
     for (int i = from; i < 6; i++) most = fmax(most, fabs(motion.velocity[i]));
     return most > DMB_OUTPUT_AT_REST;
 }

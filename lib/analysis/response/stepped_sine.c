@@ -9,6 +9,7 @@
 #include "base/value_check.h"
 #include "drillmbd/response.h"
 #include "math/so3.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "sim/sim.h"
 
@@ -43,10 +44,10 @@ static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *st
     dmb_pose pose = dmb_pose_default();
     double angle = 0.0, world[3], out[3];
     if (c == DMB_RX) {
-        *status = dmb_query_rotation(sim, o->output.place, &angle);
+        *status = dmb_answer_rotation(sim, o->output.place, &angle);
         return angle;
     }
-    *status = dmb_query_pose(sim, o->output.place, &pose);
+    *status = dmb_answer_pose(sim, o->output.place, &pose);
     if (*status < 0) return 0.0;
     if (c < DMB_RX)
         dmb_vec3_copy(pose.displacement, world);
@@ -67,7 +68,7 @@ static int32_t begin_output(const dmb_sim *sim, sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
-    if (output->output.kind == DMB_RESPONSE_DISPLACEMENT) status = dmb_query_pose(sim, output->output.place, &pose);
+    if (output->output.kind == DMB_RESPONSE_DISPLACEMENT) status = dmb_answer_pose(sim, output->output.place, &pose);
     memcpy(output->start, pose.rotation, sizeof output->start);
     if (status >= 0) (void)value_of(sim, output, &status);
     return status;
@@ -297,7 +298,7 @@ int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_step
                                   const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
                                   dmb_stepped_sine_report *report)
 {
-    if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || outputs == NULL || amplitudes == NULL) return dmb_sim_told(sim, "stepped sine", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     sine_run r;

@@ -263,19 +263,26 @@ static int has_taken_the_last(const dmb_sensitivity *s)
 
 /* A step or an advance of the sim with the rates; step: a failing call takes all of it back; of an advance the steps
  * that were taken stay. */
+/* A call fails before the step, with the message of the sim or, where there is none, that of the status. */
+static int32_t refuse(const dmb_sensitivity *s, int32_t status)
+{
+    return dmb_sim_fail(s->sim, status, "sensitivity", s->sim->message.text);
+}
+
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);
-    if (status < 0) return status;
+    if (status < 0) return dmb_told("sensitivity", status);
     status = dmb_sensitivity_stands(s);
-    if (status < 0) return status;
+    if (status < 0) return refuse(s, status);
     if (!is_set_as_made(s)) {
         dmb_message_set(&s->sim->message,
                         "sensitivity: inputs were set since it was made, must stay; make a new one from here");
-        return DMB_ERR_ORDER;
+        return refuse(s, DMB_ERR_ORDER);
     }
+    dmb_message_clear(&s->sim->message);
     status = dmb_sensitivity_catch_up(s);
-    if (status < 0) return status;
+    if (status < 0) return refuse(s, status);
     const uint64_t kinks = kinks_of(s);
     s->busy = 1;
     s->advances = !step;

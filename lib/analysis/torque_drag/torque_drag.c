@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "analysis/torque_drag/soft_string.h"
+#include "base/failure.h"
 #include "base/memory.h"
 #include "base/value_check.h"
 #include "model/field_check.h"
@@ -26,11 +27,11 @@ int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
         [DMB_OPERATION_SLIDE] = {0.005, 0.0},       [DMB_OPERATION_BACK_REAM] = {-0.1, DMB_TWO_PI},
     };
     dmb_operation answer = dmb_operation_default();
-    if (out == NULL) return DMB_ERR_NULL;
-    if (operation < 0 || operation >= DMB_OPERATION_COUNT) return DMB_ERR_VALUE;
+    if (out == NULL) return dmb_told("operation", DMB_ERR_NULL);
+    if (operation < 0 || operation >= DMB_OPERATION_COUNT) return dmb_told("operation", DMB_ERR_VALUE);
     answer.axial_speed = usual[operation][0];
     answer.rotary_speed = usual[operation][1];
-    return dmb_operation_write(out, &answer);
+    return dmb_told("operation", dmb_operation_write(out, &answer));
 }
 
 const char *dmb_operation_name(int32_t operation)
@@ -264,7 +265,7 @@ int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *op
                                  uint32_t operation_count, dmb_torque_drag_row *rows)
 {
     request r = {.sim = sim};
-    if (sim == NULL || operations == NULL || rows == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || operations == NULL || rows == NULL) return dmb_sim_told(sim, "torque drag", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, analyse(&r, options, operations, operation_count, rows));
 }
@@ -327,7 +328,7 @@ int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_drag_opt
 {
     request r = {.sim = sim};
     sampling s = {.depth = depth, .axial_force = axial_force, .torque = torque, .wall_force = wall_force};
-    if (sim == NULL || operation == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || operation == NULL) return dmb_sim_told(sim, "torque drag profile", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, sample(&r, options, operation, station_count, &s));
 }
@@ -392,7 +393,7 @@ int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options
 {
     request r = {.sim = sim};
     fitting f = {.r = &r, .measured = measured, .value = value};
-    if (sim == NULL || operation == NULL || friction == NULL) return DMB_ERR_NULL;
+    if (sim == NULL || operation == NULL || friction == NULL) return dmb_sim_told(sim, "friction factor", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, fit(&f, options, operation, friction));
 }
