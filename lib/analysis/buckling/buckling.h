@@ -8,7 +8,7 @@
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
-/* ---- Paths: load patterns (path_loads.c) ----- */
+/* ---- Paths: load patterns (path_loads.c) ------------------------------------------------------------------------- */
 
 /* Loads that are scaled by the factor of a path or a buckling analysis, in addition to the present loads. */
 
@@ -34,7 +34,7 @@ void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evalu
 int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor,
                                     double *derivative);
 
-/* ---- Paths: path following (path.c, path_step.c) ----- */
+/* ---- Paths: path following (path.c, path_step.c) ----------------------------------------------------------------- */
 
 /* Workspace of path following. The copy `work` of the sim holds the last point in `now` and the next point in
  * `trial`. */
@@ -154,8 +154,7 @@ typedef struct dmb_pencil_matrix {
 
 typedef struct dmb_pencil {
     const dmb_scene *scene;
-    const dmb_sim *
-        sim; /* source of reduced_size, reduced_row and progress; set by the caller, NULL without joints and progress */
+    const dmb_sim *sim; /* of reduced_size, reduced_row, progress; by the caller, NULL without joints and progress */
     dmb_pencil_matrix K, G, work;
     uint32_t unknowns; /* length of a vector */
     uint32_t reserved;

@@ -122,7 +122,7 @@ static int32_t say_stable(follower *f)
     return DMB_NOTE_STOPPED;
 }
 
-/* ---- End of the path ----- */
+/* ---- End of the path --------------------------------------------------------------------------------------------- */
 
 /* Fractions of the last step before its end at which the state is linearised. */
 static const double step_back[] = {0.98, 0.9, 0.5, 0.0};
@@ -195,7 +195,7 @@ static int32_t end_at_dip(follower *f)
     return f->options->count > 1 ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
-/* ---- Stepping ----- */
+/* ---- Stepping ---------------------------------------------------------------------------------------------------- */
 
 static void choose_target(follower *f, int careful)
 {
@@ -346,7 +346,7 @@ int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, co
     return DMB_NOTE_INCOMPLETE;
 }
 
-/* ---- Runs with steps of half the length ----- */
+/* ---- Runs with steps of half the length -------------------------------------------------------------------------- */
 
 #define DMB_FOLLOW_RUNS 3
 #define DMB_FOLLOW_DIP_AGREES 1e-3

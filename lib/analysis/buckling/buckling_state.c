@@ -13,7 +13,7 @@
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
-/* ---- Rotation of a node ----- */
+/* ---- Rotation of a node ------------------------------------------------------------------------------------------ */
 
 /* Restriction of the rotation Q to the free components, of which a support leaves three, two (a plane), one or none. */
 static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9])
@@ -51,7 +51,7 @@ static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
     }
 }
 
-/* ---- Products ----- */
+/* ---- Products ---------------------------------------------------------------------------------------------------- */
 
 typedef struct square {
     const double *values;
@@ -100,7 +100,7 @@ void dmb_frames_turn_chains(dmb_sim *sim)
     }
 }
 
-/* ---- Reduced system ----- */
+/* ---- Reduced system ---------------------------------------------------------------------------------------------- */
 
 static uint32_t largest_block(const dmb_scene *scene)
 {

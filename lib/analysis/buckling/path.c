@@ -117,7 +117,7 @@ static int32_t begin(dmb_path *path)
     return DMB_OK;
 }
 
-/* ---- Path following ----- */
+/* ---- Path following ---------------------------------------------------------------------------------------------- */
 
 /* Reports a point. 0, or DMB_NOTE_STOPPED if the caller requests it. */
 static int32_t tell(dmb_path *path, int32_t kind)

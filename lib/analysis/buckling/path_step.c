@@ -197,7 +197,7 @@ int32_t dmb_path_event(const dmb_path *path)
     return dmb_path_end(path, DMB_EVENT_NONE);
 }
 
-/* ---- Softest shape ----- */
+/* ---- Softest shape ----------------------------------------------------------------------------------------------- */
 
 #define DMB_MODE_ITERATIONS 12
 
