@@ -1,8 +1,8 @@
 /* Pressures of the mud with the string's far end at any depth: circulation, and tripping with a closed end.
  *
  * A closed string that moves along at the speed v displaces v A_o into the annulus of the area A, and its surface drags
- * mud along: the pressure is that of a flow A (v A_o/A + K v) past a string at rest (eq:mud.trip). K is the mean
- * speed over v of mud that the surface of the pipe drags along, kappa the ratio of the diameters:
+ * mud along: the pressure is that of a flow A (v A_o/A + K v) past a string at rest (eq:mud.trip). K is the mean speed,
+ * over v, of the mud dragged along by the pipe surface, kappa the ratio of the diameters:
  *     laminar K = (kappa^2 - 2 kappa^2 ln kappa - 1)/(2 (1 - kappa^2) ln kappa), exact for Newtonian mud;
  *     turbulent K = (sqrt((kappa^4 + kappa)/(1 + kappa)) - kappa^2)/(1 - kappa^2)   (Burkhardt 1961). */
 #include <math.h>
@@ -17,20 +17,20 @@
 
 DMB_DEFINE_INIT(dmb_hydraulics, 96, {.depth = 0.0})
 
-#define STEP_MAX 2.0 /* [m] over which the hole's diameter is that of the middle */
+#define STEP_MAX 2.0 /* [m] length with a constant hole diameter, that of its middle */
 #define SPEED_MAX 10.0
 
 typedef struct column {
     const dmb_scene *scene;
     dmb_mud_flow flow;
-    double speed; /* [m/s] of the trip */
+    double speed; /* [m/s] trip speed */
     dmb_hydraulics sum;
-    double hole, pipe; /* [m] diameters that the shape is of */
+    double hole, pipe; /* [m] diameters of `shape` */
     dmb_annulus_shape shape;
     double last_bore; /* [m] inner diameter at the far end */
 } column;
 
-/* ---- One length of pipe in one diameter of hole ------------------------------------------------------------------ */
+/* ---- One length of pipe in a hole of constant diameter ----------------------------------------------------------- */
 
 static double clinging(double k, int turbulent)
 {
@@ -44,7 +44,7 @@ static void largest(double value, double *of)
     if (value > *of) *of = value;
 }
 
-/* Laminar first; where the Reynolds number says otherwise the turbulent constant. */
+/* Pressure loss of tripping: laminar first, with the turbulent constant above the critical Reynolds number. */
 static dmb_flow_loss trip_loss(const column *c, double pipe, double hole)
 {
     const double k = pipe / hole, area = dmb_ring_area(hole, pipe), displaced = dmb_ring_area(pipe, 0.0);
@@ -74,7 +74,7 @@ static void add_length(column *c, const double diameter[2], double hole, double 
     largest(trip.reynolds, &c->sum.reynolds);
 }
 
-/* ---- The string, from its far end up ----------------------------------------------------------------------------- */
+/* ---- The string, from its far end upwards ------------------------------------------------------------------------ */
 
 static void add_part(column *c, const dmb_pipe_def *pipe, int in_tool_joint, double from, double to)
 {
@@ -102,9 +102,9 @@ static void add_string(column *c, const dmb_model *model, double start, double d
         }
 }
 
-/* ---- The call ---------------------------------------------------------------------------------------------------- */
+/* ---- Query ------------------------------------------------------------------------------------------------------- */
 
-/* [m] of a place of the hole under its start, along gravity; 0 without gravity. */
+/* [m] Vertical depth of a place of the hole below its start, along gravity; 0 without gravity. */
 static double vertical_depth(const dmb_scene *scene, double start, double depth)
 {
     const double g = dmb_vec3_norm(scene->gravity);
@@ -115,7 +115,7 @@ static double vertical_depth(const dmb_scene *scene, double start, double depth)
     return g > 0.0 ? dmb_vec3_dot(scene->gravity, down) / g : 0.0;
 }
 
-/* [kg/m3] of a mud at rest with the same pressure (eq:mud.ecd); none above or at the height of the collar. */
+/* [kg/m3] Density of a mud at rest with the same pressure (eq:mud.ecd); NaN above or at the height of the collar. */
 static double equivalent(const column *c, double pressure)
 {
     const double column_weight = dmb_vec3_norm(c->scene->gravity) * c->sum.vertical_depth;

@@ -4,17 +4,17 @@
 
 #include "model/section.h"
 
-/* ---- Strings that are none --------------------------------------------------------------------------------------- */
+/* ---- Strings outside the soft-string model ----------------------------------------------------------------------- */
 
-/* Does a place lie on the string below its rig end? */
+/* 1: the place is on the string, below its rig end. */
 static int is_below(const dmb_model *model, uint32_t string, const dmb_place *place)
 {
     if (place->part.generation == 0 || dmb_model_part_index(model, place->part, DMB_PART_STRING) != string) return 0;
     return place->pipe > 0 || place->fraction > 0.0;
 }
 
-/* A joint below the rig end holds the string, or something that hangs on it; one that leaves all free is but springs.
- */
+/* 1: a joint below the rig end constrains the string, or a part attached to it; a joint without constraints acts by its
+ * springs only. */
 static int is_held(const dmb_model *model, uint32_t string)
 {
     for (uint32_t i = 0; i < model->joints.count; i++) {
@@ -25,7 +25,7 @@ static int is_held(const dmb_model *model, uint32_t string)
     return 0;
 }
 
-/* By a load, spring or force of the model, below the rig end. */
+/* 1: a load, spring or force of the model acts below the rig end. */
 static int is_acted_on(const dmb_model *model, uint32_t string)
 {
     const dmb_load_def *loads = model->loads.items;
@@ -42,7 +42,7 @@ static int is_acted_on(const dmb_model *model, uint32_t string)
     return 0;
 }
 
-/* A place that is stuck is neither pulled nor turned as an operation says. */
+/* 1: the string is stuck below the rig end; a stuck point does not follow the speeds of an operation. */
 static int is_stuck(const dmb_model *model, uint32_t string)
 {
     const dmb_stuck_def *stuck = model->stuck.items;
@@ -81,20 +81,20 @@ const char *dmb_soft_string_lacks(const dmb_model *model, const dmb_scene *scene
     return NULL;
 }
 
-/* ---- The march from the far end ---------------------------------------------------------------------------------- */
+/* ---- Integration from the far end -------------------------------------------------------------------------------- */
 
-#define STEP_MAX 2.0     /* [m] of a Runge-Kutta step, whose error goes with its fourth power */
-#define TURN_MAX 0.05    /* [rad] by which the hole turns within one */
-#define COMPRESSION 0.01 /* [-] of EA, far beyond what any pipe bears */
+#define STEP_MAX 2.0     /* [m] of a Runge-Kutta step, whose error is of fourth order */
+#define TURN_MAX 0.05    /* [rad] rotation of the hole tangent per step */
+#define COMPRESSION 0.01 /* [-] of EA, far beyond the strength of any pipe */
 
 typedef struct march {
     const dmb_soft_string *soft;
     const dmb_operation *operation;
-    const dmb_pipe_def *pipe; /* the present one, and its constants: */
+    const dmb_pipe_def *pipe; /* the present pipe, with its constants: */
     double EA, GJ, EI;        /* [N, N m2, N m2] the smaller EI */
-    double weight;            /* [kg/m] mass per metre with tool joints, buoyancy taken off */
-    double radius;            /* [m] of what touches */
-    double hole, pull;        /* [m, N/m] of the mud that flows in a hole of that diameter; 0: not known yet */
+    double weight;            /* [kg/m] buoyant mass per metre with tool joints */
+    double radius;            /* [m] of the contact surface */
+    double hole, pull;        /* [m, N/m] hole diameter, and pull of flowing mud in it; 0: not yet computed */
     int32_t new_pipe, reserved;
     dmb_soft_place place;
 } march;
@@ -125,7 +125,7 @@ static void confined_at(const march *m, double depth, dmb_confined_pipe *pipe)
     pipe->clearance = fmax(0.0, dmb_hole_radius(m->soft->hole, depth) - m->radius);
 }
 
-/* [-] */
+/* [-] Friction coefficient at a depth. */
 static double friction_at(const march *m, double depth)
 {
     const dmb_soft_string *soft = m->soft;
@@ -146,7 +146,7 @@ static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N
     return wall;
 }
 
-/* [N/m] Mean over pipe and tool joint of what the mud that flows pulls towards the rig. */
+/* [N/m] Pull of the flowing mud towards the rig, mean over pipe and tool joint. */
 static double pull_of_flow(march *m, double depth)
 {
     const dmb_pipe_def *pipe = m->pipe;
@@ -162,7 +162,7 @@ static double pull_of_flow(march *m, double depth)
     return m->pull;
 }
 
-/* Rates towards the rig, per metre (eq:drilling.soft-string, eq:drilling.transmission, eq:drilling.stretch). */
+/* Rates per metre towards the rig (eq:drilling.soft-string, eq:drilling.transmission, eq:drilling.stretch). */
 static void rates(march *m, double depth, const double state[DMB_SOFT_COUNT], double rate[DMB_SOFT_COUNT])
 {
     const double v_a = m->operation->axial_speed, v_c = m->operation->rotary_speed * m->radius;
@@ -187,8 +187,8 @@ static void add(const double *state, double h, const double *rate, double *out)
     for (int i = 0; i < DMB_SOFT_COUNT; i++) out[i] = state[i] + h * rate[i];
 }
 
-/* Classical Runge-Kutta over h [m] towards the rig. The hole's curvature jumps at stations, which steps end at: both
- * ends are taken a little inside. */
+/* Classical Runge-Kutta over h [m] towards the rig. The hole's curvature jumps at stations, where steps end: both ends
+ * are evaluated slightly inside the step. */
 static void runge_kutta(march *m, double h)
 {
     const double from = m->place.depth - 1e-9 * h, middle = m->place.depth - 0.5 * h,
@@ -206,9 +206,9 @@ static void runge_kutta(march *m, double h)
     m->place.step = h;
 }
 
-/* ---- The way ----------------------------------------------------------------------------------------------------- */
+/* ---- Stepping ---------------------------------------------------------------------------------------------------- */
 
-/* [m] Depth of the last station above `depth` by more than rounding; none: minus infinity. */
+/* [m] Depth of the last station above `depth` by more than rounding; minus infinity if there is none. */
 static double station_above(const dmb_hole *hole, double depth)
 {
     uint32_t low = 0, high = hole->stations;
@@ -222,7 +222,7 @@ static double station_above(const dmb_hole *hole, double depth)
     return low > 0 ? hole->station[low - 1].depth : -(double)INFINITY;
 }
 
-/* [m] Likewise of the pieces of the wall, whose constants have corners of their second derivative there. */
+/* [m] The same for the sections of the wall, where the second derivative of the constants jumps. */
 static double piece_above(const dmb_hole *hole, double depth)
 {
     if (hole->pieces == 0) return -(double)INFINITY;
@@ -231,7 +231,7 @@ static double piece_above(const dmb_hole *hole, double depth)
     return piece > hole->piece ? piece[-1].depth : -(double)INFINITY;
 }
 
-/* The end of the step that begins at the present place: `end` at the latest, which is exact. */
+/* [m] Depth of the end of the step from the present place; not beyond `end`, which is exact. */
 static double next_depth(const march *m, double end, double spacing)
 {
     const double depth = m->place.depth, start = m->soft->start;
@@ -245,7 +245,7 @@ static double next_depth(const march *m, double end, double spacing)
     return parts > 1.0 ? depth - (depth - next) / parts : next;
 }
 
-/* Visits the place with pipe and curvature of one side: `into` [m] deeper. */
+/* Visits the place with pipe and curvature of one side: `into` [m] deeper. 0 if the compression is excessive. */
 static int visit_side(march *m, double into, dmb_soft_visit visit, void *context)
 {
     const double N = m->place.state[DMB_SOFT_FORCE];
@@ -261,8 +261,8 @@ static int visit_side(march *m, double into, dmb_soft_visit visit, void *context
     return 1;
 }
 
-/* Curvature and pipe jump between the step that ended here and the one of h [m] that begins: the place is visited for
- * that one, too. */
+/* Curvature and pipe may jump between the step that ended here and the next one of h [m]: then the place is visited for
+ * the next one too. */
 static int visit_jump(march *m, double h, dmb_soft_visit visit, void *context)
 {
     const double before = m->place.curvature;
@@ -274,7 +274,7 @@ static int visit_jump(march *m, double h, dmb_soft_visit visit, void *context)
     return visit_side(m, -0.5e-9 * h, visit, context);
 }
 
-/* At the far end: load and torque of the bit, and the weight of what is fixed there. */
+/* State at the far end: load and torque of the bit, and the weight of attached parts. */
 static void begin(march *m, double depth)
 {
     double x[3], t[3];
@@ -287,7 +287,7 @@ static void begin(march *m, double depth)
     m->place.state[DMB_SOFT_GROWTH] = 1.0;
 }
 
-/* The part of a run of equal pipes that is in the hole, up to depth `end`. */
+/* Integrates over a run of equal pipes in the hole, up to depth `end`. */
 static int march_run(march *m, double end, double spacing, dmb_soft_visit visit, void *context)
 {
     while (m->place.depth > end) {

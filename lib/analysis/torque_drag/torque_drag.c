@@ -1,5 +1,5 @@
-/* Torque and drag: rows of operations and depths, one operation along the string, the friction that explains a figure.
- */
+/* Torque and drag: rows of operations and depths, profile of one operation along the string, friction factor from a
+ * measurement. */
 #include <math.h>
 #include <string.h>
 
@@ -44,16 +44,16 @@ const char *dmb_operation_name(int32_t operation)
     return operation >= 0 && operation < DMB_OPERATION_COUNT ? names[operation] : NULL;
 }
 
-/* ---- The string, and what is asked of it ------------------------------------------------------------------------- */
+/* ---- String and options ------------------------------------------------------------------------------------------ */
 
 typedef struct request {
     dmb_sim *sim;
     dmb_torque_drag_options options;
     dmb_soft_string soft;
-    double described; /* [m] measured depth of the far end as described */
+    double described; /* [m] measured depth of the far end in the description */
 } request;
 
-/* [kg] of bodies and bits fixed to the far end, less the mud that they displace. */
+/* [kg] Mass of bodies and bits attached to the far end, less the displaced mud. */
 static double end_mass(const dmb_model *model, uint32_t string, double density)
 {
     const dmb_body_def *bodies = model->bodies.items;
@@ -137,7 +137,7 @@ static double depth_of(const request *r, uint32_t i)
     return r->options.depths != NULL ? fmin(r->options.depths[i], r->described) : r->described;
 }
 
-/* Operation i of the caller's array, whose items are as far apart as the first one says. */
+/* Operation i of the caller's array, whose stride is the struct_size of the first item. */
 static int32_t take_operation(request *r, const dmb_operation *operations, uint32_t i, dmb_operation *out)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag: operation", i);
@@ -224,7 +224,7 @@ static void write_row(dmb_torque_drag_row *rows, size_t i, const dmb_torque_drag
     (void)dmb_torque_drag_row_write(to, row);
 }
 
-/* All rows are made before the first is written: a call that is cancelled has written none. */
+/* Computes all rows before the first is written, so that a cancelled call writes none. */
 static int32_t make_rows(request *r, const dmb_operation *operations, uint32_t count, dmb_torque_drag_row *rows)
 {
     const uint32_t depths = r->options.depth_count;
@@ -270,13 +270,13 @@ int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *op
     return status < 0 ? status : dmb_sim_leave(sim, analyse(&r, options, operations, operation_count, rows));
 }
 
-/* ---- One operation along the string ------------------------------------------------------------------------------ */
+/* ---- Profile of one operation along the string ------------------------------------------------------------------- */
 
-/* Places arrive from the far end on; stations are counted from the rig end. */
+/* Places are visited from the far end; stations are counted from the rig end. */
 typedef struct sampling {
     double *depth, *axial_force, *torque, *wall_force;
     double start, spacing;
-    uint32_t next; /* one more than the station to come */
+    uint32_t next; /* index of the next station plus 1 */
 } sampling;
 
 static void put(double *values, uint32_t i, double value)
@@ -342,7 +342,7 @@ typedef struct fitting {
     double value;
 } fitting;
 
-/* The measured quantity by this coefficient, less its value; a string that locks up is pushed without end. */
+/* Computed less measured quantity for a friction coefficient [N or N m]; infinite if the string locks up. */
 static double misses_by(fitting *f, double friction)
 {
     dmb_torque_drag_row row;
@@ -352,7 +352,7 @@ static double misses_by(fitting *f, double friction)
     return (f->measured == DMB_MEASURED_HOOK_LOAD ? row.hook_load : row.torque) - f->value;
 }
 
-/* Bisection: hook load and torque go one way with the coefficient. */
+/* Bisection: hook load and torque are monotonic in the coefficient. */
 static int32_t bisect(fitting *f, double *friction)
 {
     double low = 0.0, high = FRICTION_MAX;
