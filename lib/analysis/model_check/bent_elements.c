@@ -1,4 +1,4 @@
-/* Elements with the constant mass of straight ones, and how far they are bent in a state (eq:curved.kinetic-energy). */
+/* Elements with the constant mass of straight ones, and their bend in a state (eq:curved.kinetic-energy). */
 #include <math.h>
 
 #include "analysis/model_check/model_check.h"
@@ -6,7 +6,7 @@
 #include "model/section.h"
 #include "sim/node.h"
 
-/* [rad] between the axes of the nodes of an element. */
+/* [rad] Angle between the axes of the nodes of an element. */
 static double bend_of(const dmb_sim *sim, uint32_t element)
 {
     const uint32_t a = sim->scene->element_node[element];
@@ -17,15 +17,16 @@ static double bend_of(const dmb_sim *sim, uint32_t element)
     return 2.0 * asin(fmin(1.0, 0.5 * sqrt(chord)));
 }
 
-/* (1/8 + r^2/L^2) a^2, r the radius of gyration of the sections, by the inertia of the ends about a cross axis. */
+/* [-] Relative error of the momentum, (1/8 + r^2/L^2) a^2, r the radius of gyration of the sections, from the inertia
+ * of the ends about a lateral axis. */
 static double error_of(const dmb_element_type *type, double bend)
 {
     const double mass = 2.0 * (type->mass.axial[0] + type->mass.axial[1]);
-    const double rotary = type->mass.torsion[0] + type->mass.torsion[1]; /* half the polar one: of tubes that across */
+    const double rotary = type->mass.torsion[0] + type->mass.torsion[1]; /* half the polar inertia, as of a tube */
     return (0.125 + rotary / (mass * type->length * type->length)) * bend * bend;
 }
 
-/* To two digits, for a reader. */
+/* Rounds up to two digits for the report. */
 static double two_digits(double x)
 {
     if (!(x > 0.0)) return 0.0;

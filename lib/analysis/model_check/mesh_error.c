@@ -1,6 +1,6 @@
-/* Discretisation error of the described mesh (eq:beam.mesh-error): between two neighbouring points
- * of contact an element carries its side load q as a beam held at both, although the wall supports a lying pipe all
- * along. The spurious bending moment is q s^2/12, s the spacing of the points of contact. */
+/* Discretisation error of the described mesh (eq:beam.mesh-error): between two neighbouring contact points an element
+ * carries its side load q as a beam clamped at both, although the wall supports a lying pipe continuously. The spurious
+ * bending moment is q s^2/12, s the spacing of the contact points. */
 #include <math.h>
 
 #include "analysis/model_check/model_check.h"
@@ -9,14 +9,14 @@
 #include "model/model.h"
 
 #define DMB_MESH_ERROR_ADVISED 0.01 /* [-] of the yield strength */
-#define DMB_USUAL_YIELD_STRAIN 3e-3 /* [-] of drill-pipe steel whose strength is not given */
+#define DMB_USUAL_YIELD_STRAIN 3e-3 /* [-] of drill-pipe steel of unspecified strength */
 
 typedef struct mesh_march {
     const dmb_scene *scene;
     double axial; /* [N] tension at the present place by the weight below it */
 } mesh_march;
 
-/* [m] Largest distance of neighbouring points of contact of an element of this length. */
+/* [m] Largest distance of neighbouring contact points of an element of this length. */
 static double contact_spacing(const dmb_pipe_def *def, double length)
 {
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
@@ -26,8 +26,8 @@ static double contact_spacing(const dmb_pipe_def *def, double length)
     return largest * length;
 }
 
-/* [N/m] Side load per metre that the wall balances at depth [m]: weight across the axis and tension times curvature.
- * Passes `length` [m] of the pipe of `mass` [kg], whose weight along the axis is added to the tension in two halves. */
+/* [N/m] Side load per metre on the wall at depth [m]: lateral weight and tension times curvature. Advances over
+ * `length` [m] of the pipe of `mass` [kg], whose axial weight is added to the tension in two halves. */
 static double side_load(mesh_march *march, double depth, double mass, double length)
 {
     const double *gravity = march->scene->gravity;
@@ -40,7 +40,7 @@ static double side_load(mesh_march *march, double depth, double mass, double len
     return dmb_vec3_norm(load);
 }
 
-/* [-] Error of the bending stress of one element, over the yield strength. */
+/* [-] Error of the bending stress of one element, relative to the yield strength. */
 static double element_error(mesh_march *march, const dmb_pipe_def *def, uint32_t e)
 {
     const dmb_scene *scene = march->scene;
@@ -61,7 +61,7 @@ static double pipe_error(mesh_march *march, const dmb_pipe_def *def, const dmb_p
     return largest;
 }
 
-/* Calls `visit` with each pipe of a string from the far end on. */
+/* Called with each pipe of a string, from the far end. */
 typedef void (*pipe_visit)(void *context, const dmb_pipe_run *run, uint32_t pipe, double error);
 
 static void visit_pipes(const dmb_model *model, uint32_t string, pipe_visit visit, void *context)
@@ -84,7 +84,7 @@ static int wall_is_met(const dmb_scene *scene)
     return scene->has_hole && (scene->features & DMB_FEATURE_CONTACT) != 0;
 }
 
-/* ---- As an array ------------------------------------------------------------------------------------------------- */
+/* ---- Array ------------------------------------------------------------------------------------------------------- */
 
 static void store(void *context, const dmb_pipe_run *run, uint32_t pipe, double error)
 {
@@ -106,12 +106,12 @@ int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, 
     return DMB_OK;
 }
 
-/* ---- As warnings ------------------------------------------------------------------------------------------------- */
+/* ---- Warnings ---------------------------------------------------------------------------------------------------- */
 
 typedef struct worst_pipe {
     const dmb_pipe_run *run;
     double error;
-    uint32_t pipe, count; /* the worst one, and how many are above the bound */
+    uint32_t pipe, count; /* the worst pipe, and the number of pipes above the bound */
 } worst_pipe;
 
 static void compare(void *context, const dmb_pipe_run *run, uint32_t pipe, double error)
@@ -125,7 +125,7 @@ static void compare(void *context, const dmb_pipe_run *run, uint32_t pipe, doubl
     worst->pipe = pipe;
 }
 
-/* [-] Elements of a pipe with which the error, of second order in their length, falls to the advised one. */
+/* [-] Number of elements of a pipe at which the error, of second order in their length, falls to the advised one. */
 static uint32_t advised(const worst_pipe *worst)
 {
     const double factor = sqrt(worst->error / DMB_MESH_ERROR_ADVISED);

@@ -1,4 +1,4 @@
-/* The model check as a struct. */
+/* Model check as a struct. */
 #include "analysis/model_check/model_check.h"
 
 #include <string.h>
@@ -11,10 +11,10 @@ DMB_DECLARE_STRUCT(dmb_check_report)
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
-/* As one would count them on the drawing: what is fixed to a string is a part, though it has no unknowns of its own. */
+/* Counts parts as on a drawing: a body attached to a string is a part, although it has no unknowns of its own. */
 static void count_parts(const dmb_scene *scene, dmb_check_report *report)
 {
-    report->rigid_parts = scene->body_count; /* bits included */
+    report->rigid_parts = scene->body_count; /* including bits */
     for (uint32_t i = 0; i < scene->pipe_count; i++) {
         const dmb_pipe_map *pipe = scene->pipes + i;
         report->flexible_parts += pipe->elements > 0;
@@ -132,9 +132,9 @@ int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
     return status;
 }
 
-/* Parts that would fall are told: chains of nodes that joints connect make groups, and something has to hold each. */
+/* Parts that would fall: chains of nodes connected by joints form groups, each of which needs a support. */
 
-/* Union and find over nodes, the smallest of a group being its root; held: by root. */
+/* Union-find over nodes, the root of a group being its smallest node; held: by root, 1 if supported. */
 typedef struct groups {
     const dmb_sim *sim;
     uint32_t *parent, *held;
@@ -171,7 +171,7 @@ static void begin(const groups *g)
     }
 }
 
-/* A joint that is free holds by its springs and stops only. */
+/* Connects groups by joints. A free joint supports by its springs and stops only. */
 static void pass_joints(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;
@@ -187,7 +187,7 @@ static void pass_joints(const groups *g)
     }
 }
 
-/* A node of a point; DMB_NONE: the ground. */
+/* Connects groups by springs between points; node DMB_NONE: the ground. */
 static void pass_springs(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;
@@ -200,7 +200,7 @@ static void pass_springs(const groups *g)
     }
 }
 
-/* The caller's equations and forces may do anything. */
+/* Nodes of the caller's equations and forces count as supported, because their effect is unknown. */
 static void pass_callbacks(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;
@@ -217,7 +217,7 @@ static void pass_stuck(const groups *g)
         if (g->sim->stuck_held[i]) hold(g, g->sim->scene->stuck[i].point.node);
 }
 
-/* Supports, drives, walls and rock. An axial-torsional node stands on its axis. */
+/* Support by supports, drives, walls and rock. An axial-torsional node is supported by its axis. */
 static void pass_nodes(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;

@@ -1,4 +1,4 @@
-/* The model check as a sheet of text: a column of names, a column of numbers, and what they are made of. */
+/* Model check as text: a column of names, a column of numbers, and their composition. */
 #include <string.h>
 
 #include "analysis/model_check/model_check.h"
@@ -8,7 +8,7 @@
 
 enum { NAME_WIDTH = 22, NUMBER_WIDTH = 10 };
 
-/* Counts what does not fit, so that the caller learns how much room the text takes. */
+/* Text buffer; `used` also counts characters beyond it, so that the caller obtains the required size. */
 typedef struct sheet {
     char *text;
     size_t size, used;
@@ -25,7 +25,7 @@ static void pad(sheet *s, size_t used, size_t width)
     for (; used < width; used++) put(s, " ");
 }
 
-/* "  name           123": the rest of the line is the caller's. */
+/* "  name           123": the caller adds the rest of the line. */
 static void begin_line(sheet *s, const char *name, const char *number)
 {
     put(s, "  ");
@@ -158,7 +158,7 @@ static void put_solver(sheet *s, const dmb_check_report *r)
     put(s, line.text);
 }
 
-/* Bound of the error where elements keep the mass of straight ones. */
+/* Writes the bound of the momentum error of elements with the mass of straight ones. */
 static void put_inertia(sheet *s, const dmb_model_check *findings)
 {
     const dmb_bent_elements bent = dmb_find_bent(findings->sim);

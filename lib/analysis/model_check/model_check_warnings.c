@@ -1,4 +1,4 @@
-/* Warnings about a scene, a line for each kind: the first or worst case by name, and how many more. */
+/* Warnings about a scene, one line per kind: the first or worst case by name, and the number of others. */
 #include <float.h>
 #include <math.h>
 
@@ -9,16 +9,16 @@
 #include "system/constrain/constrain.h"
 
 #define DMB_POOR_CONDITION 1e-4  /* smallest over largest singular value of the equations */
-#define DMB_LARGE_VIOLATION 1e-8 /* [m, -] that an equation of position may be off */
-#define DMB_SMALL_MASS 1e-9      /* of the largest one */
-#define DMB_NEARLY_SQUARE 0.05   /* [rad] this near to where coordinates or equations lose their meaning */
-#define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part that lies on the wall */
-#define DMB_TOUCHES 1e-4        /* of the hole's radius: the rounding of described diameters, 5 um in a hole of 94 mm */
-#define DMB_DEPTH_ROUNDING 1e-6 /* [m] */
-#define DMB_WIDE_PIPE 10.0      /* [m] no pipe or hole is this wide, but some are in millimetres */
-#define DMB_WIDE_HOLE 20.0      /* [m] */
+#define DMB_LARGE_VIOLATION 1e-8 /* [m, -] largest residual of a position equation */
+#define DMB_SMALL_MASS 1e-9      /* relative to the largest one */
+#define DMB_NEARLY_SQUARE 0.05   /* [rad] distance to the singularity of coordinates or equations */
+#define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part lying on the wall */
+#define DMB_TOUCHES 1e-4         /* of the hole's radius: rounding of described diameters, 5 um in a hole of 94 mm */
+#define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
+#define DMB_WIDE_PIPE 10.0       /* [m] no pipe or hole is this wide in metres, but some are in millimetres */
+#define DMB_WIDE_HOLE 20.0       /* [m] */
 
-/* The buffer that lines are written to. */
+/* Receiver of the lines. */
 typedef struct sink {
     const dmb_model_check *findings;
     const dmb_sim *sim;
@@ -32,7 +32,7 @@ static void say(const sink *to, const dmb_message *text)
     to->line(to->context, text->text);
 }
 
-/* " (and 3 more)", or nothing. */
+/* " (and 3 more)", or an empty text. */
 static const char *more(uint32_t count, dmb_message *text)
 {
     dmb_message_clear(text);
@@ -113,7 +113,7 @@ static int in_drive(const dmb_scene *scene, uint32_t j)
     return 0;
 }
 
-/* Angles RX and RY where RZ is near a right angle (constraint/joint.h), and a rim that lies nearly flat. */
+/* 1: an angle RX or RY is used while RZ is near a right angle (constraint/joint.h), or a rim lies nearly flat. */
 static int nearly_singular(const dmb_sim *sim, uint32_t j)
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -164,7 +164,7 @@ static void loose_parts(const sink *to)
     say(to, &text);
 }
 
-/* Mass of a node, and its smallest moment of inertia, of rigid_mass and neighbouring elements. */
+/* Mass of a node [kg], and its smallest moment of inertia [kg m2], from rigid_mass and neighbouring elements. */
 static void mass_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass **rigid_mass, double out[2])
 {
     double inertia[3] = {0.0, 0.0, 0.0};
@@ -210,7 +210,7 @@ static void small_masses(const sink *to)
     }
 }
 
-/* The constant mass is that of straight elements. */
+/* Warns of bent elements with constant mass, which is that of straight elements. */
 static void bent_elements(const sink *to)
 {
     const dmb_bent_elements bent = dmb_find_bent(to->sim);
@@ -223,7 +223,7 @@ static void bent_elements(const sink *to)
     say(to, &text);
 }
 
-/* ---- Units --------------------------------------------------------------------------------------------------------*/
+/* ---- Units ------------------------------------------------------------------------------------------------------- */
 
 static void odd_value(const sink *to, const char *part, const char *field, double value, const char *unit,
                       const char *meant)
@@ -239,7 +239,7 @@ static int is_within(double value, double low, double high)
     return value >= low && value <= high;
 }
 
-/* Values that no pipe has, but that are those of a usual one in another unit: softer than rubber, lighter than foam. */
+/* Values outside the range of pipes that match a usual pipe in another unit: softer than rubber, lighter than foam. */
 static void odd_pipes(const sink *to)
 {
     const dmb_list *runs = &to->sim->model->runs;
@@ -265,8 +265,8 @@ static void odd_hole(const sink *to)
 
 /* ---- Hole -------------------------------------------------------------------------------------------------------- */
 
-/* Where parts still stand as described, an overlap is one if it is more than the figures of a description are exact to,
- * and than the chord of an element departs from the arc of the hole; later the wall gives way under what lies on it. */
+/* [m] Largest penetration without a warning. In the described pose it is the precision of the description plus the
+ * rounding of positions; later it allows for the deflection of the wall under parts that lie on it. */
 static double allowed_penetration(const dmb_sim *sim, uint32_t node)
 {
     const double *u = sim->now.displacement + 3 * (size_t)node;
@@ -320,7 +320,7 @@ static void outside_lengthwise(const sink *to, int past_end)
     say(to, &text);
 }
 
-/* 1 if a string could leave the axis. */
+/* 1 if a node of the string can leave the axis. */
 static int moves_sideways(const dmb_scene *scene, const dmb_string_map *string)
 {
     for (uint32_t i = string->first_node; i < string->first_node + string->node_count; i++) {
@@ -330,7 +330,8 @@ static int moves_sideways(const dmb_scene *scene, const dmb_string_map *string)
     return 0;
 }
 
-/* Contact is a feature of the scene: with it every string that moves sideways has sites, without it none. */
+/* Warns of a hole without contact. Contact is a feature of the scene: with it every string that moves laterally has
+ * sites, without it none. */
 static void no_contact(const sink *to)
 {
     dmb_message text, name;
