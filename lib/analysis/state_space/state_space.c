@@ -1,4 +1,4 @@
-/* The analysis: options, the linear system, inputs and outputs, memory; and the questions to its result. */
+/* State-space analysis: options, linear system, inputs and outputs, memory, and queries of the result. */
 #include "analysis/state_space/state_space.h"
 
 #include <math.h>
@@ -92,7 +92,7 @@ static int32_t linearise(dmb_space_work *w)
     if (status >= 0) status = dmb_whole_matrices(w->linear, &w->space->whole);
     if (status >= 0) status = dmb_whole_jacobian(w->linear, &w->space->jacobian);
     if (status < 0) return status;
-    w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
+    w->linear->work->magic = DMB_HANDLE_SIM; /* enables queries */
     return dmb_dynamic_stiffness_make(w->linear, 0.0, &w->stiffness);
 }
 
@@ -245,7 +245,7 @@ static int32_t run(dmb_space_work *w, const dmb_excitation *inputs, const dmb_re
     return dmb_space_fill(w);
 }
 
-/* Tells what the matrices leave out. */
+/* Notes effects that the matrices neglect. */
 static int32_t note_coefficients(dmb_space_work *w)
 {
     const dmb_linear_options options = how_to_linearise(w);
@@ -314,7 +314,7 @@ void dmb_state_space_destroy(dmb_state_space **space)
     dmb_release(&allocator, found, sizeof *found);
 }
 
-/* ---- Questions --------------------------------------------------------------------------------------------------- */
+/* ---- Queries ----------------------------------------------------------------------------------------------------- */
 
 static int32_t ask(const dmb_state_space *space, const void *answer)
 {
@@ -369,7 +369,7 @@ static sparse_view view_of(const dmb_state_space *s, int32_t matrix)
     return A;
 }
 
-/* Entries that are not 0; the arrays may be NULL. */
+/* Writes the nonzero entries; the arrays may be NULL. Result: their number. */
 static uint64_t put_entries(const sparse_view *A, uint32_t *rows, uint32_t *columns, double *values)
 {
     uint64_t used = 0;

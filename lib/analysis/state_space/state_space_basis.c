@@ -1,4 +1,4 @@
-/* Shapes of the coordinates: unit motions, or modes and quasi-static shapes made orthonormal in M. */
+/* Basis of the coordinates: unit motions, or modes and quasi-static shapes orthonormalised in M. */
 #include <math.h>
 #include <string.h>
 
@@ -7,9 +7,9 @@
 #include "math/dense.h"
 #include "sim/node.h"
 
-/* A shape depends on those before it where its part outside of them is below this share of its length in M. */
+/* [-] A shape is dependent on earlier ones if its orthogonal component is below this fraction of its length in M. */
 #define DMB_SHAPE_NEW 1e-6
-/* A pivot over the largest entry of its block below which nothing but rounding holds a motion. */
+/* [-] Pivot over the largest entry of its block below which a motion is unconstrained but for rounding. */
 #define DMB_SHAPE_HELD 1e-13
 
 static double *shape(const dmb_space_work *w, uint32_t i)
@@ -35,7 +35,8 @@ static int32_t unit_motions(dmb_space_work *w)
 
 /* ---- Orthonormal shapes ------------------------------------------------------------------------------------------ */
 
-/* Takes x in unless it is made of those before; x and three arrays behind `work` are written. Gram-Schmidt twice. */
+/* Adds x to the basis unless it depends on earlier shapes; x and three arrays after `work` are overwritten.
+ * Gram-Schmidt twice. */
 static void add_shape(dmb_space_work *w, const double *x)
 {
     const uint32_t rows = w->linear->rows, count = w->space->info.coordinates;
@@ -104,7 +105,7 @@ static int32_t factor(dmb_space_work *w)
     return DMB_ERR_SINGULAR;
 }
 
-/* (K + w^2 M)^-1 f, f in w->work + 2 rows. */
+/* Adds (K + w^2 M)^-1 f, f in w->work + 2 rows. */
 static void add_solution(dmb_space_work *w)
 {
     const uint32_t rows = w->linear->rows;
@@ -139,7 +140,7 @@ uint64_t dmb_space_basis_room(const dmb_space_work *w)
     if (w->options.form != DMB_STATE_REDUCED) return n;
     const uint64_t modes = mode_count(w), each = w->options.modes->im != NULL ? 2 : 1;
     const uint64_t room = each * modes + (w->options.static_correction ? 3 * (uint64_t)w->input_count : 0);
-    return 1 + room; /* one that turns out to be made of others is written before it is left out */
+    return 1 + room; /* a dependent shape is written before it is omitted */
 }
 
 int32_t dmb_space_make_basis(dmb_space_work *w)

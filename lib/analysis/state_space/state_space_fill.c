@@ -7,7 +7,7 @@
 #include "sim/access.h"
 #include "sim/node.h"
 
-/* A coefficient of the rate of an input, over the terms that it is the sum of, that is rounding. */
+/* [-] Coefficient of the rate of an input, relative to its terms, that counts as rounding. */
 #define DMB_RATE_ROUNDING 1e-9
 
 static uint32_t count(const dmb_space_work *w)
@@ -31,7 +31,7 @@ static double *B_at(const dmb_space_work *w, uint32_t state, uint32_t input)
 }
 
 /* g = M_x^-1 X^T f: by the factors of the mass in all coordinates, by scalar products in an orthonormal basis. f is
- * written. */
+ * overwritten. */
 static void reduce(dmb_space_work *w, double *f, double *g)
 {
     const dmb_linear *linear = w->linear;
@@ -47,7 +47,7 @@ static void reduce(dmb_space_work *w, double *f, double *g)
 
 /* ---- Motion ------------------------------------------------------------------------------------------------------ */
 
-/* Accelerations by matrix `A` of the motion x, taken off the column of A. */
+/* Column of A for the matrix `A` and the motion x: minus its accelerations. */
 static void take_off(dmb_space_work *w, const dmb_linear_matrix *A, const double *x, uint32_t column)
 {
     const uint32_t rows = w->linear->rows, r = count(w);
@@ -92,14 +92,14 @@ static void fill_force(dmb_space_work *w, uint32_t i)
     for (uint32_t k = 0; k < r; k++) A_row(w, r + k)[state] = e->integral_gain * g[k];
 }
 
-/* g = M_x^-1 X^T (A p) of one of the whole matrices. */
+/* g = M_x^-1 X^T (A p) for M, C or K by all rows. */
 static void forces_of_motion(dmb_space_work *w, int kind, uint32_t i, double *g)
 {
     dmb_sparse_times(&w->space->whole, kind, w->inputs[i].re, w->work);
     reduce(w, w->work, g);
 }
 
-/* The speed as input: B_1 in the rows of q, and what it damps. */
+/* Columns of a speed input: B_1 in the rows of q, and the damping forces. */
 static void fill_speed(dmb_space_work *w, uint32_t i, const double *by_mass, const double *by_speed)
 {
     const uint32_t r = count(w);
@@ -152,7 +152,7 @@ static void add_accelerations(dmb_space_work *w, const double *by_shape, double 
     }
 }
 
-/* The output's share of the rate of the speed i is rounding. */
+/* 1: the coefficient of the rate of speed i in the output is at the rounding level. */
 static int feels_no_rate(const dmb_space_work *w, const dmb_output_rows *o, const double *by_shape, uint32_t i)
 {
     const double *p = w->inputs[i].re;
@@ -180,7 +180,8 @@ static void add_prescribed(const dmb_space_work *w, const dmb_output_rows *o, ui
     for (uint32_t j = 0; j < count(w); j++) D[i] += product(w, o->speed, shape(w, j)) * *B_at(w, j, i);
 }
 
-/* The force of an input that acts on what is asked, and a drive that is both. */
+/* Adds the force of an input that acts on the output directly, and the force of a drive that is both input and
+ * output. */
 static void add_direct(const dmb_space_work *w, const dmb_output_rows *o, uint32_t i, double *C, double *D)
 {
     const dmb_linear_excitation *e = w->inputs + i;
@@ -230,7 +231,7 @@ static int32_t fill_output(dmb_space_work *w, uint32_t k)
     return DMB_OK;
 }
 
-/* ---- All of them ------------------------------------------------------------------------------------------------- */
+/* ---- All matrices ------------------------------------------------------------------------------------------------ */
 
 static int32_t factor_mass(dmb_space_work *w)
 {
@@ -255,9 +256,8 @@ int32_t dmb_space_fill(dmb_space_work *w)
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------- */
 
-/* Outputs by all rows. They are taken from the response: their functionals as they are, forces of supports and
- * constraints by asking for their part of each row's force, a_r = -(output for a force of one on row r, nothing
- * moving). */
+/* Outputs by all rows, from the response analysis: their functionals directly; forces of supports and constraints by
+ * the coefficient of each row's force, a_r = -(output for a unit force on row r without motion). */
 
 /* a_r of one row. */
 static double share_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
@@ -289,7 +289,7 @@ static void take_shares(dmb_space_work *w, const dmb_linear_output *output, doub
     }
 }
 
-/* The functional and its rates: at most twice, of what goes by pose alone. */
+/* Adds the functional and its time derivatives: at most two, of outputs that depend on the pose alone. */
 static void take_functional(const dmb_linear_output *output, dmb_output_rows *out)
 {
     double *rates[5] = {out->pose, out->speed, out->acceleration, NULL, NULL};

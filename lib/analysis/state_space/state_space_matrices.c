@@ -1,5 +1,5 @@
-/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system has
- * the forces of a held row apart from the rest: its column in held_columns, its row in held_rows. */
+/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system
+ * stores the forces of a constrained row separately: its column in held_columns, its row in held_rows. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -18,12 +18,12 @@
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Counts entries first, then places them. */
+/* Counts entries in a first pass, and stores them in a second. */
 typedef struct builder {
     const dmb_linear *linear;
     dmb_sparse_rows *to;
-    uint32_t *mark, *held; /* row + 1 that a column was last seen in; number of a held row; shape (rows) */
-    uint32_t *at;          /* place of the column in the present row, shape (rows) */
+    uint32_t *mark, *held; /* row + 1 in which a column last occurred; index of a constrained row; shape (rows) */
+    uint32_t *at;          /* position of the column in the present row, shape (rows) */
     uint32_t used, row;
     int32_t placing;
 } builder;
@@ -101,7 +101,7 @@ static void add_rows(builder *b)
         }
 }
 
-/* Equations that act, numbered by the rows of all constraints. */
+/* Adds the active equations, numbered by the rows of all constraints. */
 static void add_equations(builder *b)
 {
     const dmb_scene *scene = &b->linear->scene;
@@ -214,9 +214,9 @@ void dmb_sparse_add_transposed(const dmb_sparse_rows *sparse, int kind, const do
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
-/* The state of a sim as arrays, and places as functions of rows. */
+/* State of a sim as arrays, and places as functions of rows. */
 
-/* Equations that act, in the order of the Jacobian: constraints stand in the order of their rows. */
+/* Multipliers of the active equations, in the order of the Jacobian: constraints are in the order of their rows. */
 static uint64_t put_multipliers(const dmb_sim *sim, double *values)
 {
     const dmb_scene *scene = sim->scene;
@@ -248,7 +248,7 @@ static void put_quaternions(const dmb_sim *sim, double *values)
     }
 }
 
-/* Forces of constraint are given and 0. */
+/* Residual with prescribed constraint forces of 0. */
 static int32_t put_residual(dmb_sim *sim, double *values)
 {
     dmb_sim *copy = dmb_state_copy(sim);
@@ -320,7 +320,7 @@ static int32_t refuse_place(dmb_sim *sim, dmb_place place, int32_t status)
     return status;
 }
 
-/* Displacement of the place as a linear function of the rows' motion. */
+/* Displacement of the place as a linear function of the rows' displacements. */
 static int32_t motion_of_place(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component, dmb_functional *f)
 {
     if (component < DMB_X || component > DMB_RZ || frame < DMB_FRAME_WORLD || frame > DMB_FRAME_BODY) {
@@ -330,7 +330,7 @@ static int32_t motion_of_place(dmb_sim *sim, dmb_place place, int32_t frame, int
     }
     dmb_sim *copy = dmb_state_copy(sim);
     if (copy == NULL) return DMB_ERR_NO_MEMORY;
-    copy->magic = DMB_HANDLE_SIM; /* so that it answers queries */
+    copy->magic = DMB_HANDLE_SIM; /* enables queries */
     const int32_t status = dmb_functional_of_motion(copy, place, frame, component, f);
     dmb_state_discard(copy);
     return status < 0 ? refuse_place(sim, place, status) : DMB_OK;

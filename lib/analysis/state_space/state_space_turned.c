@@ -1,10 +1,11 @@
-/* Whether the coefficients of a state space stay the same while parts turn: by what random forces on all rows answer,
- * below and above the frequency of turning. */
+/* Check that the coefficients of a state space are constant while parts rotate: by responses to random forces on all
+ * rows, below and above the frequency of rotation. */
 #include "analysis/state_space/state_space.h"
 
 enum { FORCES = 2, FREQUENCIES = 2 };
 
-/* [-] over the speed of turning, at which motions of what is free have their roots in axes that turn. */
+/* [-] Frequencies over the speed of rotation, away from 1, where unconstrained motions have their roots in rotating
+ * axes. */
 static const double ratios[FREQUENCIES] = {0.6, 1.7};
 
 static void draw(uint64_t *seed, uint32_t rows, dmb_complex_array x)
@@ -22,7 +23,7 @@ static void look(dmb_space_work *w, dmb_linear_turned *turned, double omega)
     const dmb_complex_array x = {w->work, w->work + rows};
     const double s[2] = {0.0, omega};
     uint64_t seed = 1;
-    if (dmb_dynamic_stiffness_factor(&w->stiffness, omega) >= 0) return; /* something is free at this frequency */
+    if (dmb_dynamic_stiffness_factor(&w->stiffness, omega) >= 0) return; /* an unconstrained motion */
     for (int i = 0; i < FORCES; i++) {
         draw(&seed, rows, x);
         dmb_dynamic_stiffness_solve(&w->stiffness, 0, x);
