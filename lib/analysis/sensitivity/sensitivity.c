@@ -1,4 +1,4 @@
-/* Creating and destroying: what may be a parameter, and the rates to begin with. */
+/* Creation and destruction of sensitivities: checks of the parameters, and initial rates. */
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +30,7 @@ static int same_arrays(const dmb_sim *a, const dmb_sim *b)
     return first.count == second.count;
 }
 
-/* Inputs that move the same, and as many of all that they may move. */
+/* 1: equal targets of inputs, and equal numbers of the parts that inputs may change. */
 static int same_settable(const dmb_scene *a, const dmb_scene *b)
 {
     if (a->input_count != b->input_count) return 0;
@@ -40,7 +40,7 @@ static int same_settable(const dmb_scene *a, const dmb_scene *b)
     return a->load_count == b->load_count && a->bit_count == b->bit_count && a->type_count == b->type_count;
 }
 
-/* Joints of the same kinds, and the same parts that constrain the same nodes by as many rows. */
+/* 1: joints of equal kinds, and equal parts that constrain the same nodes by equal numbers of rows. */
 static int same_constraints(const dmb_scene *a, const dmb_scene *b)
 {
     if (a->constraint_count != b->constraint_count || a->joint_count != b->joint_count) return 0;
@@ -66,7 +66,7 @@ static int same_drives(const dmb_scene *a, const dmb_scene *b)
     return 1;
 }
 
-/* Chains follow from nodes and elements. */
+/* 1: equal structure of the scenes. Chains follow from nodes and elements. */
 static int same_make(const dmb_sim *a, const dmb_sim *b)
 {
     const dmb_scene *first = a->scene, *second = b->scene;
@@ -81,7 +81,8 @@ static int same_make(const dmb_sim *a, const dmb_sim *b)
            same_arrays(a, b);
 }
 
-/* A step ends at breakpoints of time functions, which the steps beside it share. */
+/* 1: equal breakpoints of two segments. A step ends at breakpoints of time functions, which the companion steps
+ * share. */
 static int same_times(const dmb_segment *a, const dmb_segment *b)
 {
     if (a->kind != b->kind) return 0;
@@ -116,7 +117,7 @@ static int same_inputs(const dmb_sim *a, const dmb_sim *b)
            memcmp(a->joint_state, b->joint_state, a->scene->joint_count * sizeof *a->joint_state) == 0;
 }
 
-/* The first input that is still on its way to what is set; DMB_NONE: none. */
+/* Index of the first input that has not reached its setting; DMB_NONE: none. */
 static uint32_t input_on_its_way(const dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->input_count; i++)
@@ -260,7 +261,7 @@ static dmb_sensitivity *allocate(const dmb_sim *sim, uint32_t count)
     return made;
 }
 
-/* q and -q are one rotation. */
+/* Changes signs of quaternions to match `as`: q and -q are the same rotation. */
 static void align(const dmb_sim *sim, const double *as, double *quaternion)
 {
     for (size_t i = 0; i < 4 * (size_t)sim->scene->node_count; i += 4) {
@@ -286,7 +287,7 @@ static void take_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_r
     align(s->sim, low + quaternions, high + quaternions);
     for (size_t i = 0; i < s->numbers; i++) p->rates[i] = (high[i] - low[i]) / (2.0 * p->step);
     for (size_t i = 0; i < s->numbers; i++)
-        if (isnan(p->rates[i])) p->rates[i] = 0.0; /* an input that is not set: all other numbers are finite */
+        if (isnan(p->rates[i])) p->rates[i] = 0.0; /* an unset input: all other numbers are finite */
 }
 
 static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, dmb_sensitivity **out)

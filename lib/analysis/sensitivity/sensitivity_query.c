@@ -1,4 +1,4 @@
-/* Questions about rates: outputs, rows, breakpoints passed. */
+/* Queries of rates: outputs, rows, number of breakpoints passed. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #include "system/constrain/constrain.h"
 #include "system/system.h"
 
-/* The same part in another model of the scene. */
+/* The corresponding output in another model of the scene. */
 static dmb_output output_in(const dmb_model *model, const dmb_output *output)
 {
     dmb_output there = *output;
@@ -25,7 +25,7 @@ static int32_t output_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, i
     const dmb_output there = output_in(p->model[side], output);
     dmb_sensitivity_aside(s, p, side);
     s->worker->magic = DMB_HANDLE_SIM;
-    s->worker->options.energy_ledger = s->sim->options.energy_ledger; /* without it energies are not told */
+    s->worker->options.energy_ledger = s->sim->options.energy_ledger; /* required for energies */
     const int32_t status = dmb_output_value(s->worker, &there, value);
     s->worker->options.energy_ledger = 0;
     s->worker->magic = 0;
@@ -41,7 +41,7 @@ static int32_t output_rate(dmb_sensitivity *s, const dmb_rated_parameter *p, con
     return status;
 }
 
-/* Sums over a run and counts, which the steps beside the sim's do not keep. */
+/* 1: a sum over a run or a count, which companion steps do not keep. */
 static int is_summed(int32_t quantity)
 {
     return quantity == DMB_OUTPUT_ENERGY_ERROR || quantity == DMB_OUTPUT_DRIVE_WORK ||
@@ -90,7 +90,8 @@ int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *
     return DMB_OK;
 }
 
-/* Rates of a node's displacement [m], world, its place as described included, and body-frame rotation [rad]. */
+/* Rates of a node's displacement [m], in body axes, including that of its described position, and of its body-frame
+ * rotation [rad]. */
 static void pose_rate(const dmb_sensitivity *s, const dmb_rated_parameter *p, uint32_t node, const double *displacement,
                       const double *quaternion, double out[6])
 {
@@ -157,7 +158,7 @@ int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t param
 
 /* ---- The state as numbers ---------------------------------------------------------------------------------------- */
 
-/* The state as one row of numbers, its rates, and the worker on either side of the sim. */
+/* The state as one array of numbers, its rates, and the worker on either side of the sim. */
 
 void dmb_state_fields_of(const dmb_sim *sim, int32_t group, dmb_state_fields *of)
 {
@@ -168,7 +169,7 @@ void dmb_state_fields_of(const dmb_sim *sim, int32_t group, dmb_state_fields *of
     of->count += more;
 }
 
-/* The choice of independent coordinates, which the factors at hand were made with. */
+/* 1: the choice of independent coordinates, with which the present factors were computed. */
 static int is_partition(const dmb_field *field)
 {
     return field->check == DMB_CHECK_RANKS || field->check == DMB_CHECK_ROW_ORDER ||

@@ -1,4 +1,4 @@
-/* Rates along steps: both sides of each parameter beside the step that the sim has tried. */
+/* Rates along steps: companion steps on both sides of each parameter for every attempted step of the sim. */
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
@@ -6,8 +6,7 @@
 #include "system/assemble/drives.h"
 #include "system/system.h"
 
-/* ---- Which side of a breakpoint a state is on
- * ------------------------------------------------------------------------ */
+/* ---- Side of breakpoints ----------------------------------------------------------------------------------------- */
 
 static uint64_t mix(uint64_t hash, int flag)
 {
@@ -40,7 +39,7 @@ static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
     return hash;
 }
 
-/* Contacts that press, bristles that stick, controllers at a limit, bits on the rock. */
+/* Hash of all switches of a state: contact, sticking of bristles, limits of controllers, bits on the rock. */
 static uint64_t sides_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -56,7 +55,7 @@ static uint64_t sides_of(const dmb_sim *sim)
 
 /* ---- Along a step ------------------------------------------------------------------------------------------------ */
 
-/* rates <- (high - low)/span. INPUTS are those of the caller, which do not change; NaN: not set. */
+/* rates <- (high - low)/span. INPUTS are set by the caller and do not change; NaN: unset. */
 static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const double *low, double span)
 {
     size_t at = 0;
@@ -70,8 +69,8 @@ static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const do
     }
 }
 
-/* The task on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of breakpoints that
- * it ends on. */
+/* Operation on both sides of a parameter: a step, or recomputed accelerations. *sides is the hash of the switches at
+ * its end. */
 typedef int32_t (*move)(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides);
 
 static int32_t step_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
@@ -160,7 +159,7 @@ static int32_t explain(const dmb_sensitivity *s, const dmb_rated_parameter *p, i
     return status;
 }
 
-/* The sim itself beside, for what is one-sided, then each parameter. */
+/* Operates on the sim's own companion, for one-sided parameters, then on each parameter. */
 static int32_t move_all(dmb_sensitivity *s, const dmb_lead *lead, move move_beside, const char *what)
 {
     uint64_t sides = 0;
@@ -198,7 +197,7 @@ int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
 {
     dmb_sensitivity *s = context;
     const dmb_lead lead = {s->sim, attempt, &s->room};
-    if (s->advances) dmb_sensitivity_settle(s, 0); /* the steps before stay, whatever becomes of this one */
+    if (s->advances) dmb_sensitivity_settle(s, 0); /* completed steps are kept, whatever the result of this one */
     s->followed = 0;
     s->followed_from = s->sim->clock->time;
     const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
@@ -255,20 +254,20 @@ int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
     return status;
 }
 
-/* 1: the sim has taken the step that was followed last; 0: that was not followed to its end, or was taken back. */
+/* 1: the sim has accepted the step of the last companion steps; 0: these were not completed, or the step was undone. */
 static int has_taken_the_last(const dmb_sensitivity *s)
 {
     return s->followed && s->sim->clock->time > s->followed_from;
 }
 
-/* A step or an advance of the sim with the rates; step: a failing call takes all of it back; of an advance the steps
- * that were taken stay. */
-/* A call fails before the step, with the message of the sim or, where there is none, that of the status. */
+/* Fails before the step: sets the message of the sim, or the text of the status if that is empty. */
 static int32_t refuse(const dmb_sensitivity *s, int32_t status)
 {
     return dmb_sim_fail(s->sim, status, "sensitivity", s->sim->message.text);
 }
 
+/* A step or an advance of the sim with the rates. A failed step restores all of it; a failed advance keeps its
+ * completed steps. */
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);
@@ -292,7 +291,7 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     s->sim->follower = NULL;
     dmb_sensitivity_settle(s, status < 0 && (step || !has_taken_the_last(s)));
     s->busy = 0;
-    (void)dmb_sensitivity_catch_up(s); /* a breakpoint just reached; where it fails, the next call tells */
+    (void)dmb_sensitivity_catch_up(s); /* at a new breakpoint; if it fails, the next call reports it */
     if (status != DMB_OK || kinks_of(s) == kinks) return status;
     dmb_message_set(&s->sim->message,
                     "sensitivity: up to %g s contact, sticking, limit or bit differed between the sides of a parameter "
