@@ -153,22 +153,20 @@ static void bending_values(station *at, const double force[6])
     }
 }
 
-static int32_t section_values(station *at)
+/* The true axial force where the position is there, which the pressures are of. */
+static void section_values(station *at, int32_t groups)
 {
-    dmb_section section = dmb_section_default();
-    const int32_t status = dmb_answer_section(at->sim, at->place, &section);
-    double *v = at->values;
-    if (status < 0) return status;
-    v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
-    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure_force(at) + momentum(at);
-    v[DMB_PROFILE_TORQUE] = section.force[3];
-    v[DMB_PROFILE_SHEAR_FORCE] = hypot(section.force[1], section.force[2]);
-    v[DMB_PROFILE_SHEAR_Y] = section.force[1];
-    v[DMB_PROFILE_SHEAR_Z] = section.force[2];
-    v[DMB_PROFILE_MOMENT_Y] = section.force[4];
-    v[DMB_PROFILE_MOMENT_Z] = section.force[5];
-    bending_values(at, section.force);
-    return DMB_OK;
+    double force[6], *v = at->values;
+    dmb_section_force_at(at->sim, at->place, &at->point, force);
+    v[DMB_PROFILE_EFFECTIVE_FORCE] = force[0];
+    if ((groups & DMB_TAKES_POSE) != 0) v[DMB_PROFILE_AXIAL_FORCE] = force[0] - pressure_force(at) + momentum(at);
+    v[DMB_PROFILE_TORQUE] = force[3];
+    v[DMB_PROFILE_SHEAR_FORCE] = hypot(force[1], force[2]);
+    v[DMB_PROFILE_SHEAR_Y] = force[1];
+    v[DMB_PROFILE_SHEAR_Z] = force[2];
+    v[DMB_PROFILE_MOMENT_Y] = force[4];
+    v[DMB_PROFILE_MOMENT_Z] = force[5];
+    if ((groups & DMB_TAKES_BENDING) != 0) bending_values(at, force);
 }
 
 /* [N/m] Buoyant weight of the pipe with its tool joint. */
@@ -259,12 +257,11 @@ static double clearance_at(const station *at)
     return fmax(0.0, dmb_hole_radius(&scene->hole, at->values[DMB_PROFILE_DEPTH]) - radius);
 }
 
-static void limit_values(station *at)
+static void stress_values(station *at)
 {
     const dmb_scene *scene = at->sim->scene;
     const dmb_pipe_def *def = &at->run->def;
     double *v = at->values;
-    dmb_pipe_section section;
     v[DMB_PROFILE_VON_MISES] =
         dmb_tube_von_mises(at->diameters[0], at->diameters[1], v[DMB_PROFILE_EFFECTIVE_FORCE] + momentum(at),
                            v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
@@ -275,8 +272,15 @@ static void limit_values(station *at)
                                        v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT], p.inside - p.outside);
     }
     if (def->yield_strength > 0.0) v[DMB_PROFILE_YIELD_SHARE] = v[DMB_PROFILE_VON_MISES] / def->yield_strength;
+}
+
+static void buckling_values(station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    double *v = at->values;
+    dmb_pipe_section section;
     if (!scene->has_hole) return;
-    dmb_section_of(def, &section);
+    dmb_section_of(&at->run->def, &section);
     dmb_confined_pipe pipe = {.EI = fmin(section.stiffness[4], section.stiffness[5]), .clearance = clearance_at(at)};
     dmb_vec3_scale(weight_per_metre(at), scene->gravity, pipe.weight);
     dmb_vec3_copy(at->tangent, pipe.tangent);
@@ -320,9 +324,11 @@ static int32_t fill(station *at, int32_t groups)
     if ((groups & DMB_TAKES_MOTION) != 0) motion_values(at);
     if ((groups & DMB_TAKES_CONTACT) != 0) status = contact_values(at);
     if ((groups & DMB_TAKES_SECTION) == 0 || at->point.element == DMB_NONE) return status;
-    if (status >= 0) status = section_values(at);
-    if (status >= 0 && (groups & DMB_TAKES_LIMITS) != 0) limit_values(at);
-    return status;
+    if (status < 0) return status;
+    section_values(at, groups);
+    if ((groups & DMB_TAKES_LIMITS) != 0) stress_values(at);
+    if ((groups & DMB_TAKES_BUCKLING) != 0) buckling_values(at);
+    return DMB_OK;
 }
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */

@@ -159,6 +159,9 @@ double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 
 /* ---- Section forces ---------------------------------------------------------------------------------------------- */
 
+/* Section force at a point of a pipe, in its tool joint too, as dmb_section tells it; point: that of the place, of an
+ * element. */
+void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6]);
 /* Section force at a point of an element of the pipe, not in its tool joint, as dmb_section tells it. O(log sites +
  * loads
  * + springs + stuck places). */
@@ -284,7 +287,9 @@ enum {
     DMB_TAKES_SECTION = 2,
     DMB_TAKES_CONTACT = 4,
     DMB_TAKES_LIMITS = 8,
-    DMB_TAKES_MOTION = 16
+    DMB_TAKES_MOTION = 16,
+    DMB_TAKES_BENDING = 32,
+    DMB_TAKES_BUCKLING = 64
 };
 
 /* Groups that DMB_PROFILE_... takes; -1: there is no such quantity. */

@@ -13,7 +13,7 @@
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-static void section_force(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6])
+void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6])
 {
     dmb_described_pipe pipe;
     dmb_describe_pipe(sim, dmb_model_part_index(sim->model, place.part, DMB_PART_STRING), place.pipe, &pipe);
@@ -40,7 +40,7 @@ int32_t dmb_answer_section(const dmb_sim *sim, dmb_place place, dmb_section *sec
     if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
     if (point.element == DMB_NONE) return DMB_ERR_UNSUPPORTED;
-    section_force(sim, place, &point, answer.force);
+    dmb_section_force_at(sim, place, &point, answer.force);
     section_strain(sim->scene, &sim->now, &point, answer.strain);
     return dmb_section_write(section, &answer);
 }
