@@ -4,7 +4,7 @@
  *   non-symmetric K  1. look_for_none: symmetric part H + rho D positive definite, then the same of W K with friction
  *                       turned (stability_friction.c): no negative eigenvalue
  *                    2. the 12, 36, 108 eigenvalues nearest 0, until their count is complete, or agrees with the sign
- *                       of det K (`thorough`: for more than 36 only)
+ *                       of det K (`thorough`: at least the 36 nearest)
  *                    3. `thorough` only: all eigenvalues, up to 400 coordinates; beyond, -1 if none was negative
  *
  * The functions also measure the asymmetry of an iteration matrix of statics and form its symmetric part. */

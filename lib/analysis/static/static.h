@@ -269,12 +269,12 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
  * Non-symmetric K: no eigenvalue is computed if a positive definite symmetric part, with or without the contribution of
  * friction (analysis/static/stability_friction.c), excludes negative ones. Otherwise the eigenvalues nearest 0 are
  * computed by Krylov subspaces on x -> K^-1 D x, with as many vectors as some hundreds of millions of products permit.
- * The number of eigenvalues increases until one of two conditions is met: the symmetric part H excludes further
- * negative ones (mu >= -rho if H + rho D is positive definite, x.Hx = mu x.Dx), or the maximum number is reached and
- * the sign of det K agrees with the count. The sign alone is not sufficient: an axisymmetric structure diverges in two
- * directions at once. For a state that the caller requested, all eigenvalues are computed up to 400 coordinates;
- * beyond, the result -1 (not counted) is returned if none is found among the nearest and the symmetric part does not
- * exclude others. Flutter is not examined: it depends on mass and damping (modes). */
+ * Their number increases until the symmetric part H excludes further negative ones (mu >= -rho if H + rho D is positive
+ * definite, x.Hx = mu x.Dx), or until a minimum number is reached and the sign of det K agrees with the count. The sign
+ * alone is not sufficient: an axisymmetric structure diverges in two directions at once. For a state that the caller
+ * requested, all eigenvalues are computed up to 400 coordinates; beyond, the result -1 (not counted) is returned if
+ * none is found among the nearest and the symmetric part does not exclude others. Flutter is not examined: it depends
+ * on mass and damping (modes). */
 
 typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */
