@@ -1,4 +1,4 @@
-/* The choices of a build, with what holds where the build system says nothing: C alone, with files and heap. */
+/* Build options and their defaults if the build system sets none: the C library alone, with files and heap. */
 #ifndef DMB_BASE_BUILD_H
 #define DMB_BASE_BUILD_H
 
@@ -8,26 +8,29 @@
 #ifndef DMB_WITH_CHOLMOD /* order of elimination by CHOLMOD */
 #define DMB_WITH_CHOLMOD 0
 #endif
-#ifndef DMB_LAZY /* both loaded when they are needed */
+#ifndef DMB_LAZY /* LAPACKE and CHOLMOD are loaded at run time when they are first needed */
 #define DMB_LAZY 0
 #endif
-#ifndef DMB_WITH_LANES /* kernels of 2, 4 and 8 lanes beside those of one; the same bits */
+#ifndef DMB_WITH_LANES /* kernels with 2, 4 and 8 lanes in addition to the scalar kernels; results are bitwise equal \
+                        */
 #define DMB_WITH_LANES 1
 #endif
 #ifndef DMB_WITH_FILES /* recorders and VTK write files by stdio */
 #define DMB_WITH_FILES 1
 #endif
-#ifndef DMB_WITH_HEAP /* malloc and free where the caller gives no allocator */
+#ifndef DMB_WITH_HEAP /* malloc and free are the default allocator */
 #define DMB_WITH_HEAP 1
 #endif
-#ifndef DMB_WITH_THREADS /* each thread has its own reason why a sim could not be created */
+#ifndef DMB_WITH_THREADS /* the reason why a simulation could not be created is stored for each thread */
 #define DMB_WITH_THREADS 1
 #endif
-#ifndef DMB_RED_ZONES /* [byte] behind each array of an arena, which the address sanitizer lets nobody touch */
+#ifndef DMB_RED_ZONES /* [byte] poisoned gap behind each array of an arena: the address sanitizer reports any access \
+                         to it */
 #define DMB_RED_ZONES 0
 #endif
 
-#if defined(__GNUC__) /* a function whose frame is large and seldom needed: callers do not take it into theirs */
+#if defined(__GNUC__) /* a function with a large, seldom used frame: it must not be inlined, because callers would \
+                         inherit the frame */
 #define DMB_OWN_FRAME __attribute__((noinline))
 #else
 #define DMB_OWN_FRAME

@@ -17,7 +17,7 @@
 #define TAKE(alignment, size) aligned_alloc(alignment, size)
 #define GIVE(block) free(block)
 #endif
-#else /* a model needs its own allocator: the default one has nothing to give */
+#else /* a model needs its own allocator: the default one always returns NULL */
 #define TAKE(alignment, size) ((void)(alignment), (void)(size), NULL)
 #define GIVE(block) ((void)(block))
 #endif
@@ -36,7 +36,7 @@ static void *default_allocate(void *context, size_t size, size_t alignment)
 {
     size_t rounded;
     (void)context;
-    /* C11 7.22.3.1 asks for a size that is a multiple of the alignment */
+    /* C11 7.22.3.1 requires a size that is a multiple of the alignment */
     if (!dmb_checked_round_up(size, alignment, &rounded)) return NULL;
     return TAKE(alignment, rounded);
 }
@@ -71,10 +71,11 @@ static size_t at_least_one(size_t size)
 void *dmb_allocate(const dmb_allocator *allocator, size_t size)
 {
     size_t asked = at_least_one(size);
-    if (size > PTRDIFF_MAX) return NULL; /* no allocator is asked for what no object can be */
+    if (size > PTRDIFF_MAX) return NULL; /* no object can be larger, so the allocator is not called */
     void *block = allocator->allocate(allocator->context, asked, DMB_ALIGNMENT);
     if (block == NULL) return NULL;
-    if ((uintptr_t)block % DMB_ALIGNMENT != 0) { /* an allocator that ignores the alignment would crash vector loads */
+    if ((uintptr_t)block % DMB_ALIGNMENT != 0) { /* misaligned blocks would crash vector loads, so an allocator that
+                                                    ignores the alignment counts as failed */
         allocator->release(allocator->context, block, asked, DMB_ALIGNMENT);
         return NULL;
     }
@@ -111,7 +112,7 @@ void dmb_arena_count(dmb_arena *arena)
 size_t dmb_arena_block_size(const dmb_arena *arena)
 {
     size_t size;
-    /* the block may begin anywhere, so base may lie up to one alignment less a byte behind its start */
+    /* the block may begin at any address, so base may lie up to one alignment less one byte behind its start */
     if (arena->overflow || !dmb_checked_add_size(arena->used, DMB_ALIGNMENT - 1, &size)) return SIZE_MAX;
     return size;
 }
@@ -191,10 +192,8 @@ void dmb_vector_release(dmb_vector *vector, const dmb_allocator *allocator)
     *vector = dmb_vector_of(vector->item_size);
 }
 
-/* ---- An allocator in a block of the caller ----------------------------------------------------------------------- */
-
-/* An allocator in a block of the caller. Free memory is a list of gaps in the order of their addresses; a block that is
- * given out carries nothing, since its size comes back with it. */
+/* An allocator in a block of the caller. Free memory is a list of gaps, sorted by address. Blocks in use carry no
+ * header, because the caller passes their size on release. */
 
 typedef struct gap {
     size_t size; /* [byte] a multiple of DMB_ALIGNMENT */
@@ -203,7 +202,7 @@ typedef struct gap {
 
 typedef struct pool {
     gap *first;
-    unsigned char *end; /* of the last block that can be given out */
+    unsigned char *end; /* of the last block that can be allocated */
     size_t used, peak;  /* [byte] */
 } pool;
 
@@ -211,7 +210,7 @@ enum { FIRST_RELEASE = offsetof(dmb_allocator, release) + sizeof(void (*)(void))
 
 _Static_assert(sizeof(pool) <= DMB_ALIGNMENT && sizeof(gap) <= DMB_ALIGNMENT, "a gap fits where anything was");
 
-/* Rounded up; 0 where that overflows. */
+/* Size rounded up to a multiple of DMB_ALIGNMENT; 0 if that overflows. */
 static size_t rounded(size_t size)
 {
     return (size + DMB_ALIGNMENT - 1) / DMB_ALIGNMENT * DMB_ALIGNMENT;
@@ -251,7 +250,8 @@ static void join(gap *low)
     low->next = low->next->next;
 }
 
-/* A block that cannot be one of those given out stays: one of other memory, or one that is a gap already. */
+/* 1 if the block can be one that was allocated. Memory outside the pool and blocks that are already free are ignored on
+ * release. */
 static int is_out(const pool *p, const gap *before, const gap *after, const unsigned char *block, size_t size)
 {
     const unsigned char *first = (const unsigned char *)p + DMB_ALIGNMENT;
@@ -283,7 +283,7 @@ static void pool_give(void *context, void *block, size_t size, size_t alignment)
     join(before);
 }
 
-/* The fields of the first release: a caller compiled against it has room for no more. */
+/* Sets the fields of the first release only: the struct of a caller compiled against it is no longer. */
 static void describe(dmb_allocator *allocator, pool *p)
 {
     const dmb_allocator none = {0};

@@ -8,8 +8,8 @@
 
 #include "drillmbd/base.h"
 
-/* Sums and products of sizes that say when they overflow. Each returns true and writes *out, or returns false and
- * leaves *out as it was. */
+/* Sums and products of sizes with overflow detection. Each returns true and writes *out, or returns false and leaves
+ * *out unchanged. */
 
 #define DMB_DEFINE_CHECKED(suffix, type, maximum)                          \
     static inline bool dmb_checked_add_##suffix(type a, type b, type *out) \
@@ -39,23 +39,23 @@ static inline bool dmb_checked_round_up(size_t size, size_t alignment, size_t *o
     return true;
 }
 
-/* Memory: the caller's allocator, whose blocks are aligned to DMB_ALIGNMENT and zeroed, and arenas, many arrays in one
- * block of it. */
+/* Memory comes from the caller's allocator, in blocks that are aligned to DMB_ALIGNMENT and zeroed. An arena places
+ * many arrays in one such block. */
 
-enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line, and enough for any vector load */
+enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line; sufficient for any vector load */
 
-/* Copies the caller's allocator, or the default one where given is NULL. Errors: DMB_ERR_STRUCT_SIZE; DMB_ERR_NULL if
- * one of its two functions is missing. *out is unchanged then. */
+/* Copies the caller's allocator, or the default one if given is NULL. Errors: DMB_ERR_STRUCT_SIZE; DMB_ERR_NULL if one
+ * of its two functions is missing. *out is unchanged after an error. */
 int32_t dmb_allocator_copy(dmb_allocator *out, const dmb_allocator *given);
 
-/* A zeroed block of size bytes (0 counts as 1), or NULL; of more than PTRDIFF_MAX, as after an overflow of an arena,
- * without asking. */
+/* Returns a zeroed block of size bytes (0 counts as 1), or NULL. Sizes above PTRDIFF_MAX, as after an overflow of an
+ * arena, give NULL without a call of the allocator. */
 void *dmb_allocate(const dmb_allocator *allocator, size_t size);
 
-/* A zeroed block of count items of item_size bytes, or NULL; an overflow counts as no memory. */
+/* Returns a zeroed block of count items of item_size bytes, or NULL; an overflow counts as lack of memory. */
 void *dmb_allocate_array(const dmb_allocator *allocator, size_t count, size_t item_size);
 
-/* Gives a block back, with the size it was asked for. block may be NULL. */
+/* Releases a block. size must be the size passed to dmb_allocate. block may be NULL. */
 void dmb_release(const dmb_allocator *allocator, void *block, size_t size);
 
 /* Many arrays in one block. The same code runs twice: once counting, once placing.
@@ -70,40 +70,41 @@ void dmb_release(const dmb_allocator *allocator, void *block, size_t size);
 typedef struct dmb_arena {
     unsigned char *base; /* first aligned byte of the block; NULL while counting */
     size_t size;         /* [byte] from base on; SIZE_MAX while counting */
-    size_t used;         /* [byte] taken so far, alignment gaps included */
-    bool overflow;       /* a take did not fit, or its size overflowed; stays set */
+    size_t used;         /* [byte] allocated so far, alignment gaps included */
+    bool overflow;       /* an array did not fit, or its size overflowed; stays set */
 } dmb_arena;
 
 /* Begins the counting pass. */
 void dmb_arena_count(dmb_arena *arena);
 
-/* [byte] of a block of any alignment that holds all that was taken; SIZE_MAX after an overflow. */
+/* [byte] Size of a block of any alignment that has space for all arrays counted; SIZE_MAX after an overflow. */
 size_t dmb_arena_block_size(const dmb_arena *arena);
 
 /* Begins the placing pass in a block of any alignment. NULL or too small a block sets overflow. */
 void dmb_arena_place(dmb_arena *arena, void *block, size_t size);
 
-/* count items of item_size bytes, zeroed. align is a power of two up to DMB_ALIGNMENT. NULL while counting and after an
- * overflow; otherwise not NULL, even for no items. */
+/* Returns an array of count items of item_size bytes, zeroed. align is a power of two up to DMB_ALIGNMENT. Returns NULL
+ * while counting and after an overflow; otherwise not NULL, even for no items. */
 void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t align);
 
-/* Arrays of numbers begin on a cache line; other items as the type asks. */
+/* Arrays of doubles begin on a cache line; other items have the alignment of their type. */
 #define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_take((arena), (count), sizeof(double), 64))
 #define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_take((arena), (count), sizeof(T), _Alignof(T)))
 
-/* Arenas of builds with DMB_RED_ZONES: the block may be touched everywhere again. Releasing or placing does it too. */
+/* Makes an arena's block accessible again in builds with DMB_RED_ZONES. Releasing or placing does it too. */
 void dmb_arena_open(const void *block, size_t size);
 
-/* A growable array of equal items. A failing call leaves it as it was. Item pointers hold until the next growth. */
+/* A growable array of items of one size. A failing call leaves it unchanged. Item pointers are valid until the next
+ * growth. */
 
 typedef struct dmb_vector {
     void *items;
     size_t count;     /* [-] items in use */
-    size_t capacity;  /* [-] items there is room for */
+    size_t capacity;  /* [-] items that fit without a new allocation */
     size_t item_size; /* [byte] > 0 */
 } dmb_vector;
 
-/* An empty vector; holds no memory. */
+/* Returns an empty vector, which owns no memory. */
 static inline dmb_vector dmb_vector_of(size_t item_size)
 {
     dmb_vector vector = {NULL, 0, 0, item_size};
@@ -117,13 +118,14 @@ static inline void *dmb_vector_at(const dmb_vector *vector, size_t i)
 }
 #define DMB_VECTOR_AT(T, vector, i) ((T *)dmb_vector_at((vector), (i)))
 
-/* Makes room for capacity items altogether. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE (the size overflows). */
+/* Reserves memory for capacity items in total. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE (the size overflows). */
 int32_t dmb_vector_reserve(dmb_vector *vector, const dmb_allocator *allocator, size_t capacity);
 
-/* Appends count items, copied from items, or zeroed where items is NULL. Errors as of reserve. Amortised O(count). */
+/* Appends count items, copied from items, or zeroed if items is NULL. Errors as of dmb_vector_reserve. Amortised
+ * O(count). */
 int32_t dmb_vector_append(dmb_vector *vector, const dmb_allocator *allocator, const void *items, size_t count);
 
-/* Gives the memory back and empties the vector. */
+/* Releases the memory and empties the vector. */
 void dmb_vector_release(dmb_vector *vector, const dmb_allocator *allocator);
 
 #endif

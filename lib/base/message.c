@@ -7,7 +7,7 @@
 #include "base/number.h"
 #include "drillmbd/base.h"
 
-/* The end of the text so far; what does not fit is dropped. */
+/* End of the text written so far. Text that does not fit is dropped. */
 typedef struct writer {
     char *text;
     size_t used, size;
@@ -80,7 +80,7 @@ void dmb_message_set(dmb_message *message, const char *format, ...)
         } else if (*c == '%') {
             put(&w, "%", 1);
         } else {
-            put_string(&w, "?"); /* not a conversion of this formatter: what follows cannot be read safely */
+            put_string(&w, "?"); /* no conversion of this formatter: the remaining arguments cannot be read safely */
             break;
         }
     }
@@ -111,7 +111,8 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
     dmb_message_component(message, part, index, &is, bound);
 }
 
-/* [byte] of the character at `text`, `left` bytes before the end; 0: it is none, or a control character. */
+/* [byte] Length of the UTF-8 character at `text`, which has `left` bytes; 0 if the bytes are no character or a control
+ * character. */
 static size_t character(const unsigned char *text, size_t left)
 {
     static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};

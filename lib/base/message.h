@@ -1,5 +1,5 @@
 /* Message of the last failing call: "pipe 3: outer_diameter = nan, must be finite and > inner_diameter". A message is a
- * fixed buffer, so that saying why never allocates. Text that does not fit is cut. */
+ * fixed buffer, so that reporting an error never allocates. Text that does not fit is cut. */
 #ifndef DMB_BASE_MESSAGE_H
 #define DMB_BASE_MESSAGE_H
 
@@ -13,7 +13,7 @@ typedef struct dmb_message {
     char text[512];
 } dmb_message;
 
-#if defined(__MINGW32__) && !defined(__clang__) /* printf of that system has no %zu; the formatter has */
+#if defined(__MINGW32__) && !defined(__clang__) /* printf of that system has no %zu; this formatter has */
 #define DMB_PRINTF_LIKE __attribute__((format(gnu_printf, 2, 3)))
 #elif defined(__GNUC__)
 #define DMB_PRINTF_LIKE __attribute__((format(printf, 2, 3)))
@@ -21,31 +21,33 @@ typedef struct dmb_message {
 #define DMB_PRINTF_LIKE
 #endif
 
-/* Formats %s %d %u %zu %llu %g %%, without widths or flags; no locale matters. %g gives whole numbers below 1e10 in
- * full and others in six digits. message may be NULL: nothing happens. A NULL string is written as "?". */
+/* Formats %s %d %u %zu %llu %g %%, without widths or flags, independent of the locale. %g writes whole numbers below
+ * 1e10 in full and others with six digits. If message is NULL, the call does nothing. A NULL string is written as "?".
+ */
 void dmb_message_set(dmb_message *message, const char *format, ...) DMB_PRINTF_LIKE;
 
-/* "<part> <index>: <field> = <value>, must be <bound>". index DMB_NONE: "wall: diameter = ..."; so for components. */
+/* Writes "<part> <index>: <field> = <value>, must be <bound>". With index DMB_NONE the number is omitted: "wall:
+ * diameter = ...". The same holds for components. */
 void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
                        const char *bound);
 
-/* The same for one element of an array: "<part> <index>: <field>[<component>] = <value>, must be <bound>" */
-/* A value of the caller's and its place. */
+/* A value of the caller and its place. dmb_message_component writes it as dmb_message_field does, for one element of an
+ * array: "<part> <index>: <field>[<component>] = <value>, must be <bound>". */
 typedef struct dmb_field_value {
     const char *field;
-    uint32_t component; /* of an array; DMB_NONE: it is none */
+    uint32_t component; /* index in an array; DMB_NONE: the field is no array */
     double value;
 } dmb_field_value;
 
 void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const dmb_field_value *is,
                            const char *bound);
 
-/* Name of a part in messages, where it may have one of its own: "joint 3 (crank)", or "joint 3" without one. name: size
- * bytes; what is no text counts as none. Returns text->text. */
+/* Name of a part in messages: "joint 3 (crank)", or "joint 3" if it has no name of its own. name: size bytes; bytes
+ * that are no text count as no name. Returns text->text. */
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size);
 
 /* True if the bytes before the first 0 are UTF-8 (RFC 3629: shortest form, no surrogates) without control characters;
- * false where there is no 0 in `size` bytes. */
+ * false if there is no 0 in `size` bytes. */
 bool dmb_is_text(const char *text, size_t size);
 
 /* Empties the message. */

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Exact conversion. A double is m 2^e with a whole m < 2^53. For e < 0 it is m 5^-e 10^e, so that in both cases its
- * decimal digits are those of a whole number, kept here in base 10^9, lowest limb first. */
+/* Exact conversion. A double is m 2^e with an integer m < 2^53. For e < 0 it is m 5^-e 10^e, so that in both cases its
+ * decimal digits are those of an integer, stored in base 10^9, lowest limb first. */
 enum {
     LIMB_BASE = 1000000000,
     LIMB_DIGITS = 9,
@@ -15,7 +15,7 @@ enum {
 typedef struct decimal {
     uint32_t limb[MAX_LIMBS];
     int limbs;
-    int exponent; /* the value is the whole number times 10^exponent */
+    int exponent; /* the value is the integer times 10^exponent */
 } decimal;
 
 static void multiply(decimal *d, uint32_t factor)
@@ -58,7 +58,7 @@ static void decimal_from_double(decimal *d, double value)
     }
 }
 
-/* All digits, highest first. Returns how many. */
+/* Writes all digits, highest first. Returns their number. */
 static int decimal_digits(const decimal *d, char out[MAX_LIMBS * LIMB_DIGITS])
 {
     int count = 0;
@@ -82,7 +82,8 @@ static bool rounds_up(const char *digits, int count, int kept)
     return (digits[kept - 1] - '0') % 2 == 1; /* a tie goes to the even digit */
 }
 
-/* Cuts to `kept` digits. Returns true if rounding carried into a new leading digit, so that the value is "1000...". */
+/* Rounds to `kept` digits. Returns true if rounding carried into a new leading digit, so that the value is "1000...".
+ */
 static bool round_digits(char *digits, int count, int kept)
 {
     bool up = rounds_up(digits, count, kept);

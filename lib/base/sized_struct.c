@@ -4,7 +4,7 @@
 
 #include "drillmbd/drillmbd.h"
 
-/* Structs that pass without a size: programs that were built with older headers have them so. */
+/* Structs without struct_size: their layout is fixed, because programs built with older headers use it. */
 _Static_assert(sizeof(dmb_id) == 8 && offsetof(dmb_id, generation) == 4, "dmb_id is frozen");
 _Static_assert(sizeof(dmb_place) == 24 && offsetof(dmb_place, pipe) == 8 && offsetof(dmb_place, fraction) == 16,
                "dmb_place is frozen");
@@ -53,7 +53,7 @@ int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src)
     size = stored_size(src);
     if (dmb_struct_check_size(size, known, oldest) < 0) return DMB_ERR_STRUCT_SIZE;
     for (size_t i = known; i < size; ++i) {
-        if (bytes[i] != 0) return DMB_ERR_STRUCT_SIZE; /* the caller wants something this library does not have */
+        if (bytes[i] != 0) return DMB_ERR_STRUCT_SIZE; /* the caller uses a field that this library does not have */
     }
     memcpy((unsigned char *)dst + header, bytes + header, smaller(size, known) - header);
     return DMB_OK;

@@ -31,7 +31,7 @@ void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double 
 
 static const limits any_finite = {"finite", -(double)INFINITY, (double)INFINITY};
 
-/* The verdict on one number; `holds` is the verdict on a finite value. */
+/* Checks one number; `holds` is the result for a finite value. */
 static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const limits *must)
 {
     if (!dmb_is_finite(is->value)) {
@@ -50,7 +50,7 @@ static void judge_bound(dmb_check *check, const dmb_field_value *is, bool holds,
     judge(check, is, holds, &must);
 }
 
-/* low < value < high; with the bounds themselves where closed. */
+/* low < value < high; low <= value <= high if `closed`. */
 static void judge_range(dmb_check *check, const dmb_field_value *is, bool closed, double low, double high)
 {
     const double value = is->value;
@@ -92,7 +92,7 @@ void dmb_check_between(dmb_check *check, const char *field, double value, double
     judge_range(check, &is, false, low, high);
 }
 
-/* Against the value of another field. */
+/* Checks a value against that of another field. */
 static void judge_field(dmb_check *check, const dmb_field_value *is, bool holds, const char *relation,
                         const dmb_field_value *other)
 {

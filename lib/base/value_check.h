@@ -1,11 +1,10 @@
-/* Checks of the caller's values. A dmb_check collects the verdict on one part: the first value that fails sets the
- * status and the message, later checks do nothing. For each value DMB_ERR_NOT_FINITE comes before DMB_ERR_VALUE.
+/* Checks of the caller's values. A dmb_check collects the result for one part: the first value that fails sets the
+ * status and the message, later checks do nothing. For each value DMB_ERR_NOT_FINITE has priority over DMB_ERR_VALUE.
  *
  *     dmb_check check = dmb_check_of(&model->message, "pipe", index);
  *     dmb_check_above(&check, "length", def->length, 0.0);
  *     dmb_check_above_field(&check, "outer_diameter", def->outer_diameter, "inner_diameter", def->inner_diameter);
- *     if (check.status < 0) return check.status;
- */
+ *     if (check.status < 0) return check.status; */
 #ifndef DMB_BASE_VALUE_CHECK_H
 #define DMB_BASE_VALUE_CHECK_H
 
@@ -48,7 +47,7 @@ void dmb_check_at_least(dmb_check *check, const char *field, double value, doubl
 void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high);  /* low..high */
 void dmb_check_between(dmb_check *check, const char *field, double value, double low, double high); /* low < . < high */
 
-/* One number against another field. A bound that is not finite fails the value too. */
+/* One number against another field. A bound that is not finite makes the check fail too. */
 void dmb_check_above_field(dmb_check *check, const char *field, double value, const char *other, double bound);
 void dmb_check_at_least_field(dmb_check *check, const char *field, double value, const char *other, double bound);
 
@@ -56,13 +55,13 @@ void dmb_check_at_least_field(dmb_check *check, const char *field, double value,
 void dmb_check_all_finite(dmb_check *check, const char *field, const double *values, size_t count);
 void dmb_check_increasing(dmb_check *check, const char *field, const double *values, size_t count, size_t stride);
 
-/* Whole numbers: low <= value <= high. */
+/* Integers: low <= value <= high. */
 void dmb_check_choice(dmb_check *check, const char *field, int32_t value, int32_t low, int32_t high);
 void dmb_check_count(dmb_check *check, const char *field, uint32_t value, uint32_t low, uint32_t high);
-/* No bit outside the mask `allowed`, a nonnegative number. */
+/* Fails for any bit outside the mask `allowed`, a nonnegative number. */
 void dmb_check_mask(dmb_check *check, const char *field, int32_t value, int32_t allowed);
 
-/* A pointer that is required: DMB_ERR_NULL. */
+/* A pointer that must not be NULL: DMB_ERR_NULL. */
 void dmb_check_pointer(dmb_check *check, const char *field, const void *pointer);
 
 #endif

@@ -39,13 +39,14 @@ double dmb_actuator_follow(const dmb_actuator_law *law, double h, double u0, con
 
 enum { N = DMB_DELAY_SAMPLES };
 
-/* [s] Times that mean one time differ by no more: the present one, near the newest sample, less the delay. */
+/* [s] Times that differ by no more count as equal. The difference is rounding of the present time, near the newest
+ * sample, minus the delay. */
 static double rounding_of(const dmb_delay_line *line, double time)
 {
     return 8.0 * DBL_EPSILON * (fabs(time) + fabs(line->time[N - 1]));
 }
 
-/* Number of samples before `time`; they are sorted, and whatever they are it is 0 .. N. */
+/* Number of samples before `time`. Times are sorted; the result is within 0 .. N for any content. */
 static size_t count_before(const dmb_delay_line *line, double time)
 {
     size_t low = 0, high = N;
@@ -59,7 +60,7 @@ static size_t count_before(const dmb_delay_line *line, double time)
     return low;
 }
 
-/* Between sample i - 1 and sample i. */
+/* Linear interpolation between sample i - 1 and sample i. */
 static double between(const dmb_delay_line *line, size_t i, double time)
 {
     if (i == 0) return line->value[0];
@@ -103,8 +104,8 @@ static void append(const dmb_delay_line *line, double time, double value)
     line->value[N - 1] = value;
 }
 
-/* Is the newest sample a breakpoint of the polygon that goes on to `value` at `time`? A smooth command bends less
- * between two samples. */
+/* 1 if the newest sample is a breakpoint of the polygon that continues to `value` at `time`. A smooth command bends
+ * less between two samples. */
 static int is_breakpoint(const dmb_delay_line *line, double time, double value)
 {
     const double *t = line->time, *v = line->value;
@@ -112,17 +113,16 @@ static int is_breakpoint(const dmb_delay_line *line, double time, double value)
     return fabs(v[N - 1] - straight) > 0.05 * (fabs(v[N - 1] - v[N - 2]) + fabs(value - v[N - 1]));
 }
 
-/* Samples of jumps and breakpoints are kept while the newest 512 reach back over the delay; at most 257 others come
- * within a delay, so that the whole line always does. */
+/* 1 if a sample of a jump or breakpoint can be stored: the newest 512 samples must then still cover the delay. At most
+ * 257 other samples occur within a delay, so that the line always covers it. */
 static int has_room(const dmb_delay_line *line, double delay, double time)
 {
     const double oldest = line->time[N - 2 * DMB_DELAY_PARTS];
     return oldest <= time - delay || oldest == line->time[0];
 }
 
-/* A sample that is near its predecessor is replaced by the next one, unless it is the second one of a jump or a
- * breakpoint.
- */
+/* A sample close to its predecessor is replaced by the next one, unless it is a breakpoint or the second sample of a
+ * jump. */
 void dmb_delay_push(const dmb_delay_line *line, double delay, double begin, double start, double time, double value)
 {
     const double part = delay / DMB_DELAY_PARTS, *t = line->time;

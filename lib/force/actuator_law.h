@@ -1,4 +1,4 @@
-/* Actuators: what lies between the command of a drive and its force (a hydraulic rotation head and its valves).
+/* Actuators: the dynamics between the command of a drive and its force (a hydraulic rotation head and its valves).
  *
  *     u(t) = c(t - T)                           delay
  *     |r'| <= R, r follows u                    rate limit
@@ -10,8 +10,8 @@
  *
  *     f1 = E f0 + (1 - E) r0 + w (r1 - r0),   E = exp(-h/tau),   w = 1 - (1 - E) tau/h,
  *
- * (eq:drive.lag) exact for a constant r, of second order else, stable for any h; r1 is u1 or as near as R lets it come.
- * Pure. */
+ * (eq:drive.lag) exact for a constant r, of second order else, stable for any h; r1 is u1, or the value nearest to u1
+ * that R permits. Pure. */
 #ifndef DMB_FORCE_ACTUATOR_LAW_H
 #define DMB_FORCE_ACTUATOR_LAW_H
 
@@ -31,14 +31,13 @@ typedef struct dmb_actuator_law {
     uint32_t line;                                           /* number of its delay line */
 } dmb_actuator_law;
 
-/* [N, N m] f of a motion drive on its way through an actuator: command, after the delay, within the rate, after the
- * lag.
- */
+/* [N, N m] Signal of a motion drive through its actuator: command, value after the delay, after the rate limit, and
+ * after the lag. */
 typedef struct dmb_actuator_flow {
     double command, delayed, limited, force;
 } dmb_actuator_flow;
 
-/* y(x) of a table whose x increase, straight between its points and constant beyond, and its slope. */
+/* Value y(x) and slope of a table with increasing x: linear between its points, constant beyond its ends. */
 static inline double dmb_curve_value(const double *x, const double *y, uint32_t points, double at, double *slope)
 {
     const uint32_t last = points - 1;
@@ -57,7 +56,7 @@ static inline double dmb_actuator_most(const dmb_actuator_law *law, double speed
     return dmb_curve_value(law->speed, law->force, law->points, speed, slope);
 }
 
-/* Force of a controller by its error, in the place of a gain: a mud motor's torque by w0 - w. */
+/* Force of a controller as a function of its error, used instead of a gain: torque of a mud motor over w0 - w. */
 typedef struct dmb_gain_table {
     double error[DMB_GAIN_POINTS], force[DMB_GAIN_POINTS]; /* [m/s, rad/s], [N, N m] */
     uint32_t points;
@@ -69,7 +68,8 @@ static inline double dmb_gain_force(const dmb_gain_table *table, double error, d
     return dmb_curve_value(table->error, table->force, table->points, error, slope);
 }
 
-/* A force within the curve; *slope, by the speed, becomes that of the curve where the curve limits it. */
+/* Returns the force limited by the torque-speed curve. Where the curve limits it, *slope [per unit of speed] becomes
+ * the slope of the curve. */
 static inline double dmb_actuator_within(const dmb_actuator_law *law, double force, double speed, double *slope)
 {
     double up, down;
@@ -86,29 +86,29 @@ static inline double dmb_actuator_within(const dmb_actuator_law *law, double for
     return force;
 }
 
-/* End of a step h from `from` with the delayed command going from u0 to flow->delayed; into limited and force of flow,
- * returns d force/d delayed. from->limited counts only with a rate limit, u0 only without. */
+/* Computes the end of a step h from `from`, in which the delayed command changes from u0 to flow->delayed. Writes
+ * limited and force of flow, returns d force/d delayed. from->limited is used only with a rate limit, u0 only without.
+ */
 double dmb_actuator_follow(const dmb_actuator_law *law, double h, double u0, const dmb_actuator_flow *from,
                            dmb_actuator_flow *flow);
 
-/* ---- The delay line: commands at times that increase, two of one time at a jump; the oldest samples come first. ----
- */
+/* ---- The delay line: commands at increasing times, two at the same time at a jump; oldest samples first. --------- */
 
 typedef struct dmb_delay_line {
     double *time, *value; /* shape (DMB_DELAY_SAMPLES) */
 } dmb_delay_line;
 
-/* The command at a time, the value before a jump there or the one after it; that of the oldest sample before it, of the
- * newest one after it. */
+/* Command at a time: the value before a jump there, or the one after it. Before the oldest sample its value holds,
+ * after the newest one that of the newest. */
 double dmb_delay_before(const dmb_delay_line *line, double time);
 double dmb_delay_after(const dmb_delay_line *line, double time);
-/* [s] The first jump in the line later than `time`; INFINITY: none. */
+/* [s] Time of the first jump in the line later than `time`; INFINITY if there is none. */
 double dmb_delay_next_jump(const dmb_delay_line *line, double time);
-/* From now on the command has always been this one. */
+/* Sets the whole history of the command to `value`. */
 void dmb_delay_fill(const dmb_delay_line *line, double time, double value);
-/* A step has gone from begin, with the command `start` after what was set there, to `time`. Samples nearer than
- * delay/DMB_DELAY_PARTS to their predecessor are replaced by the newest, except jumps and breakpoints: two breakpoints
- * within that time are kept exactly. */
+/* Stores a step from begin to `time` at which the command is `value`; `start` is the command at begin after any change
+ * made there. Samples nearer than delay/DMB_DELAY_PARTS to their predecessor are replaced by the newest, except jumps
+ * and breakpoints: two breakpoints within that time are kept exactly. */
 void dmb_delay_push(const dmb_delay_line *line, double delay, double begin, double start, double time, double value);
 
 #endif

@@ -6,7 +6,7 @@
 #include "math/real.h"
 
 enum { CAPACITY_MIN = 16, SPARE_SAMPLES = 8 };
-#define DMB_LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock behind the blade is smoothed */
+#define DMB_LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock surface behind the blade is smoothed */
 
 /* S(x) = x^2 (3 - 2x) on 0 .. 1, 0 before, 1 after */
 static double ramp(double x, double *slope)
@@ -18,7 +18,7 @@ static double ramp(double x, double *slope)
     return x * x * (3.0 - 2.0 * x);
 }
 
-/* sign(Omega), through x (3 - x^2)/2 within the spin floor */
+/* sign(Omega), replaced by x (3 - x^2)/2 within the spin floor, x = Omega/floor */
 static double spin_sign(double omega, double *slope)
 {
     const double x = omega / DMB_BIT_SPIN_FLOOR;
@@ -68,7 +68,7 @@ int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *l
     return DMB_OK;
 }
 
-/* Place in the ring of sample i, 0 the oldest. */
+/* Index in the ring buffer of sample i; sample 0 is the oldest. */
 static uint32_t place(const dmb_bit_history *history, uint32_t i)
 {
     const uint32_t at = history->head + 1 + i;
@@ -76,7 +76,7 @@ static uint32_t place(const dmb_bit_history *history, uint32_t i)
     return at >= history->count ? at - history->count : at + history->capacity - history->count;
 }
 
-/* Surface at a recorded angle: linear between samples, the end's surface outside them. */
+/* Surface at a recorded angle: linear between samples, constant beyond the first and the last one. */
 static double surface_at(const dmb_bit_history *history, double angle, double *slope)
 {
     uint32_t low = 0;
@@ -146,11 +146,11 @@ struct jet {
     double value, d[4];
 };
 
-/* Rock gives no work: on a bit that is drawn back the regenerative law would push on over the depth of cut that its
- * blades still have, as a spring does, and give more back than the rotation puts in: it is limited to W V + T Omega = -
- * v W where it would be less, v = DMB_BIT_REBOUND. So W is that of the law up to a speed of v + T Omega/W, which
- * without wear flats is v + (a + b) Omega/(2 zeta), and falls as 1/|V| beyond (eq:bit.no-work). v lets a bit rest that
- * does not turn. */
+/* Rock must not do positive work (eq:bit.no-work). On a bit that is pulled back, the regenerative law would push like a
+ * spring over the remaining depth of cut of its blades, and return more energy than the rotation supplies. Therefore W
+ * is limited so that W V + T Omega >= - v W, v = DMB_BIT_REBOUND. W is that of the law up to a speed of v + T Omega/W,
+ * which without wear flats is v + (a + b) Omega/(2 zeta), and falls as 1/|V| beyond. The term with v permits a bit that
+ * does not rotate to rest on the rock. */
 static void give_no_work(double V, double omega, dmb_bit_rock_result *out)
 {
     const double power = out->torque_on_bit * omega + out->weight_on_bit * DMB_BIT_REBOUND;
@@ -162,7 +162,7 @@ static void give_no_work(double V, double omega, dmb_bit_rock_result *out)
     out->weight_on_bit = -power / V;
 }
 
-/* Depth of cut and engagement to forces; the chain rule is the formula itself applied to each derivative. */
+/* Forces from depth of cut and engagement; by the chain rule the same formula applies to each derivative. */
 static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const struct jet *grip, double omega,
                      dmb_bit_rock_result *out)
 {

@@ -1,4 +1,3 @@
-/* A ring against the wall of the hole: the contact point, made once by the compile step, its force and tangent. */
 #ifndef DMB_FORCE_CONTACT_LAW_H
 #define DMB_FORCE_CONTACT_LAW_H
 
@@ -9,52 +8,54 @@
 #include "force/normal_law.h"
 #include "math/mat6.h"
 
-/* A ring on a FULL node that can meet the wall. */
+/* A contact ring on a FULL node that can touch the wall. The compile step creates it. */
 typedef struct dmb_site {
     double offset;    /* [m] along body x from the node */
     double radius;    /* [m] of the ring */
     double clearance; /* [m] hole radius less ring radius, >= 0 */
-    double length;    /* [m] of wall it stands for */
+    double length;    /* [m] length of wall that it represents */
     dmb_id part;      /* string or body */
-    uint32_t pipe;    /* pipe whose far end it is; DMB_NONE: rig end; 0 for a body */
+    uint32_t pipe;    /* pipe whose far end it is on; DMB_NONE: rig end; 0 for a body */
     uint32_t node;
 } dmb_site;
 
-/* A ring against the wall of the hole, in a number that is a double or lanes of doubles (math/real.h).
+/* Force and tangent of a contact ring on the wall of the hole, for numbers that are doubles or lanes of doubles
+ * (math/real.h).
  *
  * In body axes, with n, t, b the contact frame (n outward, t along the hole, b = t x n), V the velocity of the ring's
- * centre and r its radius, three generalised directions carry everything:
+ * centre and r its radius, three generalised directions are sufficient:
  *     j_n = (n; 0)    j_t = (t; -r b)    j_b = (b; r t)          contact speed v_k = j_k . V
  *     wrench on the ring = -N j_n + F_t j_t + F_b j_b          (eq:contact.directions, eq:contact.wrench)
- * so drag and torque share one friction force. The tangent follows by the product rule: change of the forces with
- * penetration and speeds, swing of n and b around the axis (the pendulum term N/e), turning of the frame as the ring
- * moves along a bend of the hole (eq:hole.advance), and turning of the body (eq:contact.pendulum). */
+ * so that drag and torque result from one friction force. The tangent follows by the product rule: change of the forces
+ * with penetration and speeds, rotation of n and b around the axis (the pendulum term N/e), rotation of the frame as
+ * the ring moves along a bend of the hole (eq:hole.advance), and rotation of the body (eq:contact.pendulum). */
 
-#define DMB_CONTACT_PINNED 1e-9       /* [m] nearer to the axis than this, n has no swing of its own */
-#define DMB_CONTACT_PENETRATION 1e-15 /* [m] the least that a ring without clearance has */
+#define DMB_CONTACT_PINNED 1e-9       /* [m] at a smaller distance from the axis the direction of n is constant */
+#define DMB_CONTACT_PENETRATION 1e-15 /* [m] smallest penetration of a ring without clearance */
 
 typedef struct dmb_contact_frame {
     dmb_real n[3], t[3], b[3];     /* [-] body axes */
-    dmb_real turn_t[3], turn_b[3]; /* [m] -r b and r t: what j_t and j_b have under their translations */
+    dmb_real turn_t[3], turn_b[3]; /* [m] -r b and r t: rotational parts of j_t and j_b */
     dmb_real radius, distance;     /* [m] r; e from the axis to the ring's centre */
     dmb_real V[6];                 /* [m/s, rad/s] */
     dmb_real speed[3];             /* [m/s] v_n, v_t, v_b */
 } dmb_contact_frame;
 
-/* Forces (-N, F_t, F_b) and their derivatives; those of -N by the speeds but v_n are 0. */
+/* Forces (-N, F_t, F_b) and their derivatives; the derivatives of -N by v_t and v_b are 0. */
 typedef struct dmb_contact_force {
     dmb_real F[3];           /* [N] */
     dmb_real by_depth[3];    /* [N/m] dF_k/d penetration */
     dmb_real normal_rate;    /* [N s/m] dF_n/dv_n */
     dmb_real by_speed[2][3]; /* [N s/m] dF_t, dF_b by v_n, v_t, v_b */
-    dmb_real elastic;        /* [N] part of N that the wall stores */
-    dmb_real whole;          /* [N/m] N per metre where it may pull */
+    dmb_real elastic;        /* [N] elastic part of N, which the wall stores */
+    dmb_real whole;          /* [N/m] N per metre without the restriction N >= 0 */
 } dmb_contact_force;
 
 /* ---- Frame and forces ----------------------------------------------------------------------------------------------
  */
 
-/* R: body to world; normal and tangent of the hole in world axes. radius, distance and V are there already. */
+/* Sets the contact frame in body axes. R: body to world; normal and tangent of the hole in world axes. radius, distance
+ * and V are set by the caller. */
 static inline void dmb_contact_frame_at(const dmb_real R[9], const dmb_real normal[3], const dmb_real tangent[3],
                                         dmb_contact_frame *f)
 {
@@ -73,7 +74,7 @@ static inline void dmb_contact_speeds(dmb_contact_frame *f)
     f->speed[2] = dmb_vec3_dot(f->b, f->V) + f->turn_b[0] * w[0] + f->turn_b[1] * w[1] + f->turn_b[2] * w[2];
 }
 
-/* In statics speeds are 0, but friction may act as at a given slip [m/s, rad/s]. */
+/* Contact speeds of statics. Speeds are 0, but friction may act as at a given slip [m/s, rad/s]. */
 static inline void dmb_contact_static_speeds(const double slip[2], dmb_contact_frame *f)
 {
     for (int i = 0; i < 6; i++) f->V[i] = dmb_real_of(0.0);
@@ -82,14 +83,13 @@ static inline void dmb_contact_static_speeds(const double slip[2], dmb_contact_f
     f->speed[2] = f->radius * slip[1];
 }
 
-/* Depth of a ring in the wall, its speed at first touch, and the weight of its damping as dmb_normal_response_at has
- * it. */
+/* Penetration of a ring, its speed at first touch, and the weight of its damping (dmb_normal_response_at). */
 typedef struct dmb_contact_depth {
     dmb_real penetration, impact_speed; /* [m], [m/s] */
     const dmb_normal_touch *touch;
 } dmb_contact_depth;
 
-/* length [m] of wall that the ring stands for. Without friction. */
+/* Normal force and its derivatives without friction. length [m] is the length of wall that the ring represents. */
 static inline void dmb_contact_normal_force(const dmb_local_normal *law, const dmb_contact_frame *f, dmb_real length,
                                             const dmb_contact_depth *at, dmb_contact_force *out)
 {
@@ -102,7 +102,8 @@ static inline void dmb_contact_normal_force(const dmb_local_normal *law, const d
     out->whole = N.whole;
 }
 
-/* From the friction law at N = -F[0]: F its force, by_speed its tangent (2,2), by_normal dF/dN. */
+/* Adds the friction force at N = -F[0]. From the friction law: F its force, by_speed its tangent (2,2), by_normal
+ * dF/dN. */
 static inline void dmb_contact_add_friction(const dmb_real F[2], const dmb_real by_speed[4],
                                             const dmb_real by_normal[2], dmb_contact_force *out)
 {
@@ -130,7 +131,7 @@ static inline void dmb_contact_wrench(const dmb_contact_frame *f, const dmb_cont
 /* ---- Tangent -------------------------------------------------------------------------------------------------------
  */
 
-/* K = n row_n^T over the translations, 0 under them: where j_n has nothing */
+/* K = n row_n^T in the translation rows; the rotation rows are 0, because j_n has no rotational part */
 static inline void dmb_contact_set_normal(const dmb_real n[3], const dmb_real *row, dmb_real K[36])
 {
     for (int i = 0; i < 3; i++)
@@ -151,7 +152,7 @@ static inline void dmb_contact_add_direction(const dmb_real a[3], const dmb_real
         }
 }
 
-/* Change of the forces as the speeds change by dv, along the directions: out += sum j_k dF_k/dv . dv */
+/* Change of the forces with a change dv of the speeds, along the directions: out += sum j_k dF_k/dv . dv */
 static inline void dmb_contact_add_speed_change(const dmb_contact_frame *f, const dmb_contact_force *c,
                                                 const dmb_real dv[3], int friction, dmb_real out[6])
 {
@@ -163,7 +164,8 @@ static inline void dmb_contact_add_speed_change(const dmb_contact_frame *f, cons
     }
 }
 
-/* w = [-N (b;0) + F_t (0; r n) + F_b (-n; 0)] + sum j_k D_kl (dj_l/dpsi . V): change by a swing psi around the axis */
+/* w = [-N (b;0) + F_t (0; r n) + F_b (-n; 0)] + sum j_k D_kl (dj_l/dpsi . V): change with a rotation psi around the
+ * axis */
 static inline void dmb_contact_swing(const dmb_contact_frame *f, const dmb_contact_force *c, int friction,
                                      dmb_real out[6])
 {
@@ -179,8 +181,8 @@ static inline void dmb_contact_swing(const dmb_contact_frame *f, const dmb_conta
     dmb_contact_add_speed_change(f, c, dv, friction, out);
 }
 
-/* Turning of the body by dtheta turns the frame back: d(j . V) = (j x dtheta) . V = (V x j) . dtheta, translation and
- * rotation parts added. */
+/* Derivatives of the speeds by rotation of the body. A rotation dtheta turns the frame back relative to the body: d(j .
+ * V) = (j x dtheta) . V = (V x j) . dtheta, sum of translation and rotation parts. */
 static inline void dmb_contact_rotation_rates(const dmb_contact_frame *f, dmb_real by_rotation[3][3])
 {
     dmb_real a[3];
@@ -211,8 +213,8 @@ static inline void dmb_contact_force_tangent(const dmb_contact_frame *f, const d
     }
 }
 
-/* d wrench / d pose at the ring, shape (6, 6): that of the forces + swing (b/e ; 0)^T + the wrench turning with the
- * body. */
+/* d wrench / d pose at the ring, shape (6, 6): tangent of the forces + swing (b/e ; 0)^T + rotation of the wrench with
+ * the body. */
 static inline void dmb_contact_pose_tangent(const dmb_contact_frame *f, const dmb_contact_force *c,
                                             const dmb_real wrench[6], int friction, dmb_real K[36])
 {
@@ -224,7 +226,8 @@ static inline void dmb_contact_pose_tangent(const dmb_contact_frame *f, const dm
     dmb_contact_force_tangent(f, c, friction, K);
     dmb_contact_swing(f, c, friction, swing);
     for (int i = 0; i < 6; i++) dmb_vec3_axpy(pendulum * swing[i], f->b, K + 6 * i);
-    if (dmb_mask_any(pinned)) { /* on the axis of a pinned pipe: the wall holds alike in every direction */
+    if (dmb_mask_any(
+            pinned)) { /* on the axis of a ring without clearance the wall has the same stiffness in every direction */
         const dmb_real hold = dmb_real_select(pinned, c->by_depth[0], zero);
         for (int i = 0; i < 3; i++) dmb_vec3_axpy(hold * f->b[i], f->b, K + 6 * i);
     }
@@ -232,8 +235,9 @@ static inline void dmb_contact_pose_tangent(const dmb_contact_frame *f, const dm
     dmb_mat6_add_skew(dmb_real_of(1.0), wrench + 3, 1, 1, K);
 }
 
-/* Moving by dx along the axis takes the closest point on by ds = t . dx/(1 - e n . (bend x t)), and the frame turns by
- * bend ds: forces turn with it, and speeds change by bend . (j x V). bend [rad/m] is in body axes. */
+/* Adds the effect of a bend of the hole. A displacement dx along the axis moves the closest point by ds = t . dx/(1 - e
+ * n . (bend x t)), and the frame turns by bend ds: forces turn with it, and speeds change by bend . (j x V). bend
+ * [rad/m] is in body axes. */
 static inline void dmb_contact_add_bend(const dmb_contact_frame *f, const dmb_contact_force *c, const dmb_real bend[3],
                                         const dmb_real wrench[6], int friction, dmb_real K[36])
 {

@@ -3,12 +3,12 @@
 #include <math.h>
 
 /* ---- Maximum of the smoothed law (eq:friction.peak) --------------------------------------------------------------
- * 1/kappa = max over s of r E, r = sqrt(1 - v_eps^2/s^2). E = exp(-s/v_s) has it where s^3 - v_eps^2 s = v_eps^2 v_s; a
- * straight piece E = a + b s of a table, falling, where v_eps^2 (a + b s) + b s (s^2 - v_eps^2) = 0. Both sides change
- * sign once. */
+ * 1/kappa = max over s of r E, r = sqrt(1 - v_eps^2/s^2). For E = exp(-s/v_s) it is where s^3 - v_eps^2 s = v_eps^2
+ * v_s; for a falling linear segment E = a + b s of a table it is where v_eps^2 (a + b s) + b s (s^2 - v_eps^2) = 0.
+ * Both sides change sign once. */
 
-#define DECAY_LEAST 0.3  /* [-] of v_eps: a faster decay is not resolved */
-#define KAPPA_MOST 100.0 /* [-] tables whose static part ends below v_eps are not raised further */
+#define DECAY_LEAST 0.3  /* [-] of v_eps: smoothing does not resolve a faster decay */
+#define KAPPA_MOST 100.0 /* [-] tables whose static part ends below v_eps are raised by no more than this factor */
 #define HALVINGS 100
 
 static double smoothed_decay(const dmb_friction_law *law, double s)
@@ -34,7 +34,7 @@ static double peak_of_curve(const dmb_friction_law *law)
     return smoothed_decay(law, low);
 }
 
-/* Largest value on the falling piece from x to x1: at its ends, where E comes down to 1, or between. */
+/* Largest value on the falling segment from x to x1: at its ends, where E has fallen to 1, or between. */
 static double peak_of_piece(const dmb_friction_law *law, int k)
 {
     const double *x = law->table_speed, *y = law->table_mu, last = y[law->points - 1], height = y[0] - last;

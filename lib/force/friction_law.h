@@ -1,7 +1,7 @@
 /* Friction laws: two components of tangential force at the contact point (axial, circumferential).
  * N is the normal force [N >= 0, or N/m; the result has its unit], v the sliding velocity of the pipe's contact point
- * over the wall [m/s]. All derivatives are exact; the falling Stribeck branch is kept in them. Pure functions, of a
- * number that is a double or lanes of doubles (math/real.h). Where dF_dv is NULL, it is not wanted. */
+ * over the wall [m/s]. All derivatives are exact and include the falling Stribeck branch. Pure functions for numbers
+ * that are doubles or lanes of doubles (math/real.h). If dF_dv is NULL, the tangent is not computed. */
 #ifndef DMB_FORCE_FRICTION_LAW_H
 #define DMB_FORCE_FRICTION_LAW_H
 
@@ -15,7 +15,7 @@ enum { DMB_FRICTION_POINTS = 8 }; /* [-] of a table, as of dmb_wall_def */
 
 typedef struct dmb_friction_law {
     int32_t kind;              /* DMB_FRICTION_... */
-    int32_t points;            /* [-] of a table in the place of the Stribeck curve; 0: none */
+    int32_t points;            /* [-] of a table that replaces the Stribeck curve; 0: none */
     double mu_static;          /* [-] */
     double mu_dynamic;         /* [-] */
     double stribeck_speed;     /* [m/s] v_s > 0 */
@@ -25,8 +25,8 @@ typedef struct dmb_friction_law {
     double bristle_damping;    /* [s/m] sigma1 >= 0, tangential damping over normal force */
     const double *table_speed; /* [m/s] 0 and then strictly increasing, shape (points) */
     const double
-        *table_mu; /* [-] coefficients there, shape (points); times mu_dynamic over the last one, which is > 0 */
-    double peak_bump, peak_level; /* [-] A and B of eq:friction.peak, of dmb_friction_law_of; 0: as they are smoothed */
+        *table_mu; /* [-] coefficients there, shape (points); scaled by mu_dynamic over the last one, which is > 0 */
+    double peak_bump, peak_level; /* [-] A and B of eq:friction.peak, set by dmb_friction_law_of; 0: no correction */
 } dmb_friction_law;
 
 /* A law with coefficients of the place, which differ from lane to lane in a hole of sections. */
@@ -41,18 +41,18 @@ static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *l
     return local;
 }
 
-/* The law with the constants by which STRIBECK has the maximum mu_static N (eq:friction.peak). Its decay is no steeper
- * than smoothing resolves: stribeck_speed is at least 0.3 smoothing_speed. Of a table, whose maximum is its first
- * coefficient, the static part must reach beyond smoothing_speed. Other laws are taken as they are. */
+/* Returns the law with the constants for which STRIBECK has the maximum mu_static N (eq:friction.peak). Its decay is no
+ * steeper than smoothing resolves: stribeck_speed is at least 0.3 smoothing_speed. The maximum of a table is its first
+ * coefficient; its static part must extend beyond smoothing_speed. Other laws are returned unchanged. */
 dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
 
-/* Friction as a function of velocity alone. F [as N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
+/* Friction as a function of velocity alone. F [unit of N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
  * dF_dN its derivative with respect to N (2).
  *   COULOMB, STRIBECK: F = -mu(s) N v/s, s = sqrt(|v|^2 + v_eps^2), mu constant (mu_dynamic) or the Stribeck curve
  *   mu_d + (mu_s - mu_d) exp(-s/v_s) (eq:friction.smooth, eq:friction.stribeck), raised to the maximum mu_s
- *   (eq:friction.peak). BRISTLE gives the STRIBECK result without that, to which the law comes once it slides.
- *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond (eq:friction.ambrosio).
- * Zero where v = 0; a law smoothed like this creeps under load, BRISTLE does not. */
+ *   (eq:friction.peak). BRISTLE returns the STRIBECK result without that correction, which is the limit of the law in
+ * sliding. AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond
+ * (eq:friction.ambrosio). F = 0 at v = 0. A law smoothed in this way creeps under load, BRISTLE does not. */
 static inline void dmb_friction_smooth_at(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
                                           dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2]);
 static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
@@ -71,11 +71,11 @@ static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, 
  * So it breaks away at mu_static however fast it is loaded or vibrates in sticking, and slides on the Stribeck curve
  * from the step after. (With the curve in sticking too, as in LuGre, the bristles' own speed lowers the limit.)
  * The damping counts in sticking and fades out at the limit: |F| <= mu N always, F = -mu N v/|v| in steady sliding.
- * Both projections are continuous in v. Returns 1 where neither acts; the caller hands it back as `stuck` of the
+ * Both projections are continuous in v. Returns 1 if neither acts. The caller passes this as `stuck` of the
  * next step, never between iterations of one step. The tangent has kinks at the circles and, with mu_s > mu_d, at v = 0
  * while sliding (the derivative of |v| there counts as 0). h = 0 keeps z_old, cut back to the limit.
- * The caller keeps z, v and sticks of accepted steps, and starts a contact, or one regained, at z = 0 and stuck = 0.
- * F, dF_dv, dF_dN as above. z_old and v_old may be z and v. */
+ * The caller keeps z, v and sticks of accepted steps, and starts a contact, or one regained, at z = 0 and stuck = 0. F,
+ * dF_dv, dF_dN as above. z_old and v_old may be z and v. */
 static inline dmb_mask dmb_friction_bristle(const dmb_local_friction *local, dmb_real N, const dmb_real v[2],
                                             const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck, double h,
                                             dmb_real z[2], dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2]);
@@ -90,8 +90,7 @@ static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
 /* ---- Smooth laws ---------------------------------------------------------------------------------------------------
  */
 
-/* y(s) and y'(s) of the table as given (eq:friction.table): straight between its points, constant beyond the last one.
- */
+/* y(s) and y'(s) of the table as given (eq:friction.table): linear between its points, constant beyond the last one. */
 static inline dmb_real dmb_friction_table(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
     const double *x = law->table_speed, *y = law->table_mu;
@@ -108,7 +107,7 @@ static inline dmb_real dmb_friction_table(const dmb_friction_law *law, dmb_real 
     return dmb_real_select(end, dmb_real_of(y[law->points - 1]), mu);
 }
 
-/* Remaining share of static friction at s: E = exp(-s/v_s) and E'(s). */
+/* Remaining fraction of static friction at s: E = exp(-s/v_s) and E'(s). */
 static inline dmb_real dmb_stribeck_decay(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
 {
     const dmb_mask end = dmb_mask_at_most(dmb_real_of(DMB_STRIBECK_END * law->stribeck_speed), s);
@@ -120,8 +119,8 @@ static inline dmb_real dmb_stribeck_decay(const dmb_friction_law *law, dmb_real 
     return left;
 }
 
-/* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s). A table is in proportion
- * to mu_d, so factors and sections of the hole, which set mu_d, change all of it. */
+/* mu(s) and mu'(s) of the table, or of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s). A table is scaled with
+ * mu_d, so that factors and sections of the hole, which set mu_d, scale all of it. */
 static inline dmb_real dmb_stribeck(const dmb_local_friction *local, dmb_real s, dmb_real *slope)
 {
     const dmb_friction_law *law = local->law;
@@ -154,7 +153,7 @@ static inline void dmb_friction_radial(dmb_real N, const dmb_real v[2], dmb_real
     dF_dv[3] = -N * (f + g * v[1] * v[1]);
 }
 
-/* Ambrosio 2003: friction fades in between v0 and v1. f = mu_d c/|v|. */
+/* Ambrosio 2003: friction increases from 0 at v0 to its full value at v1. f = mu_d c/|v|. */
 static inline void dmb_friction_ambrosio(const dmb_local_friction *local, dmb_real speed, dmb_real *f, dmb_real *g)
 {
     const dmb_friction_law *law = local->law;
@@ -183,11 +182,10 @@ static inline dmb_real dmb_friction_table_decay(const dmb_friction_law *law, dmb
 /* Static friction (eq:friction.peak). The smoothed curve f0 = mu(s) r, r = |v|/s, stays below mu_s everywhere, because
  * it falls before smoothing ends. With y = r E, the largest value of which is 1/kappa,
  *     |v| f = f0 + y^4 [A (mu_s - mu_d) + B mu_d (1 - r)],   A = (kappa - 1) kappa^3,   B = kappa^4
- * has its maximum mu_s where y has its own: both parts, r + B y^4 (1 - r) of mu_d and y + A y^4 of mu_s - mu_d, are 1
+ * has its maximum mu_s at the maximum of y: both parts, r + B y^4 (1 - r) of mu_d and y + A y^4 of mu_s - mu_d, are 1
  * there and less elsewhere. It is linear in both coefficients, and f0 in the limit v_eps = 0. f and g gain
  *     w c,   w = r^3 E^4/s,   c = [...],   and (w c)'/|v| = r E^3/s^3 [3 E + 4 r^2 (s E' - E)] c - r^2 E^4 B mu_d
- * v_eps^2/s^5
- */
+ * v_eps^2/s^5 */
 static inline void dmb_friction_reach_static(const dmb_local_friction *local, dmb_real speed, dmb_real s, dmb_real *f,
                                              dmb_real *g)
 {
@@ -234,9 +232,9 @@ static inline void dmb_friction_smooth_at(const dmb_local_friction *local, dmb_r
 /* ---- Bristles ------------------------------------------------------------------------------------------------------
  */
 
-/* Brings a vector back onto the circle |x| <= limit, radially, and its derivative dx (2,2) with it:
- * d(limit x/|x|) = limit/|x| (I - e e^T) dx + e d_limit^T, e = x/|x| (eq:friction.projection). Returns where it had to.
- */
+/* Projects a vector radially onto the disc |x| <= limit, and its derivative dx (2,2) accordingly:
+ * d(limit x/|x|) = limit/|x| (I - e e^T) dx + e d_limit^T, e = x/|x| (eq:friction.projection). Returns the lanes that
+ * were outside. */
 static inline dmb_mask dmb_onto_circle(dmb_real x[2], dmb_real dx[4], dmb_real limit, const dmb_real d_limit[2])
 {
     const dmb_real length = dmb_friction_norm(x[0], x[1]);
@@ -255,7 +253,7 @@ static inline dmb_mask dmb_onto_circle(dmb_real x[2], dmb_real dx[4], dmb_real l
     return outside;
 }
 
-/* Limit of friction over normal force and its gradient: mu_static from sticking, else the Stribeck curve at |v|. */
+/* Friction limit over normal force and its gradient: mu_static if stuck, otherwise the Stribeck curve at |v|. */
 static inline dmb_real dmb_bristle_limit(const dmb_local_friction *local, const dmb_real v[2], dmb_mask stuck,
                                          dmb_real d_mu[2])
 {
@@ -284,7 +282,7 @@ static inline dmb_mask dmb_friction_bristle(const dmb_local_friction *local, dmb
 
     dmb_real q[2] = {sigma0 * z[0], sigma0 * z[1]};
     for (int i = 0; i < 4; ++i) dq[i] *= sigma0;
-    if (sigma1 != 0.0) { /* without damping q is inside already */
+    if (sigma1 != 0.0) { /* without damping q is within the disc already */
         q[0] += sigma1 * v[0];
         q[1] += sigma1 * v[1];
         dq[0] += sigma1;

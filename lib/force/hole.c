@@ -6,11 +6,11 @@
 #include "math/elementary.h"
 #include "math/vec3.h"
 
-#define DMB_BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
+#define DMB_BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as straight */
 #define DMB_HORIZONTAL_MIN 1e-9 /* [-] horizontal part of the tangent below which the hole counts as vertical */
 
-/* Divides by the length; through the largest component, so that no finite length over- or underflows. Returns 0 where
- * there is no direction. */
+/* Normalises a. First divides by the largest component, so that no finite length over- or underflows. Returns 0 if the
+ * length is 0. */
 static int normalise(double a[3])
 {
     const double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
@@ -47,7 +47,7 @@ int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const do
     return DMB_OK;
 }
 
-/* The horizontal across a tangent; across the vertical the world's y axis. */
+/* y axis of the hole's frame: horizontal and normal to the tangent; for a vertical hole the world's y axis. */
 static void side_of(const double t[3], double y[3])
 {
     dmb_vec3_set(0.0 - t[1], t[0], 0.0, y);
@@ -70,7 +70,8 @@ static void survey_tangent(const double row[3], double t[3])
     (void)normalise(t);
 }
 
-/* Arc of a station from its tangent and the next one's. Returns 0 where it bends too much. */
+/* Sets the arc of a station from its tangent and the next one's. Returns 0 if the dogleg is above DMB_HOLE_DOGLEG_MAX.
+ */
 static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
 {
     double axis[3];
@@ -86,8 +87,8 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
     return normalise(from->normal);
 }
 
-/* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n (eq:hole.arc) and its two derivatives, r beyond a station, k its
- * curvature */
+/* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n (eq:hole.arc) and its two derivatives, at distance r beyond a station, k
+ * its curvature */
 static void along_arc(const dmb_hole_station *from, double r, double x[3], double t[3], double curvature[3])
 {
     const double angle = from->curvature * r;
@@ -105,7 +106,7 @@ static void along_arc(const dmb_hole_station *from, double r, double x[3], doubl
     }
 }
 
-/* Stations that all look the same way are a straight line: the fast path. */
+/* If all stations have the same direction, the hole becomes a straight line, which is faster. */
 static void straighten(dmb_hole *hole)
 {
     for (uint32_t i = 0; i < hole->stations; ++i)
@@ -117,7 +118,8 @@ static void straighten(dmb_hole *hole)
     hole->stations = 0;
 }
 
-/* Across to the end of a station's arc: with v = a n + b (t x n) it becomes a (cos n - sin t) + b (t x n). */
+/* Parallel transport of a normal vector to distance r along a station's arc: v = a n + b (t x n) becomes a (cos n - sin
+ * t) + b (t x n). */
 static void carry(const dmb_hole_station *from, double r, const double across[3], double carried[3])
 {
     double sine, cosine;
@@ -128,7 +130,8 @@ static void carry(const dmb_hole_station *from, double r, const double across[3]
     dmb_vec3_axpy(-a * sine, from->tangent, carried);
 }
 
-/* Rounding does not add up: orthogonal to the tangent, of length 1. */
+/* Transports the normal vector to the next station and makes it orthogonal to the tangent, of length 1, so that
+ * rounding does not accumulate. */
 static void carry_to(const dmb_hole_station *from, dmb_hole_station *to)
 {
     carry(from, to->depth - from->depth, from->carried, to->carried);
@@ -279,7 +282,7 @@ void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, dou
     dmb_vec3_scale(arc->curvature, bend, bend);
 }
 
-/* About t: t . w = z . y' with y = e_z x t over its length. */
+/* About t the rate is t . w = z . y' with y = e_z x t, normalised. */
 void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3])
 {
     const double across = t[0] * t[0] + t[1] * t[1];
@@ -327,7 +330,8 @@ double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double 
 
 /* ---- Widened by cutters ------------------------------------------------------------------------------------------ */
 
-/* Part of the way from a station to the next one, 0 .. 1, to the part of the step between them, with derivatives. */
+/* Fraction of the distance between two stations, 0 .. 1, to the fraction of the step between their values, with
+ * derivatives. */
 static void part_of_step(double x, double step[3])
 {
     const double y = 1.0 - x;
@@ -359,7 +363,7 @@ double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s)
     return step[0];
 }
 
-/* mu of the restitution there. */
+/* Sets mu from the restitution at depth s. */
 static void take_restitution(const dmb_hole_piece *piece, double s, dmb_normal_law *law)
 {
     if (piece->slope[DMB_WALL_RESTITUTION] == 0.0 && piece->bend[DMB_WALL_RESTITUTION] == 0.0)

@@ -13,31 +13,32 @@
 
 #define DMB_HOLE_DOGLEG_MAX 2.5 /* [rad] largest change of direction between two stations */
 
-/* A station and the arc that leads from it to the next one. */
+/* A station and the arc from it to the next one. */
 typedef struct dmb_hole_station {
     double depth;      /* [m] measured depth */
     double curvature;  /* [rad/m] of the arc, 0 where straight and at the last station */
     double point[3];   /* [m] on the axis, world frame */
     double tangent[3]; /* [-] unit, towards greater depth */
     double normal[3];  /* [-] unit, towards the centre of the arc; 0 where straight */
-    double carried[3]; /* [-] unit, across the axis: y axis of the frame that the axis carries along without twist */
+    double carried[3]; /* [-] unit, normal to the axis: y axis of the frame that is transported along the axis without
+                          twist */
 } dmb_hole_station;
 
 typedef struct dmb_hole_piece dmb_hole_piece; /* below */
 
 typedef struct dmb_hole {
-    const dmb_hole_station *station; /* shape (stations), the caller's; NULL for a straight hole */
+    const dmb_hole_station *station; /* shape (stations), owned by the caller; NULL for a straight hole */
     uint32_t stations;               /* [-] 0 for a straight hole */
-    uint32_t pieces;                 /* [-] 0: the same wall everywhere */
-    double origin[3];                /* [m] where measured depth is 0 on a straight hole, world frame */
+    uint32_t pieces;                 /* [-] 0: constant wall properties */
+    double origin[3];                /* [m] point of measured depth 0 of a straight hole, world frame */
     double direction[3];             /* [-] unit, of a straight hole */
-    double radius;                   /* [m]; where there are pieces, above them */
-    const dmb_hole_piece *piece;     /* shape (pieces), the caller's */
-    double friction;                 /* [-] factor on the friction of the pieces; 1 but for inputs */
-    const double *widening;          /* [m] by cutters, at their stations, of a sim; NULL: as described; shape (cuts) */
-    uint32_t cuts;                   /* [-] stations at which cutters widen the hole, 0: none; there are pieces then */
+    double radius;                   /* [m]; with pieces: that of the first piece */
+    const dmb_hole_piece *piece;     /* shape (pieces), owned by the caller */
+    double friction;                 /* [-] factor on the friction of the pieces; 1 unless an input changes it */
+    const double *widening; /* [m] by cutters, at their stations, owned by a sim; NULL: no widening; shape (cuts) */
+    uint32_t cuts;          /* [-] stations at which cutters widen the hole, 0: none; requires pieces */
     uint32_t reserved;
-    double cut_start, cut_spacing; /* [m] measured depth of the first one, and how far apart they are */
+    double cut_start, cut_spacing; /* [m] measured depth of the first one, and their spacing */
 } dmb_hole;
 
 static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)
@@ -46,14 +47,14 @@ static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)
 }
 
 /* Straight hole from origin [m] (depth 0) along direction (any length > 0).
- * Errors: DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (direction of length 0); the hole is untouched then. */
+ * Errors: DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (direction of length 0); the hole is unchanged after an error. */
 int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const double direction[3], double radius);
 
 /* Surveyed hole. survey (stations,3): measured depth [m] strictly increasing, inclination from the downward vertical
- * and azimuth clockwise seen from above, from +x (north) towards -y (east) [rad]. origin [m]: the first station's
- * place. storage: the caller's array of `stations` entries, kept by the hole. A survey without a bend becomes a
- * straight hole. Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the
- * one before above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: eq:hole.arc.
+ * and azimuth clockwise seen from above, from +x (north) towards -y (east) [rad]. origin [m]: position of the first
+ * station. storage: the caller's array of `stations` entries, which the hole refers to. A survey without a bend becomes
+ * a straight hole. Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the
+ * previous station above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: eq:hole.arc.
  * O(stations). */
 int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *survey, const double origin[3],
                               double radius, dmb_hole_station *storage);
@@ -63,60 +64,60 @@ int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *s
 void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], double curvature[3]);
 
 /* Rotation of the hole's frame at depth s, (3,3) row by row: its columns are the tangent, y = z_world x t (horizontal),
- * and z = t x y; identity for a hole along +x. A hole within 1e-9 rad of the vertical has no horizontal of its own:
- * there y is the world's y axis (what azimuth 0 tends to). */
+ * and z = t x y; identity for a hole along +x. A hole within 1e-9 rad of the vertical has no horizontal direction: y is
+ * then the world's y axis (the limit of azimuth 0). */
 void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 
-/* Frame that the axis carries along without any twist about itself, (3,3) row by row: its x axis is the tangent. It is
- * the hole's frame at the first station (a straight hole: everywhere) and turns by t x dt/ds per metre from there on,
- * through the vertical as elsewhere (eq:hole.carried). Exact along arcs.
- * O(log stations). */
+/* Rotation of the frame that is transported along the axis without twist, (3,3) row by row: its x axis is the tangent.
+ * It is the hole's frame at the first station (a straight hole: everywhere). From there it turns by t x dt/ds per
+ * metre, also through the vertical (eq:hole.carried). Exact along arcs. O(log stations). */
 void dmb_hole_carried_rotation(const dmb_hole *hole, double s, double R[9]);
 
-/* Rotation (3,3) that carries a frame across the axis from depth `from` to depth `to` without twist: world axes. */
+/* Rotation (3,3), in world axes, that transports a frame along the axis from depth `from` to depth `to` without twist.
+ */
 void dmb_hole_carry(const dmb_hole *hole, double from, double to, double R[9]);
 
-/* Turning of the hole's frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector dt/ds:
- * t x dt/ds, and about t what keeps its y axis horizontal. */
+/* Rotation rate of the hole's frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector
+ * dt/ds: t x dt/ds, and the rate about t that keeps the y axis horizontal. */
 void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3]);
 
-/* [rad/m] Turning of the tangent per metre of depth without any about itself, world axes: curvature times the binormal,
- * which is one vector all along an arc; 0 where the axis is straight. depth and segment as dmb_hole_project gives
- * them. */
+/* Rotation rate of the tangent per metre of depth [rad/m], without twist, world axes: curvature times the binormal,
+ * which is constant along an arc; 0 where the axis is straight. depth and segment as returned by dmb_hole_project. */
 void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, double bend[3]);
 
-/* Arc that holds measured depth s: that of the last station at or before it, the first one's before that; 0 for a
- * straight hole. O(log stations). */
+/* Index of the arc at measured depth s: that of the last station at or before s, or 0 before the first station and for
+ * a straight hole. O(log stations). */
 uint32_t dmb_hole_segment_at(const dmb_hole *hole, double s);
 
-/* Closest point of the axis to x near a known place: its measured depth *s, point and unit tangent. *segment is the arc
- * at which the search starts, in any range, and is returned as the arc found (0 for a straight hole); *s is written
- * only. Closed form on lines and arcs, therefore exact to round-off. From the start the search descends to the first
- * minimum of the distance: an axis may have several, where it turns by more than 90 deg or crosses itself, so the start
- * must be the arc of the measured depth that x is known to be near (dmb_hole_segment_at, or the arc found before).
- * Continuous from arc to arc while x is nearer to the axis than its radius of curvature. O(1) with a good start. */
+/* Computes the closest point of the axis to x near a known depth: its measured depth *s, point [m] and unit tangent.
+ * *segment is the arc at which the search starts (any value is permitted), and returns the arc found (0 for a straight
+ * hole); *s is output only. Closed form on lines and arcs, therefore exact to round-off. From the start the search
+ * descends to the first minimum of the distance: an axis may have several, where it turns by more than 90 deg or
+ * crosses itself, so the start must be the arc of a measured depth known to be near x (dmb_hole_segment_at, or the arc
+ * found before). Continuous from arc to arc while x is nearer to the axis than its radius of curvature. O(1) with a
+ * good start. */
 void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
                       double tangent[3]);
 
-#define DMB_HOLE_CROSSING 1e-6 /* [m] two minima whose distances differ by less are at a crossing of the axis */
+#define DMB_HOLE_CROSSING 1e-6 /* [m] two minima whose distances differ by less count as a crossing of the axis */
 
-/* Place of the axis nearest to x among the minima of the distance with measured depths within `reach` [m] of `middle`;
- * where there is none, the minimum that the descent from `middle` reaches. reach = INFINITY: on the whole axis. Of two
- * minima at a crossing the one whose tangent is parallel to `direction` (unit, world; NULL: the one nearer to
- * `middle`). Returns its arc, *depth its measured depth. O(stations within reach). */
+/* Depth of the point of the axis nearest to x, among the minima of the distance with measured depths within `reach` [m]
+ * of `middle`. If there is none, the minimum that the descent from `middle` reaches. reach = INFINITY: the whole axis.
+ * Of two minima at a crossing it is the one whose tangent is parallel to `direction` (unit, world; NULL: the one nearer
+ * to `middle`). Returns the arc, *depth is the measured depth. O(stations within reach). */
 uint32_t dmb_hole_search(const dmb_hole *hole, const double x[3], double middle, double reach,
                          const double direction[3], double *depth);
 
-/* First arc from `arc` on with a minimum of the distance from x; at least the number of stations (1 for a straight
- * hole) where no further arc has one. */
+/* First arc, from `arc` on, with a minimum of the distance from x. Returns the number of stations (1 for a straight
+ * hole) or more if no further arc has one. */
 uint32_t dmb_hole_next_foot(const dmb_hole *hole, const double x[3], uint32_t arc);
 
-/* Radial offset of x from the axis: u = x - axis_point without its part along tangent, *e = |u| [m], n = u/e.
- * Below e = 1e-12 m (concentric) there is no direction and n is n_last, the last one known; n may be n_last. */
+/* Radial offset of x from the axis: u = x - axis_point without its component along tangent, *e = |u| [m], n = u/e.
+ * Below e = 1e-12 m (concentric) the direction is undefined and n is n_last, the last direction; n may be n_last. */
 void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
                 double *e, double n[3]);
 
-/* Distance from a straight axis, in a number that is a double or lanes of doubles (math/real.h). */
+/* Distance from a straight axis, for numbers that are doubles or lanes of doubles (math/real.h). */
 
 #define DMB_HOLE_CONCENTRIC 1e-12 /* [m] */
 
@@ -130,7 +131,7 @@ static inline void dmb_line_project(const double origin[3], const double directi
     *s = r;
 }
 
-/* As dmb_radial. */
+/* See dmb_radial. */
 static inline void dmb_radial_at(const dmb_real x[3], const dmb_real axis_point[3], const dmb_real tangent[3],
                                  const dmb_real n_last[3], dmb_real *e, dmb_real n[3])
 {
@@ -145,17 +146,19 @@ static inline void dmb_radial_at(const dmb_real x[3], const dmb_real axis_point[
 
 /* ---- Constants of the wall by depth ------------------------------------------------------------------------------ */
 
-/* The wall's constants by measured depth: pieces of parabolas, joined without a kink.
+/* Wall properties by measured depth: parabolic pieces, joined with a continuous slope.
  *
- * A ring of radius r at distance e from the axis and depth s goes d = e - (R(s) - r) into the wall, which stores
+ * A contact ring of radius r at distance e from the axis and depth s has the penetration d = e - (R(s) - r), and the
+ * wall stores
  *     U = l K(s) d^(n+1)/(n+1)                                  (eq:hole.section-force).
- * With rho = R'(s) ds/dx, ds/dx = J t, J = 1/(1 - e n.k) on an axis of curvature vector k, the way in grows by
+ * With rho = R'(s) ds/dx, ds/dx = J t, J = 1/(1 - e n.k) on an axis of curvature vector k, the penetration changes by
  *     dd = g . dx,   g = n - rho t,
- * so the force of the wall acts along -g, also the damped part, and where K changes there is -J l K' d^(n+1)/(n+1)
- * along t beside: exactly the derivative of U. Friction acts along and around the axis by N; what the slope of the wall
- * adds to it is of second order in R' and left out, and so is the moment of the axial part about the ring's centre. */
+ * so that the wall's force, including damping, acts along -g. Where K changes, the force -J l K' d^(n+1)/(n+1) along t
+ * is added: together exactly the derivative of U. Friction acts along and around the axis and depends on N. The
+ * contribution of the wall's slope to it is of second order in R' and is neglected, as is the moment of the axial part
+ * about the ring's centre. */
 
-/* [-] Steepest change of the radius. */
+/* [-] Largest permitted |dR/ds|. */
 #define DMB_HOLE_SLOPE_MAX 1.0
 
 enum {
@@ -171,12 +174,12 @@ enum {
 
 /* value + r (slope + r bend), r [m] beyond depth */
 struct dmb_hole_piece {
-    double depth; /* [m] where it begins; the first one holds above it too */
+    double depth; /* [m] where it begins; the first piece also holds above its depth */
     double value[DMB_WALL_COUNT], slope[DMB_WALL_COUNT], bend[DMB_WALL_COUNT];
-    double factor; /* [-] mu of the normal law by its restitution, where that does not change */
+    double factor; /* [-] mu of the normal law from the restitution, if that is constant */
 };
 
-/* Piece at a depth, of a hole with pieces. O(log pieces). */
+/* Piece at depth s of a hole with pieces. O(log pieces). */
 const dmb_hole_piece *dmb_hole_piece_at(const dmb_hole *hole, double s);
 
 static inline double dmb_hole_piece_value(const dmb_hole_piece *piece, int which, double s)
@@ -185,24 +188,24 @@ static inline double dmb_hole_piece_value(const dmb_hole_piece *piece, int which
     return piece->value[which] + r * (piece->slope[which] + r * piece->bend[which]);
 }
 
-/* Cutters widen a hole by values at stations, between which it goes over by two parabolas as around a section. They do
- * not beyond both ends. */
+/* Cutters widen a hole by values at equally spaced stations. Between two stations the widening changes by two
+ * parabolas, as around a section. It is 0 beyond both ends. */
 
-/* [m] as described */
+/* [m] radius of the hole as described, without widening */
 static inline double dmb_hole_described_radius(const dmb_hole *hole, double s)
 {
     return hole->pieces == 0 ? hole->radius : dmb_hole_piece_value(dmb_hole_piece_at(hole, s), DMB_WALL_RADIUS, s);
 }
-/* [m, -, 1/m] widening at a depth and its derivatives by it. O(1). */
+/* [m, -, 1/m] widening at a depth and its derivatives by depth. O(1). */
 void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3]);
-/* [-] of the widening at depth s that station j has: widening = sum of shares times values. */
+/* [-] Weight of the value at station j in the widening at depth s: widening = sum of weights times values. */
 double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s);
 
 static inline double dmb_hole_cut_depth(const dmb_hole *hole, uint32_t j)
 {
     return hole->cut_start + j * hole->cut_spacing;
 }
-/* [m] */
+/* [m] radius of the hole, widening included */
 static inline double dmb_hole_radius(const dmb_hole *hole, double s)
 {
     double widening[3];
@@ -210,14 +213,15 @@ static inline double dmb_hole_radius(const dmb_hole *hole, double s)
     dmb_hole_widening_at(hole, s, widening);
     return dmb_hole_described_radius(hole, s) + widening[0];
 }
-/* [m] Smallest described radius between two depths, and where. O(pieces between). */
+/* [m] Smallest described radius between two depths, and its depth *where. O(pieces between). */
 double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double *where);
 
-/* Laws at a depth: those of the whole hole with the constants there. The same without pieces. */
+/* Laws at a depth: those of the whole hole with the constants of that depth. Without pieces they are returned
+ * unchanged. */
 dmb_normal_law dmb_normal_law_at(const dmb_hole *hole, const dmb_normal_law *law, double s);
 dmb_friction_law dmb_friction_law_at(const dmb_hole *hole, const dmb_friction_law *law, double s);
 
-/* The wall at a place, with derivatives by depth. */
+/* Wall properties at a depth, with derivatives by depth. */
 typedef struct dmb_local_wall {
     dmb_normal_law normal;
     dmb_friction_law friction;
@@ -227,18 +231,19 @@ typedef struct dmb_local_wall {
     double mu_static_slope, mu_dynamic_slope; /* [1/m] */
 } dmb_local_wall;
 
-/* J: way along an axis of curvature vector k [1/m] for a unit of its own of a ring at distance e on the side n. */
+/* J [-]: displacement along an axis of curvature vector k [1/m] per unit of displacement of a ring at distance e on the
+ * side n. */
 static inline dmb_real dmb_hole_advance(dmb_real e, const dmb_real n[3], const dmb_real k[3])
 {
     return 1.0 / (1.0 - e * (n[0] * k[0] + n[1] * k[1] + n[2] * k[2]));
 }
-/* [m^(n+1)] d^(n+1)/(n+1): what a metre of wall stores for a unit of K */
+/* [m^(n+1)] d^(n+1)/(n+1): energy stored per metre of wall and unit of K */
 static inline dmb_real dmb_wall_unit_energy(const dmb_normal_law *law, dmb_real d)
 {
     return dmb_normal_reduced_power(law->exponent, d) * d * d / (law->exponent + 1.0);
 }
 
-/* softer [-]: factor that the stiffness is divided by. Of a hole with pieces. */
+/* Computes the wall properties at depth s of a hole with pieces. softer [-]: divisor of the stiffness. */
 void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const dmb_friction_law *friction, double s,
                        double softer, dmb_local_wall *out);
 
@@ -256,11 +261,11 @@ typedef struct dmb_section_contact {
     dmb_real mu_static_slope, mu_dynamic_slope;
     dmb_real curvature[3]; /* [1/m] k of the axis, body axes; 0 of a straight hole */
     dmb_real advance, rho; /* [-] J, R' J */
-    dmb_real stored;       /* [N] l K' d^(n+1)/(n+1): dU/ds but for R' */
+    dmb_real stored;       /* [N] l K' d^(n+1)/(n+1): dU/ds without the contribution of R' */
     dmb_real stored_slope; /* [N/m] its derivatives by s and d: */
     dmb_real stored_by_depth;
     dmb_real along;       /* [N] N rho - J dU/ds along t */
-    dmb_real by_place[3]; /* [N/m] dF_k/ds of (-N, F_t, F_b) where d and its rate stay */
+    dmb_real by_place[3]; /* [N/m] dF_k/ds of (-N, F_t, F_b) at constant d and rate of d */
 } dmb_section_contact;
 
 /* The wall of one lane; laws have all but the constants of the place. */
@@ -282,14 +287,14 @@ static inline void dmb_section_set_wall(const dmb_local_wall *wall, int lane, dm
     dmb_real_set_lane(&c->mu_dynamic_slope, lane, wall->mu_dynamic_slope);
 }
 
-/* J and rho of the ring; wall and curvature are there. */
+/* Computes J and rho of the ring; wall and curvature must be set. */
 static inline void dmb_section_contact_at(const dmb_contact_frame *f, dmb_section_contact *c)
 {
     c->advance = dmb_hole_advance(f->distance, f->n, c->curvature);
     c->rho = c->radius_slope * c->advance;
 }
 
-/* [N/m2] dN/ds per metre of pipe at penetration d growing at `rate`. */
+/* [N/m2] dN/ds per metre of pipe at penetration d with rate `rate`. */
 static inline dmb_real dmb_section_normal_slope(const dmb_section_contact *c, dmb_real d, dmb_real rate,
                                                 dmb_real impact_speed)
 {
@@ -303,7 +308,8 @@ static inline dmb_real dmb_section_normal_slope(const dmb_section_contact *c, dm
     return power * (c->stiffness_slope * (1.0 + c->normal.mu * ratio) + c->normal.stiffness * c->factor_slope * ratio);
 }
 
-/* Of F_t and F_b by the coefficients: smooth laws are linear in them; bristles (memory) are mu N at their limit. */
+/* Derivatives of F_t and F_b by depth through the friction coefficients: smooth laws are linear in them; bristles
+ * (memory) are mu N at their limit. */
 static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const dmb_contact_force *force, int memory,
                                               const dmb_section_contact *c, dmb_real by_place[2])
 {
@@ -350,7 +356,8 @@ static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_conta
     }
 }
 
-/* Rate of the way in by the pose, without what n . V has of it: of -rho t . V. */
+/* Derivative by the pose of the part -rho t . V of the penetration rate; the part n . V is in dmb_section_normal_row.
+ */
 static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_section_contact *c, const dmb_real *bend,
                                         dmb_real row[6])
 {
@@ -366,7 +373,7 @@ static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_se
     dmb_vec3_axpy(-c->radius_slope * along * J * J, c->curvature, row);
 }
 
-/* Derivative of n . V by the pose: turning of the body, swing around the axis, bend of the hole. */
+/* Derivative of n . V by the pose: rotation of the body, rotation around the axis, bend of the hole. */
 static inline void dmb_section_normal_row(const dmb_contact_frame *f, const dmb_section_contact *c,
                                           const dmb_real bend[3], dmb_real row[6])
 {
@@ -381,7 +388,7 @@ static inline void dmb_section_normal_row(const dmb_contact_frame *f, const dmb_
     dmb_vec3_axpy(c->advance * dmb_vec3_dot(bend, a), f->t, row);
 }
 
-/* K += of the force along t: its change with N, with rho and with what is stored. */
+/* Adds to K the derivative of the force along t: its change with N, with rho and with the stored energy. */
 static inline void dmb_section_add_along(const dmb_contact_frame *f, const dmb_contact_force *force,
                                          const dmb_section_contact *c, const dmb_real dF[6], dmb_real K[36])
 {
@@ -418,7 +425,7 @@ static inline void dmb_section_pose_tangent(const dmb_contact_frame *f, const dm
     dmb_section_add_along(f, force, c, dF, K);
 }
 
-/* The same of dmb_contact_velocity_tangent: g for n. */
+/* Changes K of dmb_contact_velocity_tangent in the same way: g replaces n. */
 static inline void dmb_section_velocity_tangent(const dmb_contact_frame *f, const dmb_contact_force *force,
                                                 const dmb_section_contact *c, double factor, int friction,
                                                 dmb_real K[36])

@@ -1,4 +1,5 @@
-/* Places of the hole's axis nearest to a point: followed from a place near by, or found in a length of the axis. */
+/* Points of the hole's axis nearest to a given point: tracked from a known arc, or searched within a range of depths.
+ */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -7,7 +8,7 @@
 #include "math/elementary.h"
 #include "math/vec3.h"
 
-/* Signed distance of x in front of a station's plane. */
+/* [m] Signed distance of x from a station's plane, positive towards greater depth. */
 static double beyond(const dmb_hole_station *station, const double x[3])
 {
     double u[3];
@@ -16,8 +17,8 @@ static double beyond(const dmb_hole_station *station, const double x[3])
     return dmb_vec3_dot(u, station->tangent);
 }
 
-/* Arc whose end planes enclose x, walking from the hinted one. The last station stands for the line beyond it. Both
- * planes of an arc pass through its centre, so what they enclose (bend below pi) is the sector of the arc itself. */
+/* Arc whose end planes enclose x, searched from the hinted one. The last station represents the line beyond it. Both
+ * planes of an arc pass through its centre, so that they enclose (bend below pi) the sector of the arc itself. */
 static uint32_t find_segment(const dmb_hole *hole, const double x[3], uint32_t hint)
 {
     const uint32_t last = hole->stations - 1;
@@ -41,7 +42,7 @@ static void project_on_arc(const dmb_hole_station *from, const double x[3], doub
     const double ahead = dmb_vec3_dot(u, from->tangent);
     const double towards = 1.0 - k * dmb_vec3_dot(u, from->normal);
     const double rho = sqrt(towards * towards + k * ahead * (k * ahead));
-    const double a = rho > 0.0 ? ahead / rho : 0.0; /* at the centre of the arc every place is as near */
+    const double a = rho > 0.0 ? ahead / rho : 0.0; /* at the centre of the arc all points are equally near */
     const double c = rho > 0.0 ? towards / rho : 1.0;
     const double sideways = k * a * a / (1.0 + c);
 
@@ -77,9 +78,9 @@ void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32
     project_on_arc(from, x, s, point, tangent);
 }
 
-/* ---- Without a place near by ------------------------------------------------------------------------------------- */
+/* ---- Without a known arc ----------------------------------------------------------------------------------------- */
 
-/* 1: the distance from x has a minimum on that arc, or on the line that stands for it beyond either end. */
+/* 1 if the distance from x has a minimum on that arc, or on the line that replaces it beyond either end. */
 static int has_foot(const dmb_hole *hole, const double x[3], uint32_t arc)
 {
     const int after_start = arc == 0 || beyond(&hole->station[arc], x) >= 0.0;
@@ -88,7 +89,8 @@ static int has_foot(const dmb_hole *hole, const double x[3], uint32_t arc)
 
 /* A minimum of the distance. */
 typedef struct foot {
-    double distance, depth, off; /* [m, m, -] how far it is from what is asked for where two are as near */
+    double distance, depth, off; /* [m, m, -] off: deviation from the requested depth or direction, which decides
+                                    between two equally near minima */
     uint32_t arc;
 } foot;
 

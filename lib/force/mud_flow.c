@@ -9,7 +9,7 @@
 #define PI 3.14159265358979323846
 #define LN_10 2.30258509299404568402
 
-/* ln x of x > 0 within 1e-9 .. 1e9: 16 times that of the fourth root of the root's root, 2 atanh((y - 1)/(y + 1)). */
+/* ln x for 1e-9 <= x <= 1e9: 16 times ln of y = x^(1/16), which is 2 atanh((y - 1)/(y + 1)). */
 static double logarithm(double x)
 {
     const double y = sqrt(sqrt(sqrt(sqrt(x)))), t = (y - 1.0) / (y + 1.0);
@@ -26,11 +26,10 @@ static double eighth_power(double x)
 
 /* ---- Roots ------------------------------------------------------------------------------------------------------- */
 
-/* A function that changes its sign once, from minus to plus. */
+/* A function with one change of sign, from minus to plus. */
 typedef double (*rising)(double x, const void *context);
 
-/* Root between low and high to a relative width, by the rule of false position in the form of Illinois (Dowell, Jarratt
- * 1971). */
+/* Root between low and high to a relative width, by the Illinois form of regula falsi (Dowell, Jarratt 1971). */
 static double root_between(rising function, const void *context, double low, double high, double width)
 {
     double at_low = function(low, context), at_high = function(high, context);
@@ -66,7 +65,7 @@ static double turbulence(double n, double reynolds)
     return eighth_power(between) * between * between * between * between;
 }
 
-/* [-] The Reynolds number 16/f_l of a laminar gradient: f = tau/(rho V^2/2), tau = G D_h/4. */
+/* [-] Reynolds number 16/f_l of a laminar gradient: f = tau/(rho V^2/2), tau = G D_h/4. */
 static double reynolds_of(double density, double speed, double hydraulic_diameter, double gradient)
 {
     return gradient > 0.0 ? 32.0 * density * speed * speed / (gradient * hydraulic_diameter) : 0.0;
@@ -74,7 +73,7 @@ static double reynolds_of(double density, double speed, double hydraulic_diamete
 
 /* ---- Yield stress ------------------------------------------------------------------------------------------------ */
 
-/* A pipe or a slot in which a fluid with a yield stress flows at a speed. */
+/* A pipe or a slot in which a fluid with a yield stress flows at a given speed. */
 typedef struct duct {
     const dmb_mud_flow *flow;
     double width; /* [m] radius d/2 or gap H: the pressure gradient is 2 tau_w/width in both */
@@ -82,7 +81,7 @@ typedef struct duct {
     bool slot;
 } duct;
 
-/* [m/s] Mean speed at a stress of the wall above the yield stress (eq:mud.pipe-yield, eq:mud.slot). */
+/* [m/s] Mean speed at a wall stress above the yield stress (eq:mud.pipe-yield, eq:mud.slot). */
 static double speed_at(const duct *d, double wall)
 {
     const double n = d->flow->exponent, phi = d->flow->yield_stress / wall, free = 1.0 - phi;
@@ -93,14 +92,14 @@ static double speed_at(const duct *d, double wall)
            (free * free / (3.0 * n + 1.0) + 2.0 * phi * free / (2.0 * n + 1.0) + phi * phi / (n + 1.0));
 }
 
-/* By the n-th power, in which a fluid that only just yields is not steep. */
+/* The n-th powers are compared, because their slope is finite at yield. */
 static double excess_speed(double wall, const void *context)
 {
     const duct *d = context;
     return dmb_pow(speed_at(d, wall), d->flow->exponent) - dmb_pow(d->speed, d->flow->exponent);
 }
 
-/* [Pa] Stress of the wall at the duct's speed; without_yield: that of the power law. */
+/* [Pa] Wall stress at the duct's speed; without_yield: wall stress of the power law. */
 static double wall_stress(const duct *d, double without_yield)
 {
     const double low = fmax(d->flow->yield_stress, without_yield);
@@ -138,8 +137,8 @@ dmb_flow_loss dmb_bore_loss(const dmb_mud_flow *flow, double diameter)
 
 enum { PANELS = 24 };
 
-/* Integral from `from` to lambda of |lambda^2/x - x|^m, either side: with x = lambda + (from - lambda) t^2 it is smooth
- * where the shear is zero. */
+/* Integral from `from` to lambda of |lambda^2/x - x|^m, for either side: with x = lambda + (from - lambda) t^2 the
+ * integrand is smooth at zero shear. */
 static double speed_at_zero_shear(double lambda, double from, double m)
 {
     const dmb_gauss_rule *rule = dmb_gauss(5);
@@ -164,7 +163,7 @@ static double mismatch(double lambda, const void *context)
     return speed_at_zero_shear(lambda, z->ratio, z->power) - speed_at_zero_shear(lambda, 1.0, z->power);
 }
 
-/* n -> 0 would have it in the middle, other fluids further inwards. */
+/* The root is in the middle of the annulus for n -> 0 and further inwards for larger n. */
 double dmb_annulus_zero_shear(double exponent, double ratio)
 {
     const zero_shear z = {ratio, 1.0 / exponent};
@@ -180,7 +179,8 @@ static double laminar_gradient(const dmb_mud_flow *flow, double hole_radius, dou
     return 2.0 * flow->consistency / R * dmb_pow(flow->rate * (3.0 * n + 1.0) / (n * PI * R * R * R * shape), n);
 }
 
-/* 8 mu Q/(pi G R^4) of the eccentric annulus, n = 1, and S/(R^2 delta), by kappa and e/R (eq:mud.eccentric). */
+/* 8 mu Q/(pi G R^4) of the eccentric annulus for n = 1, and S/(R^2 delta), as functions of kappa and e/R
+ * (eq:mud.eccentric). */
 static double newtonian(double k, double e, double *pull)
 {
     const double P = 0.5 * ((1.0 - k) * (1.0 + k) + e * e), S = sqrt((P - e) * (P + e)), far = P - e * e + S;
@@ -217,14 +217,14 @@ dmb_annulus_shape dmb_annulus_shape_of(const dmb_mud_flow *flow, double ratio)
     return shape;
 }
 
-/* The laminar flow of an annulus with its yield stress. */
+/* Laminar flow of an annulus with yield stress. */
 typedef struct yielding {
     double gradient; /* [Pa/m] */
-    double lambda;   /* [-] radius without shear over that of the hole */
-    double exponent; /* [-] local one */
+    double lambda;   /* [-] radius of zero shear over the hole radius */
+    double exponent; /* [-] local exponent n' */
 } yielding;
 
-/* From the gradient and lambda of the power law (eq:mud.annulus-yield). */
+/* Correction for yield stress of the gradient and lambda of the power law (eq:mud.annulus-yield). */
 static yielding with_yield(const duct *slot, double gradient, double ratio, double lambda)
 {
     const double n = slot->flow->exponent, H = slot->width;
@@ -265,7 +265,7 @@ dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, d
     return dmb_annulus_loss_by(flow, pipe_diameter, hole_diameter, &shape);
 }
 
-/* ---- End --------------------------------------------------------------------------------------------------------- */
+/* ---- End of the string ------------------------------------------------------------------------------------------- */
 
 double dmb_nozzle_loss(const dmb_mud_flow *flow)
 {

@@ -4,15 +4,15 @@
 
 #include "math/real.h"
 
-#define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
-#define DMB_RESTITUTION_LEAST 1e-3 /* [-] and of a wall by EXACT, whose mu is 1000 there */
-#define DMB_SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
+#define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e for laws whose mu grows like 1/e */
+#define DMB_RESTITUTION_LEAST 1e-3 /* [-] smallest e of EXACT, for which mu is 1000 */
+#define DMB_SPEED_FLOOR 1e-12      /* [m/s] lower bound of v0 for every law */
 #define DMB_NORMAL_LAW_ITERATIONS 60
 
 /* ---- Restitution and damping factor ------------------------------------------------------------------------------
- * One contact under K d^n (1 + mu d'/v0) obeys m v dv/(1 + mu v/v0) = -K d^n dd, so speed in and out do not depend on
- * n:  ln(1 + mu) - mu = ln(1 - mu e) + mu e, called (1) here (eq:contact.exact).
- * mu = 0 solves it for any e; the wanted root is the other one. */
+ * One impact under K d^n (1 + mu d'/v0) obeys m v dv/(1 + mu v/v0) = -K d^n dd, so that the ratio of final to initial
+ * speed does not depend on n:  ln(1 + mu) - mu = ln(1 - mu e) + mu e, called (1) here (eq:contact.exact).
+ * mu = 0 solves it for any e; the required root is the other one. */
 
 /* (1) divided by mu^2 as a series: sum_{k>=2} mu^(k-2) (e^k - (-1)^k)/k. Free of the root at 0 and of cancellation. */
 static double balance(double e, double mu, double *slope)
@@ -34,7 +34,7 @@ static double balance(double e, double mu, double *slope)
     return sum;
 }
 
-/* e near 1 (mu below 0.85): Newton on the series, kept inside a shrinking bracket. */
+/* e near 1 (mu below 0.85): Newton's method on the series, within a shrinking bracket. */
 static double factor_of_bouncy(double e)
 {
     double low = 0.0;
@@ -56,8 +56,8 @@ static double factor_of_bouncy(double e)
     return mu;
 }
 
-/* e near 0: Newton for y = 1 - mu e in y = (1 + mu) exp(-mu (1 + e)). y minus the right side is concave and rising
- * between 0 and the wanted root, so the iteration climbs to it from y = 0. */
+/* e near 0: Newton's method for y = 1 - mu e in y = (1 + mu) exp(-mu (1 + e)). y minus the right side is concave and
+ * increasing between 0 and the required root, so that the iteration increases monotonically to it from y = 0. */
 static double factor_of_dull(double e)
 {
     double y = 0.0;
@@ -104,7 +104,7 @@ dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution)
     return law;
 }
 
-/* EXACT by (1): with F = ln(1 + mu) - mu - ln(1 - mu e) - mu e, dmu/de = -F_e/F_mu. */
+/* For EXACT, with F = ln(1 + mu) - mu - ln(1 - mu e) - mu e: dmu/de = -F_e/F_mu. */
 double dmb_normal_factor_slope(const dmb_normal_law *law, double e)
 {
     const double mu = law->mu;

@@ -1,4 +1,4 @@
-/* Normal contact laws: force over penetration depth and its rate, per metre of pipe.
+/* Normal contact laws: force as a function of penetration depth and its rate, per metre of pipe.
  * eq:contact.normal with the damping factor mu of Hunt-Crossley, Lankarani-Nikravesh, Flores (eq:contact.factors) or
  * the exact one; Kelvin-Voigt and IMPACT with a damping constant (eq:contact.kelvin-voigt). Pure functions. */
 #ifndef DMB_FORCE_NORMAL_LAW_H
@@ -15,34 +15,34 @@ typedef struct dmb_normal_law {
     double stiffness;    /* [N/m^(n+1)] K per metre of pipe */
     double exponent;     /* [-] n >= 1 */
     double damping;      /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT */
-    double impact_depth; /* [m] full damping from here on, of IMPACT */
+    double impact_depth; /* [m] depth from which damping is full, of IMPACT */
     double mu;           /* [-] damping factor of the restitution laws, 0 for the others */
     double impact_floor; /* [m/s] smallest v0 */
 } dmb_normal_law;
 
-/* The law with mu from the restitution e in 0 .. 1; of FLORES and EXACT, whose mu grows like 1/e, e is at least 1e-6
- * and 1e-3. An unknown kind becomes DMB_NORMAL_NONE. Other values are taken as they are (the model has checked them).
- */
+/* Returns the law with mu from the restitution e in 0 .. 1. For FLORES and EXACT, whose mu grows like 1/e, e is at
+ * least 1e-6 and 1e-3. An unknown kind becomes DMB_NORMAL_NONE. Other values are not checked (the model has checked
+ * them). */
 dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution);
 
-/* [-] Damping factor mu that makes K d^n (1 + mu d'/v0) give back the restitution e, for any n and v0:
- * mu (1 + e) = ln((1 + mu)/(1 - mu e)) (eq:contact.exact). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN)
- * counts as 1e-6. */
+/* [-] Damping factor mu for which K d^n (1 + mu d'/v0) reproduces the restitution e, for any n and v0: mu (1 + e) =
+ * ln((1 + mu)/(1 - mu e)) (eq:contact.exact). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN) counts as 1e-6.
+ */
 double dmb_exact_restitution_factor(double e);
 
-/* d mu/d restitution of a law whose mu is that of the restitution e. */
+/* d mu/d restitution of a law whose mu was computed from the restitution e. */
 double dmb_normal_factor_slope(const dmb_normal_law *law, double e);
 
 /* Force [N/m, >= 0, pushing the bodies apart] at penetration depth [m] growing at rate [m/s], and its derivatives
- * [N/m2] and [N s/m2]. impact_speed [m/s]: d' at first touch, kept by the caller. 0 with zero derivatives for depth
- * <= 0 and where the law would pull. NaN in, NaN out. */
+ * [N/m2] and [N s/m2]. impact_speed [m/s]: d' at first touch, stored by the caller. The force and its derivatives are 0
+ * for depth <= 0 and if the law would pull. NaN gives NaN. */
 void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double impact_speed, double *force,
                       double *d_depth, double *d_rate);
 
 /* [J/m] Elastic energy K d^(n+1)/(n+1) stored at penetration depth [m]; 0 for depth <= 0. */
 double dmb_normal_energy(const dmb_normal_law *law, double depth);
 
-/* The normal contact laws in a number that is a double or lanes of doubles (math/real.h). */
+/* The normal contact laws for numbers that are doubles or lanes of doubles (math/real.h). */
 
 /* A law with constants of the place, which differ from lane to lane in a hole of sections. */
 typedef struct dmb_local_normal {
@@ -59,10 +59,10 @@ static inline dmb_local_normal dmb_local_normal_of(const dmb_normal_law *law)
 /* Per metre of pipe. */
 typedef struct dmb_normal_response {
     dmb_real force;   /* [N/m] */
-    dmb_real elastic; /* [N/m] part of it that the wall stores: the force at rate 0 */
+    dmb_real elastic; /* [N/m] elastic part, which the wall stores: the force at rate 0 */
     dmb_real d_depth; /* [N/m2] */
     dmb_real d_rate;  /* [N s/m2] */
-    dmb_real whole;   /* [N/m] the force where it may pull */
+    dmb_real whole;   /* [N/m] force without the restriction that it must push */
 } dmb_normal_response;
 
 /* d^(n-1), without a power for the line contact n = 1 and the sphere n = 3/2 */
@@ -73,7 +73,8 @@ static inline dmb_real dmb_normal_reduced_power(double exponent, dmb_real depth)
     return dmb_real_pow(depth, exponent - 1.0);
 }
 
-/* Damping "constant" c(d) of KELVIN_VOIGT and IMPACT and its slope; c STEP(d; 0, 0, impact_depth, 1) for the latter. */
+/* Damping coefficient c(d) of KELVIN_VOIGT and IMPACT and its slope; c STEP(d; 0, 0, impact_depth, 1) for the latter.
+ */
 static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real damping, dmb_real depth, dmb_real *slope)
 {
     const dmb_mask full = dmb_mask_at_most(dmb_real_of(law->impact_depth), depth);
@@ -84,21 +85,12 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real da
     return dmb_real_select(full, damping, damping * x * x * (3.0 - 2.0 * x));
 }
 
-/* ---- Touch within a step -----------------------------------------------------------------------------------------
- *
- * The damping of KELVIN_VOIGT jumps from 0 to c d' when the contact closes, in the midst of a step. A force at the end
- * of a step of length h acts over h/2 before and as much of the next step behind it (generalized-alpha of any spectral
- * radius), so that in the step in which it closes, and in the two behind it, the damping is weighted by w: its impulse,
- * and where that has its centre, are then those of c d' since touch. With p the part of the step that was closed
- *     w1 = 11/6 p    w2 = 11/6 - 5/3 p + p^2/2    w3 = 1 + D/h - (w2 - 1)/2 = 2/3 + 5/6 p - p^2/2 in equal steps
- * (eq:touch.weights), D being the time that is missing, h p - h w1/2 at first (eq:touch.time). No weight jumps as touch
- * goes from step to step.
- */
+/* ---- Touch within a step ----------------------------------------------------------------------------------------- */
 
 #define DMB_TOUCH_FIRST (11.0 / 6.0)
-#define DMB_TOUCH_MOST 4.0 /* [-] of the weight, behind steps that are far shorter than the one before */
+#define DMB_TOUCH_MOST 4.0 /* [-] largest weight, reached after steps that are much shorter than the previous one */
 
-/* Memory of a ring: w - 1, D [s], p while w2 is due (else 0), and the force [N/m] of a law that may pull. */
+/* State of a ring: w - 1, D [s], p while w2 is due (else 0), and the force [N/m] of a law that may pull. */
 enum { DMB_TOUCH_EXCESS, DMB_TOUCH_TIME, DMB_TOUCH_PART, DMB_TOUCH_FORCE, DMB_TOUCH_SIZE };
 
 /* Weight [-] and its derivative by the depth [1/m]. */
@@ -106,8 +98,8 @@ typedef struct dmb_normal_touch {
     dmb_real weight, by_depth;
 } dmb_normal_touch;
 
-/* At depth > 0 [m] after a step h [s] from the depth `before`; was, is: what the ring kept and keeps but for its force.
- */
+/* Computes the weight at depth > 0 [m] after a step h [s] from the depth `before`. was, is: previous and new state of
+ * the ring, without its force. */
 static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real h, const dmb_real was[DMB_TOUCH_SIZE],
                                        dmb_normal_touch *out, dmb_real is[DMB_TOUCH_SIZE])
 {
@@ -116,7 +108,8 @@ static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real
     const dmb_real rest = dmb_real_abs(was[DMB_TOUCH_TIME]) + dmb_real_abs(was[DMB_TOUCH_EXCESS]);
     out->weight = one;
     out->by_depth = is[DMB_TOUCH_EXCESS] = is[DMB_TOUCH_TIME] = is[DMB_TOUCH_PART] = zero;
-    if (!dmb_mask_any(closes | second | dmb_mask_less(zero, rest))) return; /* as below, without its divisions */
+    if (!dmb_mask_any(closes | second | dmb_mask_less(zero, rest)))
+        return; /* the same result as below, without divisions */
     const dmb_real way = dmb_real_select(closes, depth - before, one), part = depth / way;
     const dmb_real first = DMB_TOUCH_FIRST * part, next = DMB_TOUCH_FIRST - p * (5.0 / 3.0 - 0.5 * p);
     const dmb_real time = was[DMB_TOUCH_TIME], excess = was[DMB_TOUCH_EXCESS];
@@ -131,8 +124,8 @@ static inline void dmb_normal_touch_at(dmb_real before, dmb_real depth, dmb_real
     is[DMB_TOUCH_PART] = dmb_real_select(closes, part, zero);
 }
 
-/* At penetration depth > 0 [m] (or NaN) growing at rate [m/s], impact_speed [m/s] the speed at first touch. The force
- * is 0 with zero derivatives where the law would pull. touch: NULL where its damping counts as it is. */
+/* Computes the response at penetration depth > 0 [m] (or NaN) with rate [m/s]; impact_speed [m/s] is the speed at first
+ * touch. The force and its derivatives are 0 if the law would pull. touch: NULL if damping is not weighted. */
 static inline void dmb_normal_response_at(const dmb_local_normal *local, dmb_real depth, dmb_real rate,
                                           dmb_real impact_speed, const dmb_normal_touch *touch,
                                           dmb_normal_response *out)

@@ -1,19 +1,19 @@
-/* The double integrator value' = rate, rate' = slope with |slope| <= J and |rate| <= A, from (v0, a0) to (v1, 0) in the
- * least time: bang, rest, bang (Pontryagin; Bryson, Ho, Applied Optimal Control, 1975, section 3.9). With d = sign(v1 -
- * v0 - a0 |a0|/(2 J)), which is where the value would end if the rate went to 0 at once, and all turned by d so that it
- * has to rise,
+/* The double integrator value' = rate, rate' = slope with |slope| <= J and |rate| <= A, from (v0, a0) to (v1, 0) in
+ * minimum time: bang, zero, bang (Pontryagin; Bryson, Ho, Applied Optimal Control, 1975, section 3.9). d = sign(v1 - v0
+ * - a0 |a0|/(2 J)) is the side of the target on which the value would end if the rate were brought to 0 at once. With
+ * all quantities multiplied by d, so that the value has to rise,
  *     a_p = min(A, sqrt(J (v1 - v0) + a0^2/2)),  lengths |a_p - a0|/J,  (v1 - v0 - |a_p^2 - a0^2| s/(2 J) - a_p^2/(2
- * J)) /a_p,  a_p/J,  s = sign(a_p - a0). Without a limit of the slope: at rate A. Phases end at times that are compared
- * as they are, not as differences, so that a breakpoint is the same number for all who ask. */
+ * J)) /a_p,  a_p/J,  s = sign(a_p - a0). Without a slope limit the rate is A. End times of phases are compared as
+ * absolute times, not as differences, so that every caller gets the same number for a breakpoint. */
 #include "force/reference.h"
 
 #include <math.h>
 #include <stddef.h>
 
 enum { PHASES = 3 };
-#define SLIVER 1e-6 /* [-] of the whole way: a phase this short ends at no breakpoint of its own */
+#define SLIVER 1e-6 /* [-] of the whole transition: a shorter phase ends without a breakpoint of its own */
 
-/* Each phase begins at value and rate, with the slope; the way ends with the last. */
+/* Initial value and rate of each phase and its slope; the transition ends with the last phase. */
 typedef struct way {
     double value[PHASES], rate[PHASES], slope[PHASES], begin[PHASES], end[PHASES];
 } way;
@@ -23,7 +23,7 @@ static double or_none(double limit)
     return limit > 0.0 ? limit : (double)INFINITY;
 }
 
-/* Phases one after the other; the last one ends on the target. */
+/* Sets the phases one after the other; the last one ends at the target. */
 static void lay(const dmb_reference *r, const double first_rate, const double slope[PHASES],
                 const double length[PHASES], way *w)
 {
@@ -64,7 +64,7 @@ static void way_of(const dmb_reference *r, way *w)
     lay(r, a0, slopes, length, w);
 }
 
-/* The phase that t is in, from the right (before: from the left); -1 before the way, PHASES behind it. */
+/* Phase at time t, from the right (before: from the left); -1 before the transition, PHASES after it. */
 static int phase_at(const way *w, double t, int before)
 {
     if (before ? t <= w->begin[0] : t < w->begin[0]) return -1;
@@ -94,7 +94,7 @@ double dmb_reference_rate_before(const dmb_reference *reference, double t)
     return k < 0 || k == PHASES ? 0.0 : w.rate[k] + w.slope[k] * (t - w.begin[k]);
 }
 
-/* Over the part of a phase that lies between two times. */
+/* Integral over the part of a phase between two times. */
 static double integral_of(const way *w, int k, double t0, double t1)
 {
     const double a = fmax(t0, w->begin[k]), b = fmin(t1, w->end[k]);

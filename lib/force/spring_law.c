@@ -6,7 +6,7 @@
 
 /* ---- Springs between points -------------------------------------------------------------------------------------- */
 
-#define DMB_SLACK_FAR 1e9 /* [m] no elongation lies beyond */
+#define DMB_SLACK_FAR 1e9 /* [m] bound of all elongations */
 
 /* ---- Table ------------------------------------------------------------------------------------------------------- */
 
@@ -33,7 +33,7 @@ static void set_slopes(dmb_spring_point *points, uint32_t count, int cubic)
     for (uint32_t i = 1; i + 1 < count; i++) points[i - 1].slope[1] = points[i].slope[0] = inner_slope(points + i);
 }
 
-/* Over a piece of length h the cubic of Hermite integrates to h (f0 + f1)/2 + h^2 (s0 - s1)/12. */
+/* On a segment of length h the Hermite cubic integrates to h (f0 + f1)/2 + h^2 (s0 - s1)/12. */
 void dmb_spring_table_prepare(dmb_spring_point *points, uint32_t count, int cubic)
 {
     set_slopes(points, count, cubic);
@@ -50,7 +50,7 @@ typedef struct table_value {
     double force, slope, energy;
 } table_value;
 
-/* Along a straight line from a point. */
+/* Extrapolation by a straight line from a point. */
 static table_value beyond(const dmb_spring_point *p, double x, double slope)
 {
     const double h = x - p->elongation;
@@ -91,13 +91,13 @@ static double elastic_at(const dmb_spring_law *law, const dmb_spring_point *poin
     return law->preload + law->stiffness * x + table_at(law, points, x).force;
 }
 
-/* Integral of the two-sided elastic force, but for a constant. */
+/* Integral of the two-sided elastic force, up to a constant. */
 static double integral_at(const dmb_spring_law *law, const dmb_spring_point *points, double x)
 {
     return x * (law->preload + 0.5 * law->stiffness * x) + table_at(law, points, x).energy;
 }
 
-/* The zero of a force that never falls, by bisection to the last bit. */
+/* Zero of a nondecreasing force, by bisection to the last bit. */
 static int find_slack(dmb_spring_law *law, const dmb_spring_point *points)
 {
     double low = -DMB_SLACK_FAR, high = DMB_SLACK_FAR;
@@ -128,7 +128,7 @@ static int is_slack(const dmb_spring_law *law, double elongation)
     return law->acts == DMB_SPRING_COMPRESSION && elongation >= law->slack;
 }
 
-/* A one-sided spring whose damper would turn the sum round gives none. */
+/* 1 if the damper would reverse the sign of the total force of a one-sided spring; the total force is then 0. */
 static int turns_round(const dmb_spring_law *law, const dmb_spring_force *force)
 {
     const double sum = force->elastic + force->damper;
@@ -159,7 +159,7 @@ double dmb_spring_energy_at(const dmb_spring_law *law, const dmb_spring_point *p
 
 /* ---- Springs, stops and friction of joints ----------------------------------------------------------------------- */
 
-#define DMB_NO_STOP 1e29 /* a bound this far away is none */
+#define DMB_NO_STOP 1e29 /* a bound this far away counts as none */
 
 static int stop_acts(const dmb_joint_law *law)
 {
@@ -189,8 +189,8 @@ static void add_friction(const dmb_joint_law *law, double speed, dmb_joint_force
     force->by_speed -= law->friction / n * (s0 / n) * (s0 / n);
 }
 
-/* On either side -(K d + c s) with the signed d, unless that would pull: then the damper takes the spring's share back.
- */
+/* On either side the force is -(K d + c s) with the signed d. If that would pull, the damper cancels the spring's
+ * force. */
 static void add_stop(const dmb_joint_law *law, double position, double speed, dmb_joint_force *force)
 {
     const double d = dmb_joint_stop_depth(law, position);

@@ -6,9 +6,9 @@
 #include "math/elementary.h"
 #include "math/quadrature.h"
 
-#define DMB_RATE_STEP 1e-5         /* [s] half width of the difference that replaces a missing rate */
+#define DMB_RATE_STEP 1e-5         /* [s] half width of the central difference that replaces a missing rate */
 #define DMB_RATE_STEP_FACTOR 1e-10 /* [-] the same relative to |t|, for times beyond 1e5 s */
-#define DMB_GAUSS_PART 0.05        /* [s] longest part under one 5-point rule */
+#define DMB_GAUSS_PART 0.05        /* [s] longest interval of one 5-point rule */
 #define DMB_GAUSS_PARTS_MAX 1000.0
 
 /* ---- STEP and STEP5 ---------------------------------------------------------------------------------------------- */
@@ -122,7 +122,7 @@ static double table_at(const dmb_segment *segment, uint32_t before, double t)
     return y[before - 1] + (y[before] - y[before - 1]) * ((t - x[before - 1]) / (x[before] - x[before - 1]));
 }
 
-/* Slope of the part after `before` knots. */
+/* Slope of the interval after `before` knots. */
 static double table_slope(const dmb_segment *segment, uint32_t before)
 {
     if (before == 0 || before == segment->table_count) return 0.0;
@@ -138,7 +138,7 @@ static void table_value(const dmb_segment *segment, double t, double *value, dou
     *rate = table_slope(segment, before);
 }
 
-/* Trapezia from knot to knot: exact. */
+/* Trapezoidal rule from knot to knot: exact. */
 static double table_integral(const dmb_segment *segment, double t0, double t1)
 {
     uint32_t next = knots_until(segment, t0);
@@ -156,13 +156,13 @@ static double table_integral(const dmb_segment *segment, double t0, double t1)
 
 /* ---- CALLBACK ---------------------------------------------------------------------------------------------------- */
 
-/* True of a number, NaN not being one, within bounds. */
+/* True for numbers within bounds; false for NaN. */
 static int is_sound(double x)
 {
     return fabs(x) <= DMB_CALLBACK_MAX;
 }
 
-/* One call; out[0 .. needed] of the announced kinds must come back, and within bounds. */
+/* Calls the callback once. Fails unless it writes the `needed` values of out, within bounds. */
 static int32_t call(const dmb_segment *segment, double t, int32_t needed, double out[3])
 {
     out[0] = out[1] = out[2] = (double)NAN;
@@ -173,7 +173,7 @@ static int32_t call(const dmb_segment *segment, double t, int32_t needed, double
     return DMB_OK;
 }
 
-/* Central difference; divides by the width that the rounded times really have. */
+/* Central difference; divides by the actual distance of the rounded times. */
 static int32_t callback_difference(const dmb_segment *segment, double t, double *rate)
 {
     const double width = fmax(DMB_RATE_STEP, DMB_RATE_STEP_FACTOR * fabs(t));
@@ -199,7 +199,7 @@ static int32_t callback_value(const dmb_segment *segment, double t, double *valu
     return provided != 0 ? DMB_OK : callback_difference(segment, t, rate);
 }
 
-/* Five-point Gauss-Legendre over one part: exact to degree 9. */
+/* Five-point Gauss-Legendre rule over one interval: exact to degree 9. */
 static int32_t callback_part(const dmb_segment *segment, double a, double b, double *sum)
 {
     const dmb_gauss_rule *rule = dmb_gauss(5);
@@ -231,8 +231,7 @@ static int32_t callback_integral(const dmb_segment *segment, double t0, double t
     return status;
 }
 
-/* ---- Sum of segments ------------------------------------------------------------------------------------------------
- */
+/* ---- Sum of segments --------------------------------------------------------------------------------------------- */
 
 static int32_t segment_value(const dmb_segment *segment, double t, double *value, double *rate)
 {

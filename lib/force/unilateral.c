@@ -5,7 +5,7 @@
 
 #include "drillmbd/forces.h"
 
-/* [-] of the places, below which the mean over the way is the force in its middle. */
+/* [-] displacement relative to the places, below which the mean force is the average of both ends. */
 #define DMB_UNILATERAL_NEAR 1e-9
 
 int dmb_stop_acts(const dmb_joint_law *law)
@@ -31,7 +31,7 @@ int dmb_spring_can_open(const dmb_spring_law *law)
     return law->acts != DMB_SPRING_BOTH || law->count > 0;
 }
 
-/* One-sided springs end at slack; one that acts both ways is open where its table and stiffness are flat at 0. */
+/* One-sided springs open at slack; a two-sided spring is open where its table and stiffness are 0. */
 void dmb_spring_end_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation,
                        dmb_unilateral_end *end)
 {
@@ -52,7 +52,8 @@ int dmb_unilateral_touches(const dmb_unilateral_end *a, const dmb_unilateral_end
     return b->closed && (!a->closed || a->depth * b->depth < 0.0);
 }
 
-/* A law that stays on one side never pulls; that it would, its damper takes from what is stored. */
+/* 1 if a law that stays on one side would pull. The mean force is then 0, and the damper dissipates part of the stored
+ * energy. */
 static int pulls(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double force)
 {
     if (a->depth >= 0.0 && b->depth >= 0.0) return a->depth + b->depth > 0.0 && force < 0.0;

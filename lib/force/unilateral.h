@@ -1,16 +1,16 @@
-/* Force of a one-sided law over a step that touch or release falls into (eq:unilateral.mean): the mean force that
- * takes as much energy from the bodies as the law stores. Pure functions. */
+/* Force of a one-sided law over a step in which it closes or opens (eq:unilateral.mean): the mean force that removes as
+ * much energy from the bodies as the law stores. Pure functions. */
 #ifndef DMB_FORCE_UNILATERAL_H
 #define DMB_FORCE_UNILATERAL_H
 
 #include "force/spring_law.h"
 
-/* A law at one place x of its coordinate (elongation of a spring, coordinate of a joint). */
+/* State of a law at one place x of its coordinate (elongation of a spring, coordinate of a joint). */
 typedef struct dmb_unilateral_end {
     double place;  /* [m, rad] x */
     double depth;  /* [m, rad] beyond the bound, with the sign of its side; 0: open */
     double energy; /* [J] V(x) */
-    double force;  /* [N, N m] dV/dx; the body feels its opposite */
+    double force;  /* [N, N m] dV/dx; the force on the body is the opposite */
     double slope;  /* [N/m, N m/rad] d2V/dx2 */
     int32_t closed;
     int32_t reserved;
@@ -22,18 +22,19 @@ typedef struct dmb_unilateral_mean {
     double dissipated; /* [J] G (x1 - x0) - (V1 - V0), never negative */
 } dmb_unilateral_mean;
 
-/* 1: the stop of a joint's coordinate can act. */
+/* 1 if the stop of a joint's coordinate can act. */
 int dmb_stop_acts(const dmb_joint_law *law);
 void dmb_stop_at(const dmb_joint_law *law, double place, dmb_unilateral_end *end);
 
-/* 1: the elastic force of a spring may begin or end: one-sided, or by a table. */
+/* 1 if the elastic force of a spring may begin or end: one-sided, or by a table. */
 int dmb_spring_can_open(const dmb_spring_law *law);
 void dmb_spring_end_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation,
                        dmb_unilateral_end *end);
 
-/* 1: it closes on the way from a to b, also from one side to the other. */
+/* 1 if it closes between a and b, also if it changes from one side to the other. */
 int dmb_unilateral_touches(const dmb_unilateral_end *a, const dmb_unilateral_end *b);
-/* From a to b in a step of length [s]; damping [N s/m, N m s/rad] acts along the closed part of the way. */
+/* Computes the mean force from a to b in a step of length [s]; damping [N s/m, N m s/rad] acts along the closed part of
+ * the displacement. */
 void dmb_unilateral_mean_of(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double damping, double step,
                             dmb_unilateral_mean *mean);
 
