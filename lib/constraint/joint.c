@@ -6,7 +6,7 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 
-/* ---- One frame seen from another --------------------------------------------------------------------------------- */
+/* ---- Relative motion of two frames ------------------------------------------------------------------------------- */
 
 void dmb_relative_place(const double Ra[9], const double Rb[9], const double from_a_to_b[3], dmb_relative *relative)
 {
@@ -25,7 +25,7 @@ static void inverse_adjoint(double s, const double R[9], const double x[3], doub
     for (int i = 0; i < 36; i++) out[i] *= s;
 }
 
-/* Ad(H^-1) Ad(marker_a^-1) = Ad((marker_a H)^-1), and marker_a H = (Ma R, xa + Ma p) is frame b seen from body a. */
+/* Ad(H^-1) Ad(marker_a^-1) = Ad((marker_a H)^-1), and marker_a H = (Ma R, xa + Ma p) is frame b relative to body a. */
 void dmb_relative_maps(const double *xa, const double *Ma, const double xb[3], const double Mb[9],
                        dmb_relative *relative)
 {
@@ -56,7 +56,7 @@ void dmb_relative_pull_back(const dmb_relative *relative, const double w[6], dou
     dmb_mat6_tvec(relative->to_b, w, wb);
 }
 
-/* The block of K from row `row` and column `column` on: A^T W B */
+/* Sets the block of K that begins at row `row` and column `column`: A^T W B */
 static void set_block(const double A[36], const double W[36], const double B[36], int row, int column, double K[144])
 {
     double WB[36], block[36];
@@ -65,8 +65,8 @@ static void set_block(const double A[36], const double W[36], const double B[36]
     for (int i = 0; i < 6; i++) dmb_vec6_copy(block + 6 * i, K + 12 * (row + i) + column);
 }
 
-/* Rows b: to_b^T W xi. Rows a have d(to_a)^T w = -to_a^T ad(xi)^T w = -to_a^T A(w) xi besides (dmb_ad_transpose_...):
- *     K = [to_a^T (W - A(w)); to_b^T W] [to_a, to_b]   (eq:joints.relative-tangent) */
+/* Rows of b: to_b^T W xi. Rows of a have d(to_a)^T w = -to_a^T ad(xi)^T w = -to_a^T A(w) xi in addition
+ * (dmb_ad_transpose_...): K = [to_a^T (W - A(w)); to_b^T W] [to_a, to_b] (eq:joints.relative-tangent) */
 void dmb_relative_tangent(const dmb_relative *relative, const double w[6], const double W[36], double K[144])
 {
     double Wa[36];
@@ -80,16 +80,16 @@ void dmb_relative_tangent(const dmb_relative *relative, const double w[6], const
 
 /* ---- Equations and coordinates ----------------------------------------------------------------------------------- */
 
-#define DMB_FLAT 1e-12 /* [-] sine of an angle below which the direction of the rest is rounding error */
+#define DMB_FLAT 1e-12 /* [-] sine of an angle below which the direction of the lean is rounding error */
 
-/* Dot-product rows, in their order, and free coordinates. */
+/* Dot-product rows, in order, and free coordinates. */
 enum { P_X = 1, P_Y = 2, P_Z = 4, R_YX = 8, R_ZX = 16, R_YZ = 32, P = P_X | P_Y | P_Z };
 enum { X = 1, Y = 2, Z = 4, RX = 8, RY = 16, RZ = 32, ALL = 63 }; /* 1 << DMB_X .. 1 << DMB_RZ */
 
 typedef struct row_kind {
     uint32_t count; /* of all rows */
-    uint32_t held;  /* dot-product rows among them */
-    uint32_t free;  /* coordinates */
+    uint32_t held;  /* constrained dot-product rows among them */
+    uint32_t free;  /* free coordinates */
 } row_kind;
 
 static const row_kind kinds[DMB_ROWS_KINDS] = {
@@ -121,7 +121,7 @@ uint32_t dmb_joint_free_mask(int32_t kind)
     return kinds[kind].free;
 }
 
-/* One more row, of zeros but for its value. */
+/* Appends a row of zeros with the given value. */
 static uint32_t add_row(uint32_t holonomic, double value, dmb_joint_rows *rows)
 {
     const uint32_t k = rows->count++;
@@ -169,10 +169,12 @@ static void distance_row(double length, const double R[9], const double p[3], co
     dmb_vec3_scale(1.0 / distance, rate, rows->JV[k]);
 }
 
-/* A direction n of frame a leaning on the x axis of b, in axes of b: n = n_x x - s m with s >= 0 and x, t, m
- * right-handed, so t = (0, -n_z, n_y)/s. In rotation w
+/* A direction n of frame a at an angle to the x axis of b, in axes of b: n = n_x x - s m with s >= 0 and x, t, m
+ * right-handed, so t = (0, -n_z, n_y)/s. With rotation rate w
+ *
  *     n' = n x w    s' = -n_x t.w    t' = c m    m' = -c t    c = -w_x - (n_x/s) m.w
- * Where n is along x there is no t: t, m, c, s' and 1/s are 0. */
+ *
+ * If n is parallel to x, t is undefined: t, m, c, s' and 1/s are set to 0. */
 typedef struct lean {
     double n[3], t[3], m[3], s, inverse; /* inverse: 1/s */
     double rate[3], s_rate, c;           /* rate: n' */
@@ -190,9 +192,9 @@ static void lean_at(const double n[3], const double w[3], lean *l)
     l->c = l->inverse > 0.0 ? -w[0] - n[0] * l->inverse * dmb_vec3_dot(l->m, w) : 0.0;
 }
 
-/* Rolling (eq:joints.rolling). The rim's lowest point is at r m, m of the normal n = R^T e_x of the plane, and its
- * velocity u + w x r m along n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:  (t2; r s t) The first is
- * also the derivative of p_x - r s. */
+/* Rolling (eq:joints.rolling). The lowest point of the rim is at r m, with m from the normal n = R^T e_x of the plane,
+ * and its velocity u + w x r m has the components along n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:
+ * (t2; r s t) The first is also the derivative of p_x - r s. */
 static void rolling_rows(double r, const double R[9], const double p[3], const double V[6], dmb_joint_rows *rows)
 {
     lean l;
@@ -283,14 +285,14 @@ void dmb_joint_locked_tangent(const double R0[9], const double p0[3], const doub
     }
 }
 
-/* The angle, modulo a turn, next to `near` */
+/* The angle, modulo 2 pi, nearest to `near` */
 static double on_turn_of(double near, double angle)
 {
     return angle + DMB_TWO_PI * round((near - angle) / DMB_TWO_PI);
 }
 
-/* With n = R^T e_y leaning on x of b, s = cos RZ, the gradients of the angles by w are, R being orthogonal,
- *     RX: x + (n_x/s) m    RY: -m/s    RZ: t */
+/* With n = R^T e_y at an angle to x of b, s = cos RZ. The gradients of the angles by w are, because R is orthogonal,
+ * RX: x + (n_x/s) m    RY: -m/s    RZ: t */
 static void angle_gradients(const lean *l, dmb_joint_coordinates *c)
 {
     const double q = l->n[0] * l->inverse;
@@ -343,7 +345,8 @@ void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const d
 #define DMB_NAME_PX "position x"
 #define DMB_NAME_PY "position y"
 #define DMB_NAME_PZ "position z"
-/* R_yx = 0: the x axis of b has no part along y of a, which a turn about z would give; R_zx and R_yz likewise. */
+/* R_yx = 0: the x axis of b has no component along y of a, which a rotation about z would cause; correspondingly for
+ * R_zx and R_yz. */
 #define DMB_NAME_R_YX "rotation about z"
 #define DMB_NAME_R_ZX "rotation about y"
 #define DMB_NAME_R_YZ "rotation about x"

@@ -1,5 +1,5 @@
-/* Choosing is Gaussian elimination with complete pivoting (Golub and Van Loan, Matrix Computations, 3.4) of rows scaled
- * to unit length in weighted columns (Wehage, Haug, J. Mech. Design 104, 1982). */
+/* The choice of dependent coordinates is Gaussian elimination with complete pivoting (Golub and Van Loan, Matrix
+ * Computations, 3.4) of rows scaled to unit length in weighted columns (Wehage, Haug, J. Mech. Design 104, 1982). */
 #include "constraint/partition.h"
 
 #include "constraint/partition_rows.h"
@@ -15,8 +15,8 @@ static double row_largest(size_t n, const double *x)
     return larger(larger(m[0], m[1]), larger(m[2], m[3]));
 }
 
-/* The rows of B diag(weight) at unit length into a, their largest entries into top; zeros for a row of length zero and
- * for one that is not finite. Returns whether all are finite. */
+/* Writes the rows of B diag(weight), scaled to unit length, into a, and their largest entries into top; rows of length
+ * zero and rows that are not finite become zero. Returns whether all are finite. */
 static bool scale_rows(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, double *a,
                        double *top)
 {
@@ -34,8 +34,9 @@ static bool scale_rows(const double *B, uint32_t stride, const double *weight, c
     return finite;
 }
 
-/* The largest entry of the remaining rows and its places in the two orders. Both are walked ascending, so that the
- * first of equals is taken, and "equal" is wider than rounding: symmetric mechanisms have many equal candidates. */
+/* Finds the largest entry of the remaining rows and its places in the two orders. Both orders are scanned ascending, so
+ * that the first of equal entries is chosen. The tolerance for "equal" is wider than rounding, because symmetric
+ * mechanisms have many equal candidates. */
 static double find_pivot(const dmb_partition *p, const double *a, const double *top, uint32_t *row_place,
                          uint32_t *column_place)
 {
@@ -54,7 +55,7 @@ static double find_pivot(const dmb_partition *p, const double *a, const double *
     return best;
 }
 
-/* Moves order[from] down to `to`; those it passes keep their order. */
+/* Moves order[from] down to `to`; the items between keep their order. */
 static void move_item(uint32_t *order, uint32_t from, uint32_t to)
 {
     const uint32_t item = order[from];
@@ -62,8 +63,8 @@ static void move_item(uint32_t *order, uint32_t from, uint32_t to)
     order[to] = item;
 }
 
-/* Subtracts the last pivot row from those that remain. Its column becomes exactly zero there, as columns of weight 0
- * are: neither is found again, and whole rows can be worked on. */
+/* Subtracts the last pivot row from the remaining rows. Its column becomes exactly zero there, as columns of weight 0
+ * are: neither is found again, and operations can use whole rows. */
 static void eliminate(const dmb_partition *p, double *a, double *top)
 {
     const size_t n = p->columns, column = p->column_order[p->rank - 1];
@@ -105,9 +106,9 @@ double dmb_partition_choose(const double *B, uint32_t stride, const double *weig
     return p->rank == 0 ? 1.0 : smallest / largest;
 }
 
-/* Factoring is the Crout form of LU, P C_d = L U with U of unit diagonal: a factor of a row of C_d then stands in that
- * row of L alone, so that rows are scaled for the choice of exchanges and scaled back afterwards without a place to
- * keep the scales. Inner loops run along rows. Rows with a factor 0 are skipped. */
+/* Factorisation in the Crout form of LU, P C_d = L U with U of unit diagonal: a scale factor of a row of C_d then
+ * appears in that row of L only. Therefore rows are scaled for the choice of exchanges and scaled back afterwards,
+ * without storage for the scales. Inner loops run along rows. Rows with a factor 0 are skipped. */
 
 /* Largest |x_j| weight_j. */
 static double weighted_largest(size_t n, const double *x, const double *weight)
@@ -120,8 +121,8 @@ static double weighted_largest(size_t n, const double *x, const double *weight)
     return larger(larger(m[0], m[1]), larger(m[2], m[3]));
 }
 
-/* C_d with rows of unit length as in choosing; a row that cannot be scaled becomes zero. Returns the largest entry of
- * the scaled pivot rows, independent columns included. */
+/* Copies C_d with rows scaled to unit length as in choosing; a row that cannot be scaled becomes zero. Returns the
+ * largest entry of the scaled pivot rows, independent columns included. */
 static double gather_dependent(const double *B, uint32_t stride, const double *weight, const dmb_partition *p,
                                double *lu)
 {
@@ -137,7 +138,7 @@ static double gather_dependent(const double *B, uint32_t stride, const double *w
     return most;
 }
 
-/* Where the choice is still a good one its own pivot is kept, as in find_pivot. */
+/* Keeps the pivot of the choice unless another entry is clearly larger, as in find_pivot. */
 static uint32_t pivot_of_column(uint32_t n, uint32_t k, const double *lu)
 {
     uint32_t at = k;
@@ -151,7 +152,7 @@ static uint32_t pivot_of_column(uint32_t n, uint32_t k, const double *lu)
     return at;
 }
 
-/* The row before all exchanges of the one that stands at k after exchange k. */
+/* Index, before all exchanges, of the row that is at k after exchange k. */
 static uint32_t origin(const uint32_t *pivot, uint32_t k)
 {
     uint32_t at = k;
@@ -159,7 +160,7 @@ static uint32_t origin(const uint32_t *pivot, uint32_t k)
     return at;
 }
 
-/* Step k of Crout elimination: row k of U, and the rows below less what they have of it. */
+/* Step k of Crout elimination: computes row k of U and subtracts its multiples from the rows below. */
 static void factor_step(size_t n, size_t k, double reciprocal, double *lu)
 {
     double *row = lu + n * k;
@@ -173,15 +174,15 @@ static void factor_step(size_t n, size_t k, double reciprocal, double *lu)
     }
 }
 
-/* Row k is final after step k: its part of L goes back to the length of the row of B, its pivot is kept as reciprocal.
- */
+/* Row k is final after step k: its part of L is scaled back to the length of the row of B, its pivot is stored as
+ * reciprocal. */
 double dmb_partition_factor(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                             double *lu, uint32_t *pivot)
 {
     const dmb_partition *p = partition;
     const size_t n = p->rank;
     if (n == 0) return 1.0;
-    for (uint32_t k = 0; k < n; k++) pivot[k] = k; /* all within range, even where singular */
+    for (uint32_t k = 0; k < n; k++) pivot[k] = k; /* all within range, even if singular */
     double largest = gather_dependent(B, stride, weight, p, lu), smallest = DBL_MAX;
     for (uint32_t k = 0; k < n; k++) {
         double *row = lu + n * k;
@@ -222,7 +223,7 @@ void dmb_partition_solve_transposed(const dmb_partition *partition, const double
         if (pivot[k] != k) dmb_block_swap(1, x + k, x + pivot[k]);
 }
 
-/* dmb_partition_solve of all columns of -C_i at once, a row of G at a time. */
+/* dmb_partition_solve of all columns of -C_i at once, one row of G at a time. */
 void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
                               const uint32_t *pivot, double *G)
 {

@@ -1,5 +1,6 @@
-/* Rows of matrices, for the files partition_*.c. Sums run in four parts, because one would wait for itself; their order
- * is fixed. Of rows with few entries the places are listed: a cluster of many joints is sparse. */
+/* Operations on matrix rows, for the files partition_*.c. Sums use four partial sums, because a single one would limit
+ * the speed by its latency; their order is fixed. For rows with few entries the nonzero places are listed: the matrix
+ * of a component with many joints is sparse. */
 #ifndef DMB_CONSTRAINT_PARTITION_ROWS_H
 #define DMB_CONSTRAINT_PARTITION_ROWS_H
 
@@ -13,8 +14,8 @@
 #include "math/block_kernel.h"
 
 #define DMB_PARTITION_ROW_MIN 1e-300 /* shorter rows count as zero */
-#define DMB_CLEARLY (1.0 + 1e-6)     /* a later candidate for pivot must be larger by this factor */
-#define DMB_PLACES 96                /* listed of a row at a time */
+#define DMB_CLEARLY (1.0 + 1e-6)     /* a later candidate for the pivot must be larger by this factor */
+#define DMB_PLACES 96                /* largest number of listed places per row */
 
 /* y[j] -= f x[j] */
 static inline void row_subtract(size_t n, double f, const double *restrict x, double *restrict y)
@@ -42,8 +43,8 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Places of what is not zero in a row, for row_subtract_at: none are listed, and n returned, where they are more than
- * DMB_PLACES or more than a third. */
+/* Lists the places of nonzero entries of a row, for row_subtract_at. If there are more than DMB_PLACES or more than a
+ * third of the row, none are listed and n is returned. */
 static inline size_t find_places(size_t n, const double *x, uint32_t *places)
 {
     const size_t most = n / 3 < DMB_PLACES ? n / 3 : DMB_PLACES;
@@ -56,7 +57,7 @@ static inline size_t find_places(size_t n, const double *x, uint32_t *places)
     return count;
 }
 
-/* row_subtract, only at the places of x if they are listed. */
+/* row_subtract, restricted to the places of x if they are listed. */
 static inline void row_subtract_at(size_t n, size_t count, const uint32_t *places, double f, const double *restrict x,
                                    double *restrict y)
 {
@@ -83,7 +84,7 @@ static inline double sum_of_squares(size_t n, const double *b, const double *wei
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* 2-norm of a row in weighted columns. A second pass, only where squares leave the range of doubles. */
+/* 2-norm of a row in weighted columns. A second pass is made only if squares leave the range of doubles. */
 static inline double row_length(size_t n, const double *b, const double *weight)
 {
     const double sum = sum_of_squares(n, b, weight, 1.0);
@@ -103,14 +104,13 @@ static inline const double *pivot_row_of(const double *B, uint32_t stride, const
     return B + (size_t)p->row_order[k] * stride;
 }
 
-/* The places of a matrix row that are not zero: the blocks of columns, a set of bits, and the stretches of columns
- * within them. */
+/* Nonzero places of a matrix row: the blocks of columns as a set of bits, and the stretches of columns within them. */
 
-#define DMB_STRETCH_BLOCKS 64   /* of columns; a set of them is a uint64_t */
+#define DMB_STRETCH_BLOCKS 64   /* blocks of columns; a set of them is a uint64_t */
 #define DMB_STRETCH_BLOCK_MIN 8 /* columns */
-#define DMB_STRETCH_DENSE 32    /* so many columns, or fewer, are one block and one stretch, whatever is zero */
-#define DMB_STRETCHES 8         /* of a row; what lies between further ones counts as not zero */
-#define DMB_STRETCH_GAP 3       /* zeros within a stretch */
+#define DMB_STRETCH_DENSE 32    /* up to this number of columns there is one block and one stretch, including zeros */
+#define DMB_STRETCHES 8         /* of a row; columns between further ones count as nonzero */
+#define DMB_STRETCH_GAP 3       /* largest number of zeros within a stretch */
 
 /* Stretch from .. to - 1 of columns. */
 typedef struct stretch {
@@ -129,7 +129,7 @@ static inline size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Blocks in which a row is not zero. */
+/* Set of the blocks in which a row has nonzero entries. */
 static inline uint64_t find_blocks(size_t n, const double *b)
 {
     const size_t size = block_size(n);
@@ -145,7 +145,7 @@ static inline uint64_t find_blocks(size_t n, const double *b)
     return blocks;
 }
 
-/* Runs of what is not zero in a row, at most DMB_STRETCHES; returns their number. */
+/* Stretches of nonzero entries of a row, at most DMB_STRETCHES; returns their number. */
 static inline size_t find_stretches(size_t n, const double *b, uint64_t blocks, stretch *stretches)
 {
     const size_t size = block_size(n);
@@ -166,7 +166,7 @@ static inline size_t find_stretches(size_t n, const double *b, uint64_t blocks, 
     return count;
 }
 
-/* Sum of a_j b_j weight_j^2, in four parts as above. */
+/* Sum of a_j b_j weight_j^2, in four partial sums as above. */
 static inline double weighted_dot(size_t n, const double *a, const double *b, const double *weight)
 {
     double sum[4] = {0.0, 0.0, 0.0, 0.0};

@@ -1,13 +1,15 @@
-/* Projection by B W^2 B^T = U^T U. A row of B meets few others, and U of a chain stays sparse in any order of its rows:
- * what is eliminated is a stretch of the chain, which fills between its two ends only. gram holds U from the diagonal
- * on (of which it has the reciprocal) and notes below it: in row n - 1 - k the places in row k of U that are not zero,
- * in the last row the blocks of columns in which rows 1 .. n - 1 of B are not zero. Nothing is noted of row 0. */
+/* Projection by B W^2 B^T = U^T U. A row of B couples with few others, and U of a chain stays sparse for any order of
+ * its rows: the eliminated part is a section of the chain, which causes fill between its two ends only. gram contains U
+ * from the diagonal on (the reciprocal of the diagonal) and notes below it: row n - 1 - k lists the nonzero places in
+ * row k of U, the last row contains the blocks of columns in which rows 1 .. n - 1 of B are nonzero. There are no notes
+ * of row 0. */
 #include <string.h>
 
 #include "constraint/partition_rows.h"
 
-#define DMB_GRAM_PIVOT_MIN 1e-16  /* part of its diagonal that a pivot of B W^2 B^T must exceed */
-#define DMB_ALL_PLACES UINT32_MAX /* in place of their number: those behind the diagonal, not listed */
+#define DMB_GRAM_PIVOT_MIN 1e-16 /* fraction of its diagonal that a pivot of B W^2 B^T must exceed */
+#define DMB_ALL_PLACES \
+    UINT32_MAX /* stored instead of the number of places: all places after the diagonal, not listed */
 
 /* ---- Notes ------------------------------------------------------------------------------------------------------- */
 
@@ -30,7 +32,8 @@ static inline uint64_t blocks_of(size_t n, const double *gram, size_t k)
     return blocks;
 }
 
-/* Zeros for U, the blocks of all rows, and no lists yet: project may follow whatever becomes of the factors. */
+/* Sets U to zero, stores the blocks of all rows and no lists, so that a projection is defined even if factorisation
+ * fails. */
 static void gram_clear(const double *B, uint32_t stride, const dmb_partition *p, double *gram)
 {
     const size_t n = p->rank;
@@ -43,13 +46,13 @@ static void gram_clear(const double *B, uint32_t stride, const dmb_partition *p,
     }
 }
 
-/* Number of the places listed for row k of U, from note 1 on. */
+/* Number of places listed for row k of U; the places begin at note 1. */
 static inline uint32_t place_count(size_t n, const double *gram, size_t k)
 {
     return k == 0 || k + 1 == n ? DMB_ALL_PLACES : note(gram + n * (n - 1 - k), 0);
 }
 
-/* Lists the places of row k of U, unless most are taken. */
+/* Lists the nonzero places of row k of U, unless most are nonzero. */
 static void list_places(size_t n, size_t k, double *gram)
 {
     if (k == 0 || k + 1 == n) return;
@@ -65,7 +68,7 @@ static void list_places(size_t n, size_t k, double *gram)
 
 /* ---- Factors ----------------------------------------------------------------------------------------------------- */
 
-/* Subtracts from the rows below what row k of U has of them. */
+/* Subtracts the multiples of row k of U from the rows below. */
 static void gram_eliminate(size_t n, size_t k, double *gram)
 {
     const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
@@ -85,7 +88,8 @@ static void gram_eliminate(size_t n, size_t k, double *gram)
     }
 }
 
-/* Row k of U; false where its pivot is none. One at most `weak` of its diagonal is left out: its row of U is zero. */
+/* Computes row k of U; returns false if its pivot is invalid. A pivot below the fraction `weak` of its diagonal is
+ * excluded: its row of U is zero. */
 static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size_t k, double weak, double *gram)
 {
     const double *B = jacobian->rows, *weight = jacobian->weight;
@@ -117,13 +121,14 @@ static int32_t gram_factor(const dmb_jacobian *jacobian, const dmb_partition *p,
     return 0;
 }
 
-/* Golub and Van Loan, 4.2, by outer products. */
+/* Cholesky factorisation by outer products (Golub and Van Loan, 4.2). */
 int32_t dmb_partition_gram(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
 {
     return gram_factor(jacobian, partition, 0.0, gram);
 }
 
-/* Factors anew without the weak rows, if there are any: those behind must not lean on them. */
+/* Repeats the factorisation without the near-redundant rows, if there are any, because later rows must not depend on
+ * them. */
 void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
 {
     const size_t n = partition->rank;
@@ -140,7 +145,7 @@ void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition 
 
 /* ---- Solves ------------------------------------------------------------------------------------------------------ */
 
-/* U^T y = d, a row of U at a time. */
+/* U^T y = d, one row of U at a time. */
 static void gram_forward(size_t n, const double *gram, double *d)
 {
     for (size_t k = 0; k < n; k++) {
@@ -171,7 +176,7 @@ static void gram_backward(size_t n, const double *gram, double *d)
     }
 }
 
-/* x += f b in the blocks given */
+/* x += f b in the given blocks */
 static void add_row(size_t n, uint64_t blocks, double f, const double *b, double *x)
 {
     const size_t size = block_size(n);
@@ -191,9 +196,9 @@ void dmb_partition_project(const dmb_jacobian *jacobian, const dmb_partition *pa
     for (size_t j = 0; j < columns; j++) x[j] *= jacobian->weight[j] * jacobian->weight[j];
 }
 
-/* Multipliers of least norm: what of them does nothing is taken off. */
+/* Multipliers of least norm: the part in the left null space, which has no effect, is removed. */
 
-/* Row s of N = [X, -I], X = B_red(:, dep) C_d^-1: redundant row s as combination of the pivot rows, less itself. */
+/* Row s of N = [X, -I], X = B_red(:, dep) C_d^-1: redundant row s as combination of the pivot rows, minus itself. */
 static void left_null_vector(const dmb_jacobian *jacobian, const dmb_partition *p, const double *lu,
                              const uint32_t *pivot, size_t s, double *v)
 {
@@ -204,7 +209,7 @@ static void left_null_vector(const dmb_jacobian *jacobian, const dmb_partition *
     for (size_t k = n; k < p->rows; k++) v[k] = k == n + s ? -1.0 : 0.0;
 }
 
-/* The longest of the rows of N from s on, moved to s. */
+/* Moves the longest of the rows of N from s on to s. */
 static void longest_first(size_t n, size_t redundant, size_t s, double *N)
 {
     size_t at = s;
@@ -218,9 +223,9 @@ static void longest_first(size_t n, size_t redundant, size_t s, double *N)
     if (at != s) dmb_block_swap(n, N + n * s, N + n * at);
 }
 
-/* Row s of N at unit length, once more orthogonal to the rows before it ("twice is enough": Giraud, Langou, Rozloznik,
- * Comput. Math. Appl. 50, 2005), and the rows behind orthogonal to it. Each row has its -1 where those before it have
- * zeros, so no length is below 1. */
+/* Normalises row s of N after a second orthogonalisation to the rows before it ("twice is enough": Giraud, Langou,
+ * Rozloznik, Comput. Math. Appl. 50, 2005), and makes the later rows orthogonal to it. Each row has its -1 where
+ * earlier rows have zeros, so that no length is below 1. */
 static void orthonormalise(size_t n, size_t redundant, size_t s, double *N)
 {
     double *v = N + n * s;
@@ -230,9 +235,9 @@ static void orthonormalise(size_t n, size_t redundant, size_t s, double *N)
 }
 
 /* f - N^T (N N^T)^-1 N f by modified Gram-Schmidt on the rows of N, the longest first (Golub and Van
- * Loan, 5.2, 5.4). Not by Cholesky of N N^T = X X^T + I, which has the square of the condition number of N: X holds
- * the ratios of lengths of rows, which differ by their units. Without "longest first" B^T f suffers when these span ten
- * decades. */
+ * Loan, 5.2, 5.4). Cholesky of N N^T = X X^T + I is not used, because its condition number is the square of that of N:
+ * X contains the ratios of row lengths, which differ by their units. Without "longest first" B^T f loses accuracy if
+ * these span ten decades. */
 void dmb_partition_least_norm(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *lu,
                               const uint32_t *pivot, double *work, double *f)
 {

@@ -1,7 +1,8 @@
-/* Mud that goes along with a solid of revolution about the x axis of its node: along S, sideways in slices, a slice at
- * x with v_y + x w_z and v_z - x w_y, about x nothing. M is symmetric and constant in the body frame, so that with p =
- * M v, v = (u; w), Kirchhoff's equations of a solid in an ideal fluid hold (eq:mud.kirchhoff): forces
- * -p_u' - w x p_u, moments -p_w' - w x p_w - u x p_u, the last the moment of Munk. */
+/* Added mass of mud on a solid of revolution about the x axis of its node (eq:mud.kirchhoff): S along the axis;
+ * laterally by slices, where a slice at x has the velocity v_y + x w_z and v_z - x w_y; no inertia about x. M is
+ * symmetric and constant in the body frame, so that with p = M v, v = (u; w), Kirchhoff's equations of a solid in an
+ * ideal fluid hold: forces
+ * -p_u' - w x p_u, moments -p_w' - w x p_w - u x p_u, the last term is the Munk moment. */
 #ifndef DMB_ELEMENT_ADDED_MASS_H
 #define DMB_ELEMENT_ADDED_MASS_H
 
@@ -16,7 +17,7 @@ static inline void dmb_added_mass_times(const dmb_added_mass *added, const doubl
     dmb_vec3_set(0.0, s[2] * v[4] - s[1] * v[2], s[2] * v[5] + s[1] * v[1], p + 3);
 }
 
-/* Adds factor M. */
+/* Adds factor times M. */
 static inline void dmb_added_mass_add(const dmb_added_mass *added, double factor, double M[36])
 {
     const double *s = added->across;
@@ -27,7 +28,7 @@ static inline void dmb_added_mass_add(const dmb_added_mass *added, double factor
     M[28] += factor * s[2], M[35] += factor * s[2];
 }
 
-/* Adds mass_factor M + velocity_factor C, C v' the derivative of -ad(v)^T M v: C = -ad(v)^T M - A(p). */
+/* Adds mass_factor M + velocity_factor C, where C v' is the derivative of -ad(v)^T M v: C = -ad(v)^T M - A(p). */
 static inline void dmb_added_mass_add_tangent(const dmb_added_mass *added, const double v[6], const double p[6],
                                               double mass_factor, double velocity_factor, double out[36])
 {

@@ -65,7 +65,7 @@ void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const do
     dmb_beam_momentum(&c, va, vb, pa, pb);
 }
 
-/* ---- Inside it --------------------------------------------------------------------------------------------------- */
+/* ---- Sections inside the element --------------------------------------------------------------------------------- */
 
 /* One bending plane. P = 12 EI/(GA L^2), q = 1/(1+P): N3 - x = (3x^2 - 2x^3 - x) q, G3 = 6 (x - x^2) q/L */
 static void plane(double x, double bending_stiffness, double shear_stiffness, double length, double *move, double *turn)
@@ -85,7 +85,7 @@ void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, d
     plane(x, K[4], K[2], type->length, &shape->move[1], &shape->turn[1]);
 }
 
-/* A slope dz/dx is a turn -theta_y. */
+/* A slope dz/dx is a rotation -theta_y. */
 void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6])
 {
     out[0] = out[3] = 0.0;
@@ -122,7 +122,7 @@ void dmb_section_pose(const dmb_element_type *type, const dmb_section_shape *sha
     r[0] += type->arm[0];
 }
 
-/* d' = T6^-1(d) V_B - T6^-1(-d) V_A for unit velocities of the nodes, moved to the ends by their arms. */
+/* d' = T6^-1(d) V_B - T6^-1(-d) V_A for unit velocities of the nodes, transferred to the ends by their arms. */
 void dmb_section_strain_map(const dmb_element_type *type, const double d[6], double map[72])
 {
     dmb_se3_inverse_tangent T;
@@ -149,7 +149,7 @@ static void follow_exp(const double R[9], const double x[3], const dmb_se3_tange
     for (int i = 0; i < 6; i++) v[i] += own[i];
 }
 
-/* Velocity of end A, then along the two exponentials of H(x) (eq:motion.section-map). */
+/* Velocity of the section: that of end A, propagated along the two exponentials of H(x) (eq:motion.section-map). */
 void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72])
 {
     double h[6], c[6], R[2][9], x[2][3], strain[72];
@@ -174,10 +174,11 @@ void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shap
     }
 }
 
-#define DMB_SECTION_STEP 1e-3 /* [rad; element lengths] of differences: errors of 1e-12 of the map and of rounding */
+#define DMB_SECTION_STEP \
+    1e-3 /* [rad; element lengths] step of differences: errors of 1e-12 of the map and of rounding */
 
-/* The map depends on d alone, whose change is the strain map: four differences of fourth order along each of its six
- * components (weights 1, -8, 8, -1 of 12). */
+/* The map depends on d only, whose change is given by the strain map: four-point differences of fourth order along each
+ * of its six components (weights 1, -8, 8, -1 of 12). */
 void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
                              const double w[6], double K[144])
 {
@@ -270,9 +271,10 @@ void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *s
     dmb_arm_wrench(-type->arm[1], f + 6);
 }
 
-#define DMB_SECTION_SMALL 3e-5 /* [rad; element lengths] second order: errors of 1e-11 of map and of rounding */
+#define DMB_SECTION_SMALL \
+    3e-5 /* [rad; element lengths] step of second-order differences: errors of 1e-11 of the map and of rounding */
 
-/* The frame at d moved along component c. The correction c(x) d depends on d_y and d_z alone. */
+/* Frame for d displaced along component c. The correction c(x) d depends on d_y and d_z only. */
 static void frame_beside(const dmb_section_shape *shape, const double d[6], int c, const dmb_section_frame *at,
                          dmb_section_frame *frame)
 {
@@ -290,7 +292,7 @@ static void frame_beside(const dmb_section_shape *shape, const double d[6], int 
     frame->T[1] = at->T[1];
 }
 
-/* Both change by d alone: differences along each of its six components, then the strain map. */
+/* Both depend on d only: differences along each of its six components, multiplied by the strain map. */
 void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *at,
                              const double d[6], const double w[6], const double v[12], double K[144], double W[72])
 {

@@ -1,20 +1,20 @@
-/* The flexible element, one at a time: beam_math.h with the constants of a type. */
+/* The flexible element, one at a time: functions of beam_math.h with the constants of a type. */
 #ifndef DMB_ELEMENT_BEAM_H
 #define DMB_ELEMENT_BEAM_H
 
 #include "element/beam_math.h"
 #include "element/element_type.h"
 
-/* Shape from the nodes' orientations, node A's rotation matrix and the vector from node A to node B [m], world frame.
- * Returns 0, or -1 when the relative rotation is above DMB_BEAM_ROTATION_MAX or not a number. */
+/* Computes the shape from the orientations of the nodes, node A's rotation matrix and the vector from node A to node B
+ * [m], world frame. Returns 0, or -1 if the relative rotation is above DMB_BEAM_ROTATION_MAX or not a number. */
 int32_t dmb_beam_deform(const dmb_element_type *type, const double quaternion_a[4], const double rotation_a[9],
                         const double quaternion_b[4], const double span[3], dmb_beam_shape *shape);
 /* Strain e and elastic stress (K/L) e [m, rad], [N, N m]. */
 void dmb_beam_strain_of(const dmb_element_type *type, const dmb_beam_shape *shape, double e[6]);
 void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, double stress[6]);
-/* e.X e of the entries of K/L off its diagonal; 0 of elements whose unstressed shape is straight. */
+/* e.X e with X the off-diagonal entries of K/L; 0 for elements with a straight unstressed shape. */
 double dmb_beam_cross_energy(const dmb_element_type *type, const double e[6]);
-/* (K/L) e of a strain or of its rate. */
+/* (K/L) e for a strain or its rate. */
 void dmb_beam_stiffness_times(const dmb_element_type *type, const double e[6], double stress[6]);
 /* e_x [m] from d alone. */
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
@@ -26,35 +26,35 @@ void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const do
 
 typedef struct dmb_section_shape {
     double x;       /* [-] fraction of the flexible length */
-    double move[2]; /* [-] sideways displacement per unit of d_y, d_z: N3 - x */
-    double turn[2]; /* [rad/m] turning of the section per unit of d_y, d_z: G3 */
+    double move[2]; /* [-] lateral displacement per unit of d_y, d_z: N3 - x */
+    double turn[2]; /* [rad/m] rotation of the section per unit of d_y, d_z: G3 */
 } dmb_section_shape;
 
-/* The shape at fraction x; bending 0 leaves c out (axial-torsional bars). */
+/* Computes the shape at fraction x; bending 0 omits c (axial-torsional elements). */
 void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape);
 
-/* out = c(x) d. Linear in d: rates map alike. */
+/* out = c(x) d. Linear in d, so that it also applies to rates. */
 void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6]);
 
-/* The section seen from the element's nodes, and the twist of the section by theirs, to be used where forces act inside
- * an element. R_a, R_b: axes of the nodes in the world, span: from node a to node b, world. */
+/* Pose of a section relative to the element's nodes, and its twist as a function of theirs, for forces that act inside
+ * an element. R_a, R_b: axes of the nodes in the world; span: from node a to node b, world. */
 
 /* d = log(H_A^-1 H_B) of the flexible ends. */
 void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
                       double d[6]);
-/* Rotation Q of the section and its place r [m] in the frame of node a. */
+/* Rotation Q of the section and its position r [m] in the frame of node a. */
 void dmb_section_pose(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double Q[9],
                       double r[3]);
-/* Exact d' of the ends by the body-frame velocities of the nodes, shape (6, 12). */
+/* Exact map from the body-frame velocities of the nodes to d' of the ends, shape (6, 12). */
 void dmb_section_strain_map(const dmb_element_type *type, const double d[6], double map[72]);
-/* Exact body-frame velocity of the section by those of the nodes, shape (6, 12). */
+/* Exact map from the body-frame velocities of the nodes to that of the section, shape (6, 12). */
 void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72]);
-/* K, shape (12, 12): change of map^T w by body-frame displacements of the nodes, w a wrench that stays the same in the
+/* K, shape (12, 12): change of map^T w by body-frame displacements of the nodes, for a wrench w that is constant in the
  * axes of the section. */
 void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
                              const double w[6], double K[144]);
 
-/* Parts of the map at d, for twists and wrenches without the whole of it. */
+/* Parts of the map at d, for twists and wrenches without computing the whole map. */
 typedef struct dmb_section_frame {
     double R[2][9], x[2][3]; /* exponentials of x d and of c(x) d */
     dmb_se3_tangent T[2];    /* their tangents */
@@ -67,8 +67,8 @@ void dmb_section_twist(const dmb_element_type *type, const dmb_section_shape *sh
                        const double v[12], double V[6]);
 void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
                         const double w[6], double f[12]);
-/* Changes by body-frame displacements of the nodes: K, shape (12, 12), of map^T w, and W, shape (6, 12), of map v, with
- * w and v as they are. */
+/* Changes by body-frame displacements of the nodes: K, shape (12, 12), of map^T w, and W, shape (6, 12), of map v, at
+ * constant w and v. */
 void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape,
                              const dmb_section_frame *frame, const double d[6], const double w[6], const double v[12],
                              double K[144], double W[72]);

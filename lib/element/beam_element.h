@@ -1,15 +1,15 @@
-/* The flexible element as steps take it: inertia, and all of its terms together. */
+/* The flexible element as used by steps: inertia, and all of its terms together. */
 #ifndef DMB_ELEMENT_BEAM_ELEMENT_H
 #define DMB_ELEMENT_BEAM_ELEMENT_H
 
 #include "element/beam_math.h"
 #include "element/curved_element.h"
 
-/* Inertia of the flexible element (eq:beam.mass, eq:motion.euler-poincare), in a number that is a double or lanes of
+/* Inertia of the flexible element (eq:beam.mass, eq:motion.euler-poincare), for numbers that are doubles or lanes of
  * doubles: the consistent mass of the Timoshenko cubic, constant in the body frames of both ends, its momentum p = M v,
- * the wrench p' + v^ p it takes, and the derivatives of that for the iteration matrix. */
+ * the inertia wrench p' + v^ p, and its derivatives for the iteration matrix. */
 
-/* One bending plane: u and t of both ends; the second plane enters with t = -theta_y. */
+/* One bending plane: u and t of both ends; for the second plane t = -theta_y. */
 DMB_REAL_INLINE void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb,
                                             dmb_real out[4])
 {
@@ -34,7 +34,7 @@ DMB_REAL_INLINE void dmb_beam_momentum(const dmb_beam_constants *mass, const dmb
     pa[2] = z[0], pa[4] = -z[1], pb[2] = z[2], pb[4] = -z[3];
 }
 
-/* The ten numbers of one 6x6 block of M: axial, torsion and per plane uu, ut, tu, tt. */
+/* The ten coefficients of one 6x6 block of M: axial, torsion and per plane uu, ut, tu, tt. */
 typedef struct dmb_beam_mass_block {
     dmb_real axial, torsion, uu[2], ut[2], tu[2], tt[2];
 } dmb_beam_mass_block;
@@ -62,8 +62,8 @@ static inline void dmb_beam_block_ab(const dmb_beam_constants *m, double side, d
     }
 }
 
-/* out += L M_block, or = where it is fresh; M_block has entries (0,0) (3,3), (1,1) (1,5) (5,1) (5,5), (2,2) (2,4) (4,2)
- * (4,4) */
+/* out += L M_block, or out = L M_block if `fresh`; M_block has entries (0,0) (3,3), (1,1) (1,5) (5,1) (5,5), (2,2)
+ * (2,4) (4,2) (4,4) */
 static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam_mass_block *m, int fresh,
                                             dmb_real out[36])
 {
@@ -97,8 +97,8 @@ static inline void dmb_beam_subtract_momentum(const dmb_real p[6], dmb_real fact
     dmb_mat6_add_skew(-factor, p + 3, 1, 1, out);
 }
 
-/* Adds mass_factor M + velocity_factor C_t to blocks, or writes it to fresh ones;
- * C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (eq:motion.gyroscopic). */
+/* Adds mass_factor M + velocity_factor C_t to blocks, or overwrites them if `fresh`;
+ *     C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (eq:motion.gyroscopic). */
 static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, const dmb_real va[6],
                                                const dmb_real vb[6], const dmb_real pa[6], const dmb_real pb[6],
                                                dmb_real mass_factor, dmb_real velocity_factor, int fresh,
@@ -120,28 +120,29 @@ static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, c
     dmb_beam_subtract_momentum(pb, velocity_factor, blocks->bb);
 }
 
-/* Everything of one flexible element (or of lanes of them): from the poses and motion of its two nodes to forces,
- * power and tangent blocks at those nodes. The order of operations here is that of every kernel. */
+/* All terms of one flexible element (or of lanes of elements): from the poses and motion of its two nodes to forces,
+ * power and tangent blocks at those nodes. Every kernel uses this order of operations. */
 
-/* Quantities wanted of elements, the same for all lanes. */
+/* Requested quantities of elements, the same for all lanes. */
 typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
     int32_t dynamic;                     /* 0: no inertia, damping, nor rates */
-    int32_t tangent;                     /* 1: blocks too */
-    int32_t extrapolated;  /* 1: geometric stiffness with the stress given, 0: with the true one, which is given back */
-    int32_t rates;         /* 1: strain rates are needed, for the energy ledger or for damping */
-    int32_t damped;        /* 1: damping_time is not 0 everywhere */
+    int32_t tangent;                     /* 1: tangent blocks are computed */
+    int32_t
+        extrapolated; /* 1: geometric stiffness from the given stress, 0: from the actual stress, which is returned */
+    int32_t rates;    /* 1: strain rates are required, for the energy ledger or for damping */
+    int32_t damped;   /* 1: damping_time is not 0 for all elements */
     int32_t inertia_only;  /* 1: blocks without the stiffness */
-    int32_t arms;          /* 1: some ends stand off their nodes */
-    int32_t curved;        /* 1: elements that are bent, with their own mass and weight (element/curved_mass.h) */
-    const double *gravity; /* [m/s2] times the load factor, world, shape (3); NULL: none acts. Read if curved. */
+    int32_t arms;          /* 1: some ends have arms to their nodes */
+    int32_t curved;        /* 1: elements that are curved, with their own mass and weight (element/curved_mass.h) */
+    const double *gravity; /* [m/s2] times the load factor, world, shape (3); NULL: no gravity. Used if curved. */
 } dmb_beam_task;
 
 typedef struct dmb_beam_input {
     dmb_real qa[4], qb[4]; /* orientations of the nodes */
-    dmb_real Ra[9];        /* the first one's rotation matrix */
+    dmb_real Ra[9];        /* rotation matrix of the first node */
     dmb_real span[3];      /* [m] from node A to node B, world */
-    dmb_real reach;        /* [m] size of the numbers that the span is the difference of */
+    dmb_real reach;        /* [m] magnitude of the positions whose difference is the span */
     dmb_real va[6], vb[6]; /* velocities of the nodes, body frame */
     dmb_real aa[6], ab[6]; /* their rates */
     dmb_real za[6], zb[6]; /* [m, rad] increments of pose h Dq over the step */
@@ -149,13 +150,13 @@ typedef struct dmb_beam_input {
 
 typedef struct dmb_beam_output {
     dmb_real strain[6];                   /* d */
-    dmb_real stress[6];                   /* in: if extrapolated; out: if not; for the geometric stiffness */
+    dmb_real stress[6];                   /* in: if extrapolated; out: otherwise; used for the geometric stiffness */
     dmb_real fa[6], fb[6];                /* forces on the residual side, at the nodes */
     dmb_real scale_a[6], scale_b[6];      /* sums of magnitudes of their terms */
-    dmb_real rounding;                    /* [N2] */
+    dmb_real rounding;                    /* [N2] square of the rounding error */
     dmb_real potential, damping, inertia; /* [W] */
-    dmb_beam_blocks K, C; /* stiffness by pose; inertia and damping by motion. When dynamic, K.ab and K.ba are
-                             blocks of the iteration matrix already: K T6(h Dq) + C */
+    dmb_beam_blocks K, C; /* stiffness by pose; inertia and damping by motion. If dynamic, K.ab and K.ba are already
+                             blocks of the iteration matrix: K T6(h Dq) + C */
 } dmb_beam_output;
 
 static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real scale[6])
@@ -195,7 +196,7 @@ DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dm
         }
         if (task->curved) dmb_beam_add_cross_damping(c, curved, rate, stress, out);
     }
-    if (!task->extrapolated) dmb_vec6_copy(stress, out->stress); /* the viscous part too */
+    if (!task->extrapolated) dmb_vec6_copy(stress, out->stress); /* viscous part included */
     dmb_beam_add_force(shape, stress, out->fa, out->fb);
     if (task->rates && !task->damped) out->potential = dmb_vec6_dot(out->fa, va) + dmb_vec6_dot(out->fb, vb); /* S.e' */
     dmb_beam_add_magnitudes(out->fa, out->scale_a);
@@ -230,7 +231,7 @@ static inline void dmb_beam_clear_blocks(dmb_beam_blocks *blocks)
     dmb_mat6_zero(blocks->bb);
 }
 
-/* K <- K T6(z) + C, or C alone */
+/* K <- K T6(z) + C, or C only */
 static inline void dmb_beam_link(const dmb_real z[6], const dmb_real C[36], int stiff, dmb_real K[36])
 {
     dmb_se3_tangent T;
@@ -264,7 +265,7 @@ static inline void dmb_beam_to_nodes(const dmb_beam_task *task, const dmb_beam_c
     if (task->dynamic) dmb_beam_blocks_to_nodes(c->arm, &out->C);
 }
 
-/* The blocks of the link, as the iteration matrix takes them. */
+/* Off-diagonal blocks in the form required by the iteration matrix. */
 static inline void dmb_beam_links(const dmb_beam_task *task, const dmb_beam_input *in, dmb_beam_output *out)
 {
     dmb_beam_link(in->zb, out->C.ab, !task->inertia_only, out->K.ab);
@@ -277,8 +278,8 @@ static inline void dmb_beam_clear(dmb_beam_output *out)
     out->rounding = out->potential = out->damping = out->inertia = dmb_real_of(0.0);
 }
 
-/* Tangent of the part of the stiffness that couples components of e: B^T X B, and tau times that with what changes e'.
- */
+/* Tangent of the part of the stiffness that couples components of e: B^T X B, and tau times the same with the change of
+ * e'. */
 static inline void dmb_beam_add_cross_tangent(const dmb_beam_task *task, const dmb_beam_constants *c,
                                               const dmb_curved_constants *curved, const dmb_beam_shape *shape,
                                               const dmb_beam_input *in, dmb_beam_output *out)
@@ -295,7 +296,7 @@ static inline void dmb_beam_add_cross_tangent(const dmb_beam_task *task, const d
     dmb_curved_add_cross_product(curved->cross, c->damping_time, B, Y, &out->K);
 }
 
-/* Forces of a bent element, and their tangent, added to what the constant part of its mass did. */
+/* Adds the forces of a curved element and their tangent to the contributions of the constant part of its mass. */
 static inline void dmb_beam_add_curved(const dmb_beam_task *task, const dmb_curved_constants *c,
                                        const dmb_beam_shape *at, const dmb_beam_input *in, dmb_beam_output *out)
 {
@@ -328,8 +329,8 @@ static inline void dmb_beam_add_curved(const dmb_beam_task *task, const dmb_curv
     if (task->dynamic) dmb_curved_add_motion_tangent(c, &shape, &state, factor, &out->C);
 }
 
-/* Returns 0, or -1 where the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. `curved` is read if the task
- * says so. */
+/* Computes one element. Returns 0, or -1 if the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. `curved` is
+ * used if task->curved is set. */
 DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c,
                                      const dmb_curved_constants *curved, dmb_beam_input *in, dmb_beam_output *out)
 {

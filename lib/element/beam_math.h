@@ -1,13 +1,13 @@
-/* The mathematics of the flexible element, in a number that is a double or lanes of doubles (math/real.h).
+/* Mathematics of the flexible element, for numbers that are doubles or lanes of doubles (math/real.h).
  *
- * The deformation is the pose of end B seen from end A, d = log(H_A^-1 H_B) (eq:kinematics.relative-pose), which
- * neither rigid motion nor whole revolutions change. With x = d - d0 the strain times length is (eq:beam.strain)
+ * The deformation is the pose of end B relative to end A, d = log(H_A^-1 H_B) (eq:kinematics.relative-pose), which is
+ * invariant under rigid motion and whole revolutions. With x = d - d0 the strain times length is (eq:beam.strain)
  *
  *     e_x = x_x + (b_y x_y^2 + b_z x_z^2)/2,   p = O_z x_y - O_y x_z,
  *     e_y = x_y - h_y O_z p,   e_z = x_z + h_z O_y p,   rotations e = O - O0
  *
- * b: bending inside the element does not shorten it (eq:beam.axial-shear), else pulled elements would buckle; h:
- * sideways it is softer where it is bent (eq:beam.curvature-softening). Forces and tangent: eq:beam.force,
+ * b: bending inside the element does not shorten it (eq:beam.axial-shear), otherwise elements in tension would buckle;
+ * h: a curved element is softer laterally (eq:beam.curvature-softening). Forces and tangent: eq:beam.force,
  * eq:beam.tangent. */
 #ifndef DMB_ELEMENT_BEAM_MATH_H
 #define DMB_ELEMENT_BEAM_MATH_H
@@ -15,10 +15,10 @@
 #include "element/element_type.h"
 #include "math/se3.h"
 
-/* [rad] above this relative rotation in one element the logarithm is refused, well below its branch at pi. */
+/* [rad] largest relative rotation in one element; above it the logarithm is rejected, well below its branch at pi. */
 #define DMB_BEAM_ROTATION_MAX 2.5
 
-/* The constants of element_type.h that a step needs, as numbers of this file's kind. */
+/* Constants of element_type.h that a step requires, as numbers of this file's kind. */
 typedef struct dmb_beam_constants {
     dmb_real stiffness[6], rest[6];               /* [N/m, N m/rad], [m, rad] */
     dmb_real coupling[2], bend[2];                /* [1/m] b, [-] h, of the planes y and z */
@@ -27,13 +27,14 @@ typedef struct dmb_beam_constants {
     dmb_real axial[2], torsion[2], bending[2][6]; /* [kg], [kg m2], mixed: dmb_beam_mass */
 } dmb_beam_constants;
 
-/* E, which is 1 but for the rows (1, slope; 0, move) of translation, and of these (y, z) by (O_y, O_z) turn. */
+/* E is the identity except for the translation rows (1, slope; 0, move), of which (y, z) also have the columns (O_y,
+ * O_z), turn. */
 typedef struct dmb_beam_map {
     dmb_real slope[2], move[4]; /* [-] */
     dmb_real turn[4];           /* [m] */
 } dmb_beam_map;
 
-/* Relative pose of the two ends and the operators that go with it. */
+/* Relative pose of the two ends and its operators. */
 typedef struct dmb_beam_shape {
     dmb_real d[6];                  /* [m, rad] log(H_A^-1 H_B) */
     dmb_so3_inverse_coefficients k; /* of d's rotation */
@@ -46,7 +47,7 @@ typedef struct dmb_beam_blocks {
     dmb_real aa[36], ab[36], ba[36], bb[36];
 } dmb_beam_blocks;
 
-/* Puts the constants of a type into one lane. */
+/* Copies the mass constants of a type into one lane. */
 static inline void dmb_beam_load_mass(const dmb_beam_mass *mass, int lane, dmb_beam_constants *c)
 {
     for (int i = 0; i < 6; i++) {
@@ -76,7 +77,7 @@ static inline void dmb_beam_load_constants(const dmb_element_type *type, int lan
 
 /* ---- Shape and forces -------------------------------------------------------------------------------------------- */
 
-/* E and e of element's d. */
+/* Computes E for the element's d. */
 static inline void dmb_beam_map_at(const dmb_beam_constants *c, const dmb_real d[6], dmb_beam_map *E)
 {
     const dmb_real y = d[1] - c->rest[1], z = d[2] - c->rest[2], p = d[5] * y - d[4] * z;
@@ -93,7 +94,7 @@ static inline void dmb_beam_map_at(const dmb_beam_constants *c, const dmb_real d
     E->turn[3] = hz * y;
 }
 
-/* The rate of E as d moves at `rate`. */
+/* Computes the rate of E for the rate of d. */
 static inline void dmb_beam_map_rate(const dmb_beam_constants *c, const dmb_real d[6], const dmb_real rate[6],
                                      dmb_beam_map *E)
 {
@@ -111,14 +112,15 @@ static inline void dmb_beam_map_rate(const dmb_beam_constants *c, const dmb_real
     E->turn[3] = c->bend[1] * (rate[4] * y + d[4] * dy);
 }
 
-/* The operators of a shape whose d and k are there. */
+/* Computes the operators of a shape whose d and k are set. */
 DMB_REAL_INLINE void dmb_beam_operators_at(const dmb_beam_constants *c, dmb_beam_shape *shape)
 {
     dmb_se3_inverse_tangent_at(shape->d, &shape->k, &shape->T);
     dmb_beam_map_at(c, shape->d, &shape->E);
 }
 
-/* Shape from the nodes' orientations, node A's rotation matrix, the vector from node A to node B [m], world frame. */
+/* Computes the shape from the orientations of the nodes, node A's rotation matrix, and the vector from node A to node B
+ * [m], world frame. */
 DMB_REAL_INLINE void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, const dmb_real quaternion_a[4],
                                        const dmb_real rotation_a[9], const dmb_real quaternion_b[4],
                                        const dmb_real span[3], dmb_beam_shape *shape)
@@ -126,7 +128,7 @@ DMB_REAL_INLINE void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, co
     dmb_real q[4], x[3];
     dmb_quat_between(quaternion_a, quaternion_b, q);
     dmb_mat3_tvec(rotation_a, span, x);
-    if (arms) { /* H_A moved by arm[0], H_B by -arm[1] along their own x */
+    if (arms) { /* H_A displaced by arm[0], H_B by -arm[1] along their own x */
         dmb_real arm[3] = {-c->arm[1], dmb_real_of(0.0), dmb_real_of(0.0)};
         dmb_quat_rotate(q, arm, arm);
         dmb_vec3_add(x, arm, x);
@@ -136,7 +138,7 @@ DMB_REAL_INLINE void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, co
     dmb_beam_operators_at(c, shape);
 }
 
-/* 1 where the relative rotation is within DMB_BEAM_ROTATION_MAX in every lane; not so for a NaN. */
+/* 1 if the relative rotation is within DMB_BEAM_ROTATION_MAX in every lane; 0 for NaN. */
 static inline int dmb_beam_rotation_holds(const dmb_beam_shape *shape)
 {
     return dmb_real_below(dmb_vec3_norm_squared(shape->d + 3),
@@ -193,7 +195,7 @@ static inline void dmb_beam_elastic_stress(const dmb_beam_constants *c, const dm
     for (int i = 0; i < 6; i++) stress[i] = c->stiffness[i] * stress[i];
 }
 
-/* s = E^T S: what works with d instead of e. */
+/* s = E^T S: stress conjugate to d instead of e. */
 static inline void dmb_beam_wrench(const dmb_beam_shape *shape, const dmb_real stress[6], dmb_real s[6])
 {
     const dmb_beam_map *E = &shape->E;
@@ -204,7 +206,8 @@ static inline void dmb_beam_wrench(const dmb_beam_shape *shape, const dmb_real s
     s[5] += E->turn[1] * stress[1] + E->turn[3] * stress[2];
 }
 
-/* Internal forces g = P^T E^T S (eq:beam.force) on the element's ends, residual side, added to force_a and force_b. */
+/* Adds the internal forces g = P^T E^T S (eq:beam.force) on the element's ends, residual side, to force_a and force_b.
+ */
 static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_real stress[6], dmb_real force_a[6],
                                       dmb_real force_b[6])
 {
@@ -219,7 +222,7 @@ static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_rea
 
 /* ---- Stiffness and damping --------------------------------------------------------------------------------------- */
 
-/* A 6x6 matrix by the coordinates of d: [u, g; g^T, w], where g and w couple (y, z) and (O_y, O_z) alone. */
+/* A 6x6 matrix in the coordinates of d: [u, g; g^T, w], where g and w couple (y, z) and (O_y, O_z) only. */
 typedef struct dmb_beam_material {
     dmb_real u[9], g[4], torsion, w[4];
 } dmb_beam_material;
@@ -318,7 +321,7 @@ static inline void dmb_beam_add_geometric_stiffness(const dmb_beam_shape *shape,
     dmb_se3_stress_times_tangent(dmb_real_of(1.0), &plus, &shape->T, out->bb);
 }
 
-/* d g/d pose (body-frame increments of both ends), with H and s of the geometric part from `stress` (S); written to
+/* d g/d pose (body-frame increments of both ends), with H and s of the geometric part from `stress` (S); overwrites the
  * blocks. */
 static inline void dmb_beam_stiffness_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                              const dmb_real stress[6], dmb_beam_blocks *blocks)
@@ -332,7 +335,7 @@ static inline void dmb_beam_stiffness_blocks(const dmb_beam_constants *c, const 
     dmb_beam_add_geometric_stiffness(shape, stress, &R, blocks);
 }
 
-/* Z += f E^T (K/L) (E X + E') T: what the damping stress of one end changes by, E' the rate of E. */
+/* Z += f E^T (K/L) (E X + E') T: change of the damping stress with one end, E' the rate of E. */
 static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const dmb_beam_map *E,
                                              const dmb_beam_map *rate, const dmb_se3_tangent *X,
                                              const dmb_se3_tangent *T, dmb_se3_rows *Z)
@@ -370,9 +373,9 @@ static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const 
     }
 }
 
-/* The same with damping, which takes part in the stiffness too: S gains tau (K/L) E d' with d' = P V. Its derivative by
- * V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E X + E') P
- * with X = d(d')/dd = X(d, V_B) + X(-d, V_A) (eq:beam.damping). */
+/* The same with damping, which contributes to the stiffness too: tau (K/L) E d' with d' = P V is added to S. Its
+ * derivative by V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E
+ * X + E') P with X = d(d')/dd = X(d, V_B) + X(-d, V_A) (eq:beam.damping). */
 static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                           const dmb_real stress[6], const dmb_real velocity_a[6],
                                           const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness,
@@ -406,11 +409,10 @@ static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb
     dmb_beam_add_geometric_stiffness(shape, stress, &R, stiffness);
 }
 
-/* ---- From ends to nodes --------------------------------------------------------------------------------------------
- */
+/* ---- Transfer from ends to nodes --------------------------------------------------------------------------------- */
 
-/* One tangent block from ends to nodes: rows by the arm `left`, columns by the arm `right` [m], node to end along x.
- * K -> rows moved by the transpose of the left arm, columns by the right arm */
+/* Transfers one tangent block from ends to nodes: rows by the transpose of the arm `left`, columns by the arm `right`
+ * [m], node to end along x. */
 static inline void dmb_beam_block_to_nodes(dmb_real left, dmb_real right, dmb_real K[36])
 {
     for (int i = 0; i < 36; i += 6) { /* columns: v_end = v_node + arm */
@@ -423,7 +425,7 @@ static inline void dmb_beam_block_to_nodes(dmb_real left, dmb_real right, dmb_re
     }
 }
 
-/* Moves tangent blocks from the element's ends to its nodes, arms [m] along x. */
+/* Transfers tangent blocks from the element's ends to its nodes, arms [m] along x. */
 static inline void dmb_beam_blocks_to_nodes(const dmb_real arm[2], dmb_beam_blocks *blocks)
 {
     dmb_beam_block_to_nodes(arm[0], arm[0], blocks->aa);

@@ -33,7 +33,7 @@ void dmb_element_momentum(const dmb_element_type *type, const double d[6], const
     dmb_vec6_copy(p + 6, pb);
 }
 
-/* M a - v^^T M v of the constant part. */
+/* M a - v^^T M v of the constant part of the mass. */
 void dmb_element_inertia(const dmb_element_type *type, const double d[6], const double v[12], const double a[12],
                          double f[12])
 {

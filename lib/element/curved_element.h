@@ -1,4 +1,4 @@
-/* Inertia and weight of a bent element as steps take them: forces, and what they add to the tangent. */
+/* Inertia and weight of a curved element as used by steps: forces and their contributions to the tangent. */
 #ifndef DMB_ELEMENT_CURVED_ELEMENT_H
 #define DMB_ELEMENT_CURVED_ELEMENT_H
 
@@ -9,10 +9,10 @@
 typedef struct dmb_curved_state {
     int32_t dynamic;       /* 0: statics, v and a are not read */
     dmb_real v[12], a[12]; /* of both ends */
-    dmb_real weight[3];    /* [N] its negative, axes of the middle */
+    dmb_real weight[3];    /* [N] minus the weight, axes of the middle */
 } dmb_curved_state;
 
-/* -m R_m^T g, Ra the axes of the nodes' first one, g [m/s2] world. */
+/* -m R_m^T g; Ra: axes of the first node, g [m/s2] world. */
 static inline void dmb_curved_weight(const dmb_curved_constants *c, const dmb_curved_shape *shape, const dmb_real Ra[9],
                                      const double gravity[3], dmb_real out[3])
 {
@@ -23,7 +23,7 @@ static inline void dmb_curved_weight(const dmb_curved_constants *c, const dmb_cu
     dmb_vec3_scale(-c->weight, out, out);
 }
 
-/* Forces on both ends at d, all of them. */
+/* All forces on both ends at d. */
 static inline void dmb_curved_forces(const dmb_curved_constants *c, const dmb_real d[6], const dmb_curved_state *state,
                                      dmb_real f[12])
 {
@@ -39,7 +39,7 @@ static inline void dmb_curved_add_column(dmb_real factor, const dmb_real f[12], 
     for (int r = 0; r < 12; r++) *dmb_curved_entry(blocks, r, k) += factor * f[r];
 }
 
-/* By d at motion and weight as they are, times d' of the ends; central differences. */
+/* Adds the derivative by d at constant motion and weight, times d' of the ends; central differences. */
 static inline void dmb_curved_add_shape_tangent(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                                 const dmb_curved_state *state, dmb_beam_blocks *K)
 {
@@ -62,8 +62,9 @@ static inline void dmb_curved_add_shape_tangent(const dmb_curved_constants *c, c
     }
 }
 
-/* By the motion of the ends: for each of its components the mass, what their turning does to the weight, and the forces
- * of inertia by the speed, which are a quadratic form, so that differences over any step are exact. */
+/* Adds the derivative by the motion of the ends: for each of its components the mass, the effect of rotation of the
+ * ends on the weight, and the derivative of the inertia forces by velocity. The inertia forces are a quadratic form in
+ * the velocity, so that differences over any step are exact. */
 static inline void dmb_curved_add_motion_tangent(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                                  const dmb_curved_state *state, const double factor[2],
                                                  dmb_beam_blocks *C)
@@ -95,7 +96,7 @@ static inline void dmb_curved_add_motion_tangent(const dmb_curved_constants *c, 
     }
 }
 
-/* Tangent of the weight by the turning dphi of the middle: F changes by -dphi x F. */
+/* Adds the tangent of the weight by a rotation dphi of the middle: F changes by -dphi x F. */
 static inline void dmb_curved_add_weight_tangent(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                                  const dmb_curved_state *state, dmb_beam_blocks *K)
 {

@@ -1,24 +1,24 @@
-/* Mass of an element that is bent (eq:curved.kinetic-energy), in a number that is a double or lanes of doubles.
+/* Mass of a curved element (eq:curved.kinetic-energy), for numbers that are doubles or lanes of doubles.
  *
  * Kinetic energy of the helix with its bending shapes to first order: translation of the centre of mass, rotation at
- * the speed w of the mean axes with the inertia J(d), constants C for the motion against these, and S, by which a round
- * element that spins about its own bent axis feels no force. Rigid motions have the mass, momentum and energy of the
- * bent body; at rest the straight element's mass results. Forces are Lagrange's (eq:curved.forces), so the power of
- * inertia is the rate of the energy whatever d does. */
+ * the speed w of the mean axes with the inertia J(d), constants C for the motion relative to these, and S, which makes
+ * an axisymmetric element that spins about its own curved axis free of inertia forces. Rigid motions have the mass,
+ * momentum and energy of the curved body; at rest the mass of the straight element results. Forces are derived from
+ * Lagrange's equations (eq:curved.forces), so that the power of inertia is the rate of the energy for any d. */
 #ifndef DMB_ELEMENT_CURVED_MASS_H
 #define DMB_ELEMENT_CURVED_MASS_H
 
 #include "element/curved_motion.h"
 
-/* Generalised forces of the centre's velocity, of the middle's angular velocity, and of d'. */
+/* Generalised forces conjugate to the centre's velocity, to the middle's angular velocity, and to d'. */
 typedef struct dmb_curved_force {
     dmb_real F[3], N[3], D[6];
 } dmb_curved_force;
 
 /* ---- Angular momentum -------------------------------------------------------------------------------------------- */
 
-/* J w (eq:curved.inertia) by its parts: y x (w x y) of the centre line, with the moments p of its three vectors; the
- * axes of the sections, with their weights r. */
+/* J w (eq:curved.inertia) in two parts: y x (w x y) of the centre line, with the moments p of its three vectors; and
+ * the axes of the sections, with their weights r. */
 typedef struct dmb_curved_spin {
     dmb_real A[3], B[3], C[3], p[3][3]; /* w x U, w x W, w x Z */
     dmb_real dot[3], r[3];              /* of e, g, f */
@@ -58,7 +58,7 @@ static inline void dmb_curved_spin_at(const dmb_curved_constants *c, const dmb_c
 
 /* Rates of the vectors of a shape. */
 typedef struct dmb_curved_rates {
-    dmb_real U[3], Z[3], W[3], e[3], f[3], g[3], square; /* of |O|^2 last */
+    dmb_real U[3], Z[3], W[3], e[3], f[3], g[3], square; /* the last is the rate of |O|^2 */
 } dmb_curved_rates;
 
 static inline void dmb_curved_cross_rate(const dmb_real O[3], const dmb_real dO[3], const dmb_real y[3],
@@ -127,8 +127,8 @@ static inline void dmb_curved_spin_rate(const dmb_curved_constants *c, const dmb
     dmb_vec3_axpy(across * spin->r[2], q->f, out);
 }
 
-/* Back through O x (O x y), once = O x y: `works` with y, with once and with the whole; the first two are added to, and
- * what works with O. */
+/* Transposed derivative of O x (O x y), once = O x y: `works` are conjugate to y, to `once` and to the whole. Adds to
+ * the first two, and to the force conjugate to O. */
 static inline void dmb_curved_back(const dmb_real O[3], const dmb_real y[3], const dmb_real once[3],
                                    dmb_real works[3][3], dmb_real of_O[3])
 {
@@ -143,7 +143,7 @@ static inline void dmb_curved_back(const dmb_real O[3], const dmb_real y[3], con
     dmb_vec3_add(works[0], x, works[0]);
 }
 
-/* D -= the gradient of w.J(d) w/2 by d. */
+/* D -= gradient of w.J(d) w/2 by d. */
 static inline void dmb_curved_subtract_gradient(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                                 const dmb_curved_spin *spin, const dmb_real w[3], dmb_real D[6])
 {
@@ -175,8 +175,8 @@ static inline void dmb_curved_subtract_gradient(const dmb_curved_constants *c, c
 
 /* ---- Spin of the material ---------------------------------------------------------------------------------------- */
 
-/* S of eq:curved.spin: Z = O x U is the bow of the line, across; k and q are those that leave nothing of the energy of
- * a round element that spins about its own bent axis, d' = -w_x e_x x d, to the second order of d. */
+/* S of eq:curved.spin: Z = O x U is the lateral bow of the line; k and q make the energy vanish, to the second order of
+ * d, for an axisymmetric element that spins about its own curved axis, d' = -w_x e_x x d. */
 typedef struct dmb_curved_spinning {
     dmb_real Z1[3], Z2[3];      /* Z', Z'' */
     dmb_real bow, bow_rate;     /* E, E' */
@@ -221,7 +221,7 @@ static inline void dmb_curved_sway(const dmb_curved_constants *c, dmb_real w, co
     dmb_vec3_set(dmb_real_of(0.0), -w * c->moving[1] * U[2], w * c->moving[2] * U[1], out);
 }
 
-/* The work of F, across, at Z' = O' x U + O x U', added to D. */
+/* Adds to D the force conjugate to Z' = O' x U + O x U', from the lateral force F. */
 static inline void dmb_curved_add_bow_force(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                             const dmb_real F[3], dmb_real D[6])
 {
@@ -233,7 +233,7 @@ static inline void dmb_curved_add_bow_force(const dmb_curved_constants *c, const
     dmb_vec3_add(D, x, D);
 }
 
-/* Derivatives of S by w and d', added to N and D. */
+/* Adds the derivatives of S by w and d' to N and D. */
 static inline void dmb_curved_add_spin_momentum(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                                 const dmb_curved_motion *motion, dmb_curved_force *f)
 {
@@ -255,7 +255,7 @@ static inline void dmb_curved_add_spin_momentum(const dmb_curved_constants *c, c
     dmb_vec3_add(f->D, sway, f->D);
 }
 
-/* Of the bow: the rate of its part of D less its gradient. */
+/* Inertia of the bow: the rate of its part of D minus its gradient. */
 static inline void dmb_curved_add_bow_inertia(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                               const dmb_curved_motion *motion, const dmb_curved_spinning *n,
                                               dmb_real D[6])
@@ -270,7 +270,7 @@ static inline void dmb_curved_add_bow_inertia(const dmb_curved_constants *c, con
     dmb_vec3_axpy(-2.0 * c->mass * s->even[1] * slope, s->d + 3, D + 3);
 }
 
-/* Z'', across */
+/* Z'', lateral components */
 static inline void dmb_curved_bow_second(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                          const dmb_curved_motion *motion, dmb_real out[3])
 {
@@ -283,7 +283,7 @@ static inline void dmb_curved_bow_second(const dmb_curved_constants *c, const dm
     out[0] = dmb_real_of(0.0);
 }
 
-/* Forces of inertia of S: the rate of N, turned with the middle, and the rate of D less the gradient by d. */
+/* Adds the inertia forces of S: the rate of N, rotated with the middle, and the rate of D minus the gradient by d. */
 static inline void dmb_curved_add_spin_inertia(const dmb_curved_constants *c, const dmb_curved_shape *s,
                                                const dmb_curved_motion *motion, dmb_curved_force *f)
 {
@@ -312,7 +312,7 @@ static inline void dmb_curved_add_spin_inertia(const dmb_curved_constants *c, co
                dmb_curved_area(rate, whole) + dmb_curved_area(d, change);
     f->N[1] += w[2] * N;
     f->N[2] -= w[1] * N;
-    dmb_curved_add_across(w[0], whole, f->D); /* less the gradient by U: -w_x (whole x e_x) */
+    dmb_curved_add_across(w[0], whole, f->D); /* minus the gradient by U: -w_x (whole x e_x) */
     dmb_curved_add_across(n.k * turning, d + 3, f->D + 3);
     dmb_curved_add_across(2.0 * n.k * w[0], rate + 3, f->D + 3);
     dmb_curved_add_across(q * turning, d, f->D);
@@ -322,7 +322,8 @@ static inline void dmb_curved_add_spin_inertia(const dmb_curved_constants *c, co
 
 /* ---- Forces ------------------------------------------------------------------------------------------------------ */
 
-/* The work of F at z' added to D: G x O + ... with G of the centre; `along` [m] is taken off gamma of U_x. */
+/* Adds to D the force conjugate to z' from F: G x O + ... with G of the centre; `along` [m] is subtracted from gamma
+ * for U_x. */
 static inline void dmb_curved_add_offset_force(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                                const dmb_real G[3], const dmb_real F[3], dmb_real D[6])
 {
@@ -336,7 +337,8 @@ static inline void dmb_curved_add_offset_force(const dmb_curved_constants *c, co
     dmb_vec3_axpy(2.0 * shape->gamma[1] * dmb_vec3_dot(shape->d, y), O, D + 3);
 }
 
-/* Forces on the ends, added to, by the transposes of dmb_curved_velocity; F does its work at z already. */
+/* Adds the forces on the ends, by the transposes of dmb_curved_velocity; the contribution of F at z is already in N and
+ * D. */
 static inline void dmb_curved_add_to_ends(const dmb_curved_shape *shape, dmb_curved_force *f, dmb_real ends[12])
 {
     dmb_real a[6], b[6], y[3];
@@ -357,7 +359,7 @@ static inline void dmb_curved_add_to_ends(const dmb_curved_shape *shape, dmb_cur
     dmb_vec3_axpy(dmb_real_of(0.5), y, ends + 9);
 }
 
-/* The work of F on the centre, complete. */
+/* Adds all contributions of the force F on the centre. */
 static inline void dmb_curved_apply(const dmb_curved_constants *c, const dmb_curved_shape *shape, dmb_curved_force *f,
                                     dmb_real ends[12])
 {
@@ -368,7 +370,7 @@ static inline void dmb_curved_apply(const dmb_curved_constants *c, const dmb_cur
     dmb_curved_add_to_ends(shape, f, ends);
 }
 
-/* Momentum p = dT/dv of both ends, added to, from the speeds of a motion. */
+/* Adds the momentum p = dT/dv of both ends for the velocities of a motion. */
 static inline void dmb_curved_add_momentum(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                            const dmb_curved_motion *motion, dmb_real p[12])
 {
@@ -384,8 +386,8 @@ static inline void dmb_curved_add_momentum(const dmb_curved_constants *c, const 
     dmb_curved_apply(c, shape, &f, p);
 }
 
-/* Forces of inertia, added to: m A at the centre, (J w)' + w_m x J w about it, C d'' + Gamma^T (J w)' less the gradient
- * of the energy. */
+/* Adds the inertia forces: m A at the centre, (J w)' + w_m x J w about it, C d'' + Gamma^T (J w)' minus the gradient of
+ * the energy. */
 static inline void dmb_curved_add_inertia(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                           const dmb_real v[12], const dmb_real a[12], dmb_real ends[12])
 {
@@ -412,8 +414,8 @@ static inline void dmb_curved_add_inertia(const dmb_curved_constants *c, const d
 
 /* ---- Weight ------------------------------------------------------------------------------------------------------ */
 
-/* The nodes carry the weight at (x_A + x_B)/2 + L/12 (R_A - R_B) e_x; the centre is off that by R_m times this
- * (eq:curved.weight). */
+/* The nodes carry the weight at (x_A + x_B)/2 + L/12 (R_A - R_B) e_x; the centre of weight is displaced from it by R_m
+ * times this offset (eq:curved.weight). */
 static inline void dmb_curved_weight_offset(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                             dmb_real offset[3], dmb_real G[3])
 {
@@ -422,7 +424,7 @@ static inline void dmb_curved_weight_offset(const dmb_curved_constants *c, const
     dmb_vec3_cross(G, shape->d + 3, offset);
 }
 
-/* Adds the force of that offset to the ends, residual side; F: -weight in the axes of the middle [N]. */
+/* Adds the force due to that offset to the ends, residual side; F: minus the weight in the axes of the middle [N]. */
 static inline void dmb_curved_add_weight(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                          const dmb_real F[3], dmb_real ends[12])
 {

@@ -1,10 +1,10 @@
-/* Motion of a bent element (element/curved_mass.h): of its deformation, of the axes in its middle, of its centre. */
+/* Motion of a curved element (element/curved_mass.h): of its deformation, of the axes in its middle, of its centre. */
 #ifndef DMB_ELEMENT_CURVED_MOTION_H
 #define DMB_ELEMENT_CURVED_MOTION_H
 
 #include "element/curved_shape.h"
 
-/* Speeds and accelerations, axes of the middle. */
+/* Velocities and accelerations, axes of the middle. */
 typedef struct dmb_curved_motion {
     dmb_real rate[6], second[6]; /* d', d'' */
     dmb_real w[3], turning[3];   /* [rad/s] of the middle, [rad/s2] */
@@ -22,7 +22,7 @@ static inline void dmb_curved_mean(const dmb_curved_shape *shape, const dmb_real
     for (int i = 0; i < 3; i++) out[i] = 0.5 * (x[i] + out[i]);
 }
 
-/* Gamma d' added to a speed. */
+/* Adds Gamma d' to an angular velocity. */
 static inline void dmb_curved_add_turn(const dmb_curved_constants *c, const dmb_real rate[6], dmb_real w[3])
 {
     w[1] -= c->turn[1] * rate[2];
@@ -106,7 +106,7 @@ static inline void dmb_curved_point(const dmb_real v[6], const dmb_real a[6], dm
     dmb_vec3_add(out, a, out);
 }
 
-/* The speeds are there; w_m' = (R^T w_A' + R w_B')/2 + w_m x E + E',  E = -b/4 O x O'. */
+/* Requires the velocities; w_m' = (R^T w_A' + R w_B')/2 + w_m x E + E',  E = -b/4 O x O'. */
 static inline void dmb_curved_acceleration(const dmb_curved_constants *c, const dmb_curved_shape *shape,
                                            const dmb_real v[12], const dmb_real a[12], dmb_curved_motion *motion)
 {

@@ -1,26 +1,25 @@
-/* Functions of the shape of a bent element (eq:curved.line, eq:curved.centre), in a number that is a double or lanes of
- * doubles.
- */
+/* Functions of the shape of a curved element (eq:curved.line, eq:curved.centre), for numbers that are doubles or lanes
+ * of doubles. */
 #ifndef DMB_ELEMENT_CURVED_SHAPE_H
 #define DMB_ELEMENT_CURVED_SHAPE_H
 
 #include "element/beam_math.h"
 
-/* The constants of dmb_curved_mass that a step needs. */
+/* Constants of dmb_curved_mass that a step requires. */
 typedef struct dmb_curved_constants {
     dmb_real mass, rotary[2], moving[6];  /* [kg], [kg m2], C */
     dmb_real turn[2], offset[2], tilt[2]; /* [1/m] Gamma, [-] k, [1/m] */
     dmb_real cross[15];                   /* [N/m, N, N m] of the stiffness */
-    dmb_real sixth, weight;               /* [m] L/12 of the nodes' weight, [kg] that gravity acts on */
+    dmb_real sixth, weight;               /* [m] L/12 of the nodes' weight, [kg] mass on which gravity acts */
 } dmb_curved_constants;
 
-/* Functions of d alone. */
+/* Functions of d only. */
 typedef struct dmb_curved_shape {
     dmb_real d[6];
     dmb_so3_inverse_coefficients k;      /* at |O|^2 */
     dmb_so3_coefficients half;           /* at |O/2|^2 */
     dmb_real gamma[3];                   /* z = -O x (gamma U - k U), with two derivatives by |O|^2 */
-    dmb_real odd[2], square[2], even[2]; /* [-] integrals of x^4 a2, x^6 a2^2, x^4 b^2 less beta^2, with derivatives */
+    dmb_real odd[2], square[2], even[2]; /* [-] integrals of x^4 a2, x^6 a2^2, x^4 b^2 minus beta^2, with derivatives */
     dmb_real beta[2], sine[2];           /* [-] of x^2 b, x^2 a^2 */
     dmb_real G[3], z[3];                 /* [m] */
     dmb_real U[3], Z[3], W[3];           /* [m] U with the bending shapes, O x U, O x (O x U) */
@@ -101,13 +100,13 @@ static inline void dmb_curved_integrals(dmb_real x, dmb_curved_shape *shape)
     dmb_series(sine, 12, x, shape->sine);
 }
 
-/* out = (f - k) y, k of the sideways components */
+/* out = (f - k) y, k for the lateral components */
 static inline void dmb_curved_scale(const dmb_curved_constants *c, dmb_real f, const dmb_real y[3], dmb_real out[3])
 {
     dmb_vec3_set(f * y[0], (f - c->offset[0]) * y[1], (f - c->offset[1]) * y[2], out);
 }
 
-/* U with the first moment of the bending shapes, and the axis of the sections with their turn. */
+/* U with the first moment of the bending shapes, and the axis of the sections with their rotation. */
 static inline void dmb_curved_spread(const dmb_curved_constants *c, const dmb_real y[3], dmb_real out[3])
 {
     dmb_vec3_set(y[0], (1.0 + 12.0 * c->offset[0]) * y[1], (1.0 + 12.0 * c->offset[1]) * y[2], out);
@@ -134,7 +133,7 @@ static inline void dmb_curved_shape_at(const dmb_curved_constants *c, const dmb_
     dmb_vec3_cross(O, shape->f, shape->g);
 }
 
-/* From the axes of end A (side 1) or B (side -1) to those of the middle, and back: exp(-+O/2). */
+/* Rotates from the axes of end A (side 1) or B (side -1) to those of the middle, and back: exp(-+O/2). */
 static inline void dmb_curved_to_middle(const dmb_curved_shape *shape, double side, const dmb_real y[3],
                                         dmb_real out[3])
 {

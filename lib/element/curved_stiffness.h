@@ -1,11 +1,11 @@
-/* Stiffness of an element whose unstressed shape is bent (eq:curved.flexibility): off the diagonal, K
- * has entries that couple the components of e. The diagonal ones are those of its type. */
+/* Stiffness of an element with a curved unstressed shape (eq:curved.flexibility): K has off-diagonal entries, which
+ * couple the components of e. The diagonal entries are those of its type. */
 #ifndef DMB_ELEMENT_CURVED_STIFFNESS_H
 #define DMB_ELEMENT_CURVED_STIFFNESS_H
 
 #include "element/curved_shape.h"
 
-/* s += X e, X symmetric with a diagonal of 0, `cross` its rows above that. */
+/* s += X e, X symmetric with zero diagonal; `cross`: its rows above the diagonal. */
 static inline void dmb_curved_add_cross(const dmb_real cross[15], const dmb_real e[6], dmb_real s[6])
 {
     int at = 0;
@@ -16,7 +16,7 @@ static inline void dmb_curved_add_cross(const dmb_real cross[15], const dmb_real
         }
 }
 
-/* Its part of the elastic stress. */
+/* Adds its part of the elastic stress. */
 static inline void dmb_curved_add_cross_stress(const dmb_curved_constants *curved, const dmb_beam_constants *c,
                                                const dmb_beam_shape *shape, dmb_real stress[6])
 {
@@ -25,7 +25,7 @@ static inline void dmb_curved_add_cross_stress(const dmb_curved_constants *curve
     dmb_curved_add_cross(curved->cross, e, stress);
 }
 
-/* e' by each component of the velocities of both ends. */
+/* Derivatives of e' by each component of the velocities of both ends. */
 static inline void dmb_curved_strain_columns(const dmb_beam_shape *shape, dmb_real columns[12][6])
 {
     for (int k = 0; k < 12; k++) {
@@ -35,7 +35,7 @@ static inline void dmb_curved_strain_columns(const dmb_beam_shape *shape, dmb_re
     }
 }
 
-/* Entry (r, k) of a matrix of the ends, 12 by 12. */
+/* Entry (r, k) of a matrix for the ends, 12 by 12. */
 static inline dmb_real *dmb_curved_entry(dmb_beam_blocks *blocks, int r, int k)
 {
     dmb_real *block = r < 6 ? (k < 6 ? blocks->aa : blocks->ab) : (k < 6 ? blocks->ba : blocks->bb);
@@ -54,9 +54,9 @@ static inline void dmb_curved_add_cross_product(const dmb_real cross[15], dmb_re
     }
 }
 
-#define DMB_CURVED_STEP 1e-5 /* [rad; element lengths] of differences: errors of 1e-11 of the forces */
+#define DMB_CURVED_STEP 1e-5 /* [rad; element lengths] step of differences: errors of 1e-11 of the forces */
 
-/* e' at d moved by `by` along its component i, at velocities v of the ends. */
+/* e' at d displaced by `by` along its component i, for velocities v of the ends. */
 static inline void dmb_curved_rate_beside(const dmb_beam_constants *c, const dmb_real d[6], int i, dmb_real by,
                                           const dmb_real v[12], dmb_real rate[6])
 {
@@ -68,7 +68,7 @@ static inline void dmb_curved_rate_beside(const dmb_beam_constants *c, const dmb
     dmb_beam_strain_rate(&beside, v, v + 6, rate);
 }
 
-/* Change of e' by the poses of the ends, by central differences over d. */
+/* Change of e' with the poses of the ends, by central differences over d. */
 static inline void dmb_curved_rate_columns(const dmb_curved_constants *curved, const dmb_beam_constants *c,
                                            const dmb_beam_shape *shape, const dmb_real v[12], dmb_real columns[12][6])
 {

@@ -1,4 +1,4 @@
-/* The mathematics of a rigid mass on a node, in a number that is a double or lanes of doubles (math/real.h): spatial
+/* Mathematics of a rigid mass on a node, for numbers that are doubles or lanes of doubles (math/real.h): spatial
  * inertia [m I, -b~; b~, J] at the node, body frame, constant (eq:motion.rigid-mass). */
 #ifndef DMB_ELEMENT_RIGID_MASS_H
 #define DMB_ELEMENT_RIGID_MASS_H
@@ -12,7 +12,7 @@ typedef struct dmb_rigid_mass_constants {
     dmb_real inertia[6]; /* [kg m2] xx, yy, zz, xy, xz, yz elements of J */
 } dmb_rigid_mass_constants;
 
-/* Puts the constants of a rigid_mass into one lane. */
+/* Copies the constants of a rigid mass into one lane. */
 static inline void dmb_rigid_mass_load(const dmb_rigid_mass *rigid_mass, int lane, dmb_rigid_mass_constants *c)
 {
     dmb_real_set_lane(&c->mass, lane, rigid_mass->mass);
@@ -80,7 +80,7 @@ static inline void dmb_rigid_mass_add_tangent(const dmb_rigid_mass_constants *ri
 
 #ifndef DMB_LANES
 
-/* p = M v [kg m/s, kg m2/s] of one. */
+/* p = M v [kg m/s, kg m2/s] of one rigid mass. */
 static inline void dmb_rigid_mass_times(const dmb_rigid_mass *rigid_mass, const double v[6], double p[6])
 {
     dmb_rigid_mass_constants c;

@@ -1,16 +1,17 @@
 /* Block elimination from both ends of a chain towards its middle, with the inverse X_i of each eliminated block. From
- * the first block down, G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i; from the last block up the same with the
- * parts of the two links exchanged, G_i = U_{i-1} X_i, D_{i-1} -= G_i L_{i-1}, W_i = X_i L_{i-1}; the block in the
- * middle gets what both leave it and is inverted last (eq:integration.elimination). Nothing fills in, the work is that
- * of one direction, and the processor goes along both halves at once, neither of which waits for the other. A solution
- * takes one product a block towards the middle and one back.
+ * the first block down, G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i; from the last block up the same with the two
+ * off-diagonal blocks exchanged, G_i = U_{i-1} X_i, D_{i-1} -= G_i L_{i-1}, W_i = X_i L_{i-1}; the block in the middle
+ * receives both updates and is inverted last (eq:integration.elimination). There is no fill, the work equals that of
+ * elimination in one direction, and the processor executes both halves in parallel, because they are independent. A
+ * solution requires one product per block towards the middle and one back.
  *
- * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is
- * for steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
+ * If the stiffnesses of a block differ by 15 decades, an inverse loses the soft ones, which LU factors keep. Therefore
+ * this method is used for steps, whose Newton iterations evaluate the residual again, and block_tridiagonal for
+ * statics.
  *
- * For the files that compile it in one width each, kernel/lanes.h. Functions as dmb_block_factor and dmb_block_solve;
- * factors are X in `diagonal`, and above the middle W in `upper`, G in `lower`, below it the other way round; all of
- * them column-major. */
+ * Compiled once for each vector width, see kernel/lanes.h. The functions correspond to dmb_block_factor and
+ * dmb_block_solve. Factors are X in `diagonal`; above the middle W in `upper` and G in `lower`, below it exchanged; all
+ * column-major. */
 #ifndef DMB_MATH_BLOCK_INVERSE_H
 #define DMB_MATH_BLOCK_INVERSE_H
 
@@ -21,8 +22,8 @@
 
 typedef double block_rows[DMB_BLOCK_SIZE_MAX][DMB_BLOCK_SIZE_MAX];
 
-/* Gauss-Jordan in place, with exchanges of rows: step k takes row k out of all others, those above it too, and leaves
- * column k of the inverse in place of the unit column. Returns 0, or 1 where there is no pivot. */
+/* Gauss-Jordan inversion in place, with row exchanges: step k subtracts row k from all other rows, also those above,
+ * and stores column k of the inverse in place of the unit column. Returns 0, or 1 if there is no pivot. */
 DMB_BLOCK_KERNEL int invert_rows(int n, block_rows a, int *exchanged)
 {
     for (int k = 0; k < n; k++) {
@@ -45,7 +46,7 @@ DMB_BLOCK_KERNEL int invert_rows(int n, block_rows a, int *exchanged)
     return 0;
 }
 
-/* The inverse of P A is A^-1 P^T: its columns go back where rows came from. */
+/* The inverse of P A is A^-1 P^T: its columns are exchanged in reverse order of the rows. */
 DMB_BLOCK_KERNEL void exchange_columns(int n, const int *exchanged, double *columns)
 {
     for (int k = n - 1; k >= 0; k--)
@@ -76,8 +77,8 @@ DMB_BLOCK_KERNEL void multiply_off(int rows, int inner, int columns, const doubl
     }
 }
 
-/* One block of n rows, whose neighbour towards the middle has m, or none: 0. U couples its rows to that one, L the
- * other way. Returns 0, or 1 without a pivot. */
+/* Factors one block of n rows; its neighbour towards the middle has m rows, or 0 if there is none. U couples its rows
+ * to the neighbour, L the neighbour's to it. Returns 0, or 1 without a pivot. */
 DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_parts *p)
 {
     block_rows a;
@@ -101,7 +102,7 @@ DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_parts *p)
     return 0;
 }
 
-/* y = A x in two sums side by side, of even and of odd columns */
+/* y = A x with two independent sums, of even and of odd columns */
 DMB_BLOCK_KERNEL void product_of_columns(int rows, int columns, const double *restrict A, const double *restrict x,
                                          double *restrict y)
 {
@@ -114,7 +115,7 @@ DMB_BLOCK_KERNEL void product_of_columns(int rows, int columns, const double *re
     for (int i = 0; i < rows; i++) y[i] = even[i] + odd[i];
 }
 
-/* The neighbour's b -= G b, then b <- X b: only the first is on the way to the middle. */
+/* The neighbour's b -= G b, then b <- X b: only the first is on the critical path to the middle. */
 DMB_BLOCK_KERNEL void solve_towards(int n, int m, const double *restrict X, const double *restrict G,
                                     double *restrict b, double *restrict next)
 {
@@ -137,7 +138,7 @@ DMB_BLOCK_KERNEL void solve_away(int n, int m, const double *restrict W, const d
 
 /* ---- Chains ------------------------------------------------------------------------------------------------------ */
 
-/* A block with its link towards the middle, to a neighbour of m rows; the middle has none: 0. */
+/* A block with its coupling towards the middle, to a neighbour of m rows; for the middle block m = 0. */
 typedef struct block_place {
     int n, m;
     uint32_t row, next_row;
@@ -168,8 +169,8 @@ static inline int factor_place(const dmb_block_layout *layout, const dmb_block_m
     return factor_block(p.n, p.m, &p.parts);
 }
 
-/* Rows of every block of a range if they all have as many, else 0: the mean of the squares is the square of the mean
- * for equal numbers only. */
+/* Number of rows of every block of a range if all have the same number, otherwise 0. The mean of the squares equals the
+ * square of the mean only for equal numbers. */
 static inline int even_size(const dmb_block_layout *layout, uint32_t first, uint32_t count)
 {
     const uint32_t n = layout->size[first], end = first + count;
@@ -178,7 +179,8 @@ static inline int even_size(const dmb_block_layout *layout, uint32_t first, uint
     return even ? (int)n : 0;
 }
 
-/* Two blocks of six rows, on both sides of the middle. Returns 0, or 1 or 2: that one has no pivot. */
+/* Factors two blocks of six rows, one on each side of the middle. Returns 0, or 1 or 2: number of the block without a
+ * pivot. */
 static inline int factor_two(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle,
                              uint32_t i, uint32_t j)
 {
@@ -186,9 +188,9 @@ static inline int factor_two(const dmb_block_layout *layout, const dmb_block_mat
     return six_factor_two(&p.parts, &q.parts);
 }
 
-/* Parts of the elimination of a chain: its two ends, which two threads may take at once, up to the neighbours of the
- * middle; then these and the middle. Together they do what factor_blocks and solve_blocks do, each block with the same
- * operations in the same order. */
+/* Parts of the elimination of a chain: its two ends up to the neighbours of the middle, which two threads may process
+ * concurrently; then these and the middle. Together they do the same as factor_blocks and solve_blocks, with the same
+ * operations per block in the same order. */
 enum { BLOCK_UPPER_END = 0, BLOCK_LOWER_END = 1, BLOCK_MIDDLE = 2 };
 
 static inline int64_t factor_part(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
@@ -210,8 +212,8 @@ static inline int64_t factor_part(const dmb_block_layout *layout, dmb_block_matr
     return factor_place(layout, matrix, middle, middle) ? (int64_t)middle : -1;
 }
 
-/* The upper half has as many blocks as the lower one, or one more, which goes first: so both come to the middle in the
- * same turn, and the upper one first. */
+/* The upper half has as many blocks as the lower one, or one more, which is eliminated first. Therefore both reach the
+ * middle in the same pass, the upper half first. */
 static inline int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
                                     uint32_t count)
 {
@@ -247,7 +249,7 @@ static inline void away(const dmb_block_layout *layout, const dmb_block_matrix *
         solve_away(p.n, p.m, p.parts.U, rhs + p.next_row, rhs + p.row);
 }
 
-/* Towards the middle: parts as of factor_part. */
+/* Substitution towards the middle: parts as in factor_part. */
 static inline void towards_part(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
                                 uint32_t count, int32_t part, double *rhs)
 {
@@ -265,7 +267,7 @@ static inline void towards_part(const dmb_block_layout *layout, const dmb_block_
     towards(layout, matrix, middle, middle, rhs);
 }
 
-/* And back from it to one of the ends. */
+/* Substitution from the middle to one of the ends. */
 static inline void away_part(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
                              uint32_t count, int32_t part, double *rhs)
 {

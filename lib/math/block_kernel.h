@@ -1,6 +1,6 @@
-/* Kernels of block eliminations are written once, with the sizes n (this block) and m (the next, 0 at the end of a
- * chain) as arguments. DMB_BLOCK_BY_SIZE passes constants for 6-6 and 2-2, so the compiler makes kernels of fixed size;
- * other pairs take the same source with sizes from memory. */
+/* Kernels of block elimination are written once, with the sizes n (this block) and m (the next, 0 at the end of a
+ * chain) as arguments. DMB_BLOCK_BY_SIZE passes constants for 6-6 and 2-2, so that the compiler generates kernels of
+ * fixed size; other pairs use the same source with variable sizes. */
 #ifndef DMB_MATH_BLOCK_KERNEL_H
 #define DMB_MATH_BLOCK_KERNEL_H
 
@@ -10,15 +10,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The kernels must be folded for constant sizes even where the compiler finds them long. They stand once for
- * tests/coverage, which counts their branches, and where it is told to make the program small (-Os). */
+/* The kernels must be inlined for constant sizes even if the compiler considers them long. They exist once for
+ * tests/coverage, which counts their branches, and in builds for small size (-Os). */
 #if defined(__GNUC__) && !defined(DMB_COUNTED) && !defined(__OPTIMIZE_SIZE__)
 #define DMB_BLOCK_KERNEL static inline __attribute__((always_inline))
 #else
 #define DMB_BLOCK_KERNEL static inline
 #endif
 
-/* Triangles are too irregular for gcc to unroll of its own accord. */
+/* Triangular loops are too irregular for gcc to unroll automatically. */
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
 #define DMB_BLOCK_UNROLL _Pragma("GCC unroll 6")
 #else
@@ -31,17 +31,15 @@
      : (n) == 2 && (m) == 2 ? kernel(2, 2, __VA_ARGS__) \
                             : kernel(n, m, __VA_ARGS__))
 
-/* Pivots of the block solvers: which are too small, and the report of the weakest one. */
-
 /* A pivot smaller than this (or not finite) makes a block singular. */
 #define DMB_BLOCK_PIVOT_MIN 1e-300
-/* A pivot this small against its block (or against stiffness and inertia of its row) is rounding: nothing holds the
- * unknown. A cantilever of 10000 elements still leaves 1e-13, 100 m of unsupported pipe 1e-9. */
+/* A pivot smaller than this fraction of its block (or of stiffness and inertia of its row) is rounding: the unknown is
+ * unconstrained. A cantilever of 10000 elements still has 1e-13, 100 m of unsupported pipe 1e-9. */
 #define DMB_LOOSE_PIVOT 1e-14
 
-/* The weakest pivot met: small means that the unknown is hardly held. */
+/* Report of the weakest pivot: a small ratio means that the unknown is almost unconstrained. */
 typedef struct dmb_block_weakest {
-    double ratio;     /* |pivot| / largest entry of its diagonal block before elimination; infinity when no block */
+    double ratio; /* |pivot| / largest entry of its diagonal block before elimination; infinity if there is no block */
     uint32_t block;   /* index of the block */
     uint32_t unknown; /* index of the unknown inside the block */
 } dmb_block_weakest;
@@ -51,7 +49,7 @@ static inline bool dmb_block_pivot_holds(double pivot)
     return fabs(pivot) >= DMB_BLOCK_PIVOT_MIN && fabs(pivot) <= DBL_MAX;
 }
 
-/* The largest entry of column k, among rows k .. n-1 of A (n x n): the row that becomes row k. */
+/* Row of the largest entry of column k, among rows k .. n-1 of A (n x n); it becomes row k. */
 DMB_BLOCK_KERNEL size_t dmb_block_pivot_row(size_t n, size_t k, const double *A)
 {
     size_t p = k;
@@ -60,7 +58,7 @@ DMB_BLOCK_KERNEL size_t dmb_block_pivot_row(size_t n, size_t k, const double *A)
     return p;
 }
 
-/* Two rows of n numbers change places. */
+/* Exchanges two rows of n numbers. */
 DMB_BLOCK_KERNEL void dmb_block_swap(size_t n, double *restrict x, double *restrict y)
 {
     for (size_t j = 0; j < n; j++) {

@@ -1,8 +1,8 @@
 /* Symbolic elimination. With the blocks numbered by position, row i of the factor has an entry in column k < i exactly
- * where k can be reached from a neighbour of i below i by climbing the elimination tree, whose parent of k is the first
- * later block that k is coupled with (Liu, The role of elimination trees in sparse factorization, 1990). Climbing from
- * each neighbour until it meets what is marked already costs one step for each entry. Rows come in ascending order, so
- * that the entries of each column come out sorted. */
+ * if k can be reached from a neighbour of i below i by ascending the elimination tree, in which the parent of k is the
+ * first later block coupled with k (Liu, The role of elimination trees in sparse factorization, 1990). Ascending from
+ * each neighbour until a marked node is reached costs one step for each entry. Rows are processed in ascending order,
+ * so that the entries of each column are sorted. */
 #include "math/block_pattern.h"
 
 #include <string.h>
@@ -10,14 +10,15 @@
 #include "base/memory.h"
 #include "math/bridge.h"
 
-/* Work memory for making a pattern. */
+/* Work memory for the construction of a pattern. */
 typedef struct analysis {
     uint32_t n;
-    size_t ends;                           /* length of the lists of neighbours, repetitions included */
+    size_t ends;                           /* length of the neighbour lists, repetitions included */
     int32_t *start, *neighbour, *unsorted; /* (n+1) (ends) (ends) the graph by blocks */
-    int32_t *next;                         /* (n) where the list of a block ends so far */
+    int32_t *next;                         /* (n) current end of the list of a block */
     uint32_t *order, *position;            /* (n) */
-    uint32_t *parent, *mark, *count;       /* (n) by position: the tree, the last row that came by, entries so far */
+    uint32_t *parent, *mark,
+        *count; /* (n) by position: the tree, the last row that visited it, number of entries so far */
     void *block;
     size_t block_size;
 } analysis;
@@ -75,7 +76,7 @@ static int32_t take_pattern(const dmb_allocator *allocator, dmb_block_pattern *p
     return DMB_OK;
 }
 
-/* start: where the neighbours of each block begin, counted from the edges. */
+/* start: index of the first neighbour of each block, counted from the edges. */
 static void count_neighbours(analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
 {
     for (uint32_t e = 0; e < edge_count; e++) {
@@ -97,8 +98,8 @@ static void list_as_given(analysis *s, uint32_t edge_count, const dmb_block_edge
     }
 }
 
-/* Going through the lists by ascending block i and writing i to each of its neighbours sorts them all. A repetition
- * then follows its like, and is left out. The result does not depend on how the caller put its edges. */
+/* Sorts the lists: blocks i are visited in ascending order and i is appended to each of its neighbours. Repetitions are
+ * then adjacent and are omitted. The result does not depend on the order of the caller's edges. */
 static void list_sorted(analysis *s)
 {
     for (uint32_t i = 0; i < s->n; i++) s->next[i] = s->start[i];
@@ -110,7 +111,7 @@ static void list_sorted(analysis *s)
         }
 }
 
-/* Closes the gaps that the repetitions left. */
+/* Closes the gaps left by repetitions. */
 static void pack(analysis *s)
 {
     int32_t end = 0;
@@ -122,7 +123,7 @@ static void pack(analysis *s)
     s->start[s->n] = end;
 }
 
-/* Row i of the factor: its columns are counted and, where later is not NULL, written to. */
+/* Row i of the factor: counts its columns and, if later is not NULL, stores them. */
 static void eliminate_row(analysis *s, uint32_t i, const uint32_t *column, uint32_t *later)
 {
     const uint32_t block = s->order[i];
@@ -148,7 +149,7 @@ static void eliminate(analysis *s, const uint32_t *column, uint32_t *later)
     for (uint32_t i = 0; i < s->n; i++) eliminate_row(s, i, column, later);
 }
 
-/* The graph, the order and the number of entries in each column. */
+/* Computes the graph, the order and the number of entries in each column. */
 static int32_t analyse(const dmb_allocator *allocator, analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
 {
     count_neighbours(s, edge_count, edges);
@@ -183,7 +184,7 @@ static void fill_structure(analysis *s, dmb_block_pattern *p)
     eliminate(s, p->column, p->later);
 }
 
-/* Takes rows x columns doubles from the values. */
+/* Reserves rows x columns doubles of the values. */
 static size_t place(dmb_block_pattern *p, uint32_t rows, uint32_t columns)
 {
     const size_t offset = p->values;
@@ -191,7 +192,7 @@ static size_t place(dmb_block_pattern *p, uint32_t rows, uint32_t columns)
     return offset;
 }
 
-/* Doubles of all blocks, by doubles, which do not overflow; the numbers of rows are fewer. */
+/* Number of doubles of all blocks, summed as doubles, which do not overflow; the numbers of rows are smaller. */
 static double count_values(const uint32_t *capacity, const dmb_block_pattern *p)
 {
     double sum = 0.0;
@@ -203,7 +204,8 @@ static double count_values(const uint32_t *capacity, const dmb_block_pattern *p)
     return sum;
 }
 
-/* Each position's blocks one after the other, so that factoring walks through memory; false when they overflow. */
+/* Places the blocks of each position consecutively, so that factorisation accesses memory in order; false if they
+ * overflow. */
 static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
 {
     if (count_values(capacity, p) > (double)(SIZE_MAX / (2 * sizeof(double)))) return false;

@@ -1,6 +1,6 @@
-/* Operations that block eliminations share, on rows and columns of blocks, in kernels of block_kernel.h. Inner loops
- * run along rows or columns, so they vectorise without any change in the order of a sum: every width gives the same
- * bits. */
+/* Common operations of block eliminations on rows and columns of blocks, in kernels of block_kernel.h. Inner loops run
+ * along rows or columns, so that they vectorise without a change in the order of a sum: results are bitwise equal for
+ * every width. */
 #ifndef DMB_MATH_BLOCK_ROWS_H
 #define DMB_MATH_BLOCK_ROWS_H
 
@@ -9,7 +9,7 @@
 #include "math/block_kernel.h"
 #include "math/block_tridiagonal.h"
 
-/* One row of the work array: the row of D_i and behind it the row of U_i. */
+/* One row of the work array: the row of D_i followed by the row of U_i. */
 typedef double work_row[2 * DMB_BLOCK_SIZE_MAX];
 
 /* y[j] -= f x[j] */
@@ -26,14 +26,14 @@ DMB_BLOCK_KERNEL int pivot_of_column(int n, int k, work_row *a)
     return p;
 }
 
-/* To columns: the solver takes one after another, which vectorises. */
+/* Transposes to column-major order: the solver processes one column after another, which vectorises. */
 DMB_BLOCK_KERNEL void turn_round(int rows, int columns, const double *restrict A, double *restrict turned)
 {
     for (int j = 0; j < columns; j++)
         for (int i = 0; i < rows; i++) turned[rows * j + i] = A[columns * i + j];
 }
 
-/* y -= A x, column after column */
+/* y -= A x, one column after another */
 DMB_BLOCK_KERNEL void subtract_product(int rows, int columns, const double *restrict A, const double *restrict x,
                                        double *restrict y)
 {

@@ -1,8 +1,8 @@
-/* Right-looking elimination, a scalar row at a time inside a block, a block at a time outside. With row p of U at hand,
+/* Right-looking elimination, by scalar rows inside a block, by blocks outside. With row p of U,
  *
  *     u_pp = sqrt(s a_pp),   u_pj = s a_pj/u_pp,   a_ij -= s u_pi u_pj   (i, j > p)
  *
- * The diagonal keeps 1/u_pp, and 0 of a row that is left out, whose other entries are 0 too. */
+ * The diagonal stores 1/u_pp. An excluded row is 0, including its diagonal. */
 #include "math/block_signed.h"
 
 #include <float.h>
@@ -36,7 +36,7 @@ void dmb_block_signed_clear(const dmb_block_pattern *pattern, const dmb_block_si
 
 /* ---- One block --------------------------------------------------------------------------------------------------- */
 
-/* A block in the making. */
+/* A block during elimination. */
 typedef struct front {
     const dmb_block_pattern *pattern;
     const dmb_block_signed *matrix;
@@ -45,7 +45,7 @@ typedef struct front {
     double *length;
 } front;
 
-/* Row p of all blocks of the position, scaled; those below less what they have of it. */
+/* Scales row p of all blocks of the position and subtracts its multiples from the rows below. */
 static void eliminate_row(const front *f, uint32_t p, double scale, double sign)
 {
     const uint32_t n = f->n;
@@ -63,7 +63,7 @@ static void eliminate_row(const front *f, uint32_t p, double scale, double sign)
     }
 }
 
-/* The pivot of row p over its length; of positive rows the pivot. */
+/* Pivot of row p over its length; for positive rows the pivot itself. */
 static double ratio_of(const front *f, uint32_t p)
 {
     const double pivot = f->D[(size_t)(f->n + 1) * p];
@@ -88,7 +88,7 @@ static void swap(double *a, double *b)
     *b = t;
 }
 
-/* Exchanges rows p < q of the block, and columns in it; the length goes along. */
+/* Exchanges rows p < q of the block, their columns and their lengths. */
 static void exchange(const front *f, uint32_t p, uint32_t q)
 {
     const size_t n = f->n;
@@ -105,7 +105,7 @@ static void exchange(const front *f, uint32_t p, uint32_t q)
     }
 }
 
-/* The row with the largest remainder from p on; the first of equals, wider than rounding. */
+/* Row with the largest remainder from p on; the first of equal ones, with a tolerance wider than rounding. */
 static uint32_t longest_from(const front *f, uint32_t p)
 {
     uint32_t at = p;
@@ -173,7 +173,7 @@ int64_t dmb_block_signed_factor(const dmb_block_pattern *pattern, const dmb_bloc
     return -1;
 }
 
-/* The pivots go back to the places of their rows by the same exchanges, last first. */
+/* Moves the pivots back to the places of their rows by the same exchanges in reverse order. */
 static void choose_rows(const front *f, double weak)
 {
     uint32_t *exchanged = f->matrix->order + f->matrix->row[f->pattern->order[f->k]], p = f->plus;

@@ -1,12 +1,12 @@
-/* Blocks of six rows, as elements have them, in vectors: a row is one of four numbers and one of two, where the
- * compiler has a word for that; else six numbers. Operations and their order are those of block_inverse.h for any size.
- */
+/* Blocks of six rows, the size of element blocks, in vectors: a row is a vector of four numbers and one of two if the
+ * compiler supports it, otherwise six numbers. Operations and their order are those of block_inverse.h for any size. */
 #ifndef DMB_MATH_BLOCK_SIX_H
 #define DMB_MATH_BLOCK_SIX_H
 
 #include "math/block_rows.h"
 
-/* A block D, the link that couples its rows to its neighbour (U) and the neighbour's to it (L), and D of that one. */
+/* A block D, the off-diagonal blocks that couple its rows to its neighbour (U) and the neighbour's to it (L), and D of
+ * the neighbour. */
 typedef struct block_parts {
     double *D, *U, *L, *next;
 } block_parts;
@@ -184,13 +184,13 @@ DMB_BLOCK_KERNEL void six_store_columns(const six_row r[6], double *to)
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
-/* A block on its way to its inverse. */
+/* A block during inversion. */
 typedef struct six_block {
     six_row a[6];
     int exchanged[6], any;
 } six_block;
 
-/* The row whose number k is the largest, among k and those below it; the first of these. */
+/* The row whose number k is largest, among row k and those below it; the first of equal ones. */
 DMB_BLOCK_KERNEL int six_pivot_row(const six_row a[6], int k)
 {
     int p = k;
@@ -239,7 +239,7 @@ DMB_BLOCK_KERNEL void six_begin(const double *D, six_block *d)
     d->any = 0;
 }
 
-/* X into D, by columns; columns go back where rows came from. */
+/* Stores X in D by columns, which are exchanged in reverse order of the rows. */
 DMB_BLOCK_KERNEL void six_end(six_block *d, double *D)
 {
     six_store_columns(d->a, D);
@@ -262,7 +262,7 @@ DMB_BLOCK_KERNEL six_row six_combine(const double *f, int stride, const six_row 
     return sum;
 }
 
-/* G = L X, D_next -= G U, W = X U; G into L, W into U, by columns. */
+/* Updates the neighbour: G = L X, D_next -= G U, W = X U; G is stored in L, W in U, by columns. */
 DMB_BLOCK_KERNEL void six_pass_on(const six_block *d, const block_parts *p)
 {
     six_row G[6], W[6], U[6];
@@ -280,7 +280,8 @@ DMB_BLOCK_KERNEL void six_pass_on(const six_block *d, const block_parts *p)
     six_store_columns(W, p->U);
 }
 
-/* One block, or two that do not touch, step by step in turns. Returns 0, or 1 or 2: that one has no pivot. */
+/* Factors one block, or two uncoupled blocks with interleaved steps. Returns 0, or 1 or 2: number of the block without
+ * a pivot. */
 DMB_BLOCK_KERNEL int six_factor(const block_parts *p)
 {
     six_block d;
@@ -312,7 +313,7 @@ DMB_BLOCK_KERNEL int six_factor_two(const block_parts *p, const block_parts *q)
 
 /* ---- Solutions --------------------------------------------------------------------------------------------------- */
 
-/* A x, in two sums side by side, of even and of odd columns */
+/* A x with two independent sums, of even and of odd columns */
 DMB_BLOCK_KERNEL six_row six_product(const double *A, six_row x)
 {
     six_row even = six_times(six_spread(x, 0), six_load(A)), odd = six_times(six_spread(x, 1), six_load(A + 6));
@@ -323,7 +324,7 @@ DMB_BLOCK_KERNEL six_row six_product(const double *A, six_row x)
     return six_plus(even, odd);
 }
 
-/* b of the neighbour less G x, which is given back too; b <- X x */
+/* Neighbour's b -= G x, which is also returned; b <- X x */
 DMB_BLOCK_KERNEL six_row six_towards(const double *X, const double *G, six_row x, double *b, double *next)
 {
     const six_row passed = six_minus(six_load(next), six_product(G, x));
@@ -332,7 +333,7 @@ DMB_BLOCK_KERNEL six_row six_towards(const double *X, const double *G, six_row x
     return passed;
 }
 
-/* b <- b - W x, given back too */
+/* b <- b - W x, also returned */
 DMB_BLOCK_KERNEL six_row six_away(const double *W, six_row x, double *b)
 {
     const six_row y = six_minus(six_load(b), six_product(W, x));
@@ -340,7 +341,8 @@ DMB_BLOCK_KERNEL six_row six_away(const double *W, six_row x, double *b)
     return y;
 }
 
-/* A whole chain of `count` blocks; of the links, `upper` and `lower`. The two halves go by turns. */
+/* Solves a whole chain of `count` blocks with the off-diagonal blocks `upper` and `lower`. The two halves are
+ * interleaved. */
 static inline void six_solve(uint32_t count, const double *diagonal, const double *upper, const double *lower,
                              double *b)
 {
@@ -372,7 +374,7 @@ static inline void six_solve(uint32_t count, const double *diagonal, const doubl
     if (above > below) six_away(W - 36, x, p - 6);
 }
 
-/* The same in the parts of block_inverse.h: 0 the upper end, 1 the lower one, 2 what is between them. */
+/* The same in the parts of block_inverse.h: 0 the upper end, 1 the lower end, 2 the blocks between them. */
 static inline void six_towards_part(uint32_t count, const double *D, const double *upper, const double *lower,
                                     int32_t part, double *b)
 {

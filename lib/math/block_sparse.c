@@ -1,13 +1,13 @@
-/* Block elimination, position k after position k. With D = A_kk and the later blocks i, j that k is coupled with,
+/* Block elimination, one position k after another. With D = A_kk and the later blocks i, j that k is coupled with,
  *
  *     W_kj = D^-1 A_kj,    A_ij -= A_ik W_kj,    solve: b_k <- D^-1 b_k,  b_i -= A_ik b_k;  backwards x_k = b_k - W_kj
  * x_j
  *
- * (block LU; Golub and Van Loan, Matrix Computations, 3.2.10 and 4.5.1 for chains). The pattern has room for each A_ij
- * that the update meets.
+ * (block LU; Golub and Van Loan, Matrix Computations, 3.2.10 and 4.5.1 for chains). The pattern contains each A_ij that
+ * the update changes.
  *
- * The kernels for 6 rows have that size as a constant; other sizes go to the dense kernels. Inner loops run along rows,
- * so they vectorise without any change in the order of a sum. */
+ * The kernels for 6 rows have that size as a constant; other sizes use the dense kernels. Inner loops run along rows,
+ * so that they vectorise without a change in the order of a sum. */
 #include "math/block_sparse.h"
 
 #include <math.h>
@@ -23,8 +23,8 @@ static inline void row_subtract(double f, const double *restrict x, double *rest
     for (int j = 0; j < SIX; j++) y[j] -= f * x[j];
 }
 
-/* As dmb_dense_factor. The rows are worked on in a copy and subtracted in full length, a fixed one; the columns already
- * done then hold nothing of use there. */
+/* As dmb_dense_factor. Rows are processed in a copy and subtracted over their full, fixed length; columns that are
+ * already finished then contain irrelevant values. */
 static int64_t factor_six(double *restrict D, uint32_t *restrict pivot)
 {
     double A[SIX * SIX];
@@ -146,8 +146,7 @@ static inline uint32_t size_at(const dmb_block_pattern *pattern, const dmb_block
     return matrix->size[pattern->order[position]];
 }
 
-/* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each entry behind it, both ways round.
- */
+/* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each later entry, in both orders. */
 static void update_from(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, uint32_t n, uint32_t a,
                         uint32_t end)
 {
@@ -165,7 +164,7 @@ static void update_from(const dmb_block_pattern *pattern, const dmb_block_sparse
     }
 }
 
-/* Position k of the factorisation. Returns the column without a pivot, or -1. */
+/* Eliminates position k. Returns the column without a pivot, or -1. */
 static int64_t eliminate(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, uint32_t k, uint32_t n)
 {
     const uint32_t begin = pattern->column[k], end = pattern->column[k + 1];
@@ -181,12 +180,12 @@ static int64_t eliminate(const dmb_block_pattern *pattern, const dmb_block_spars
     return -1;
 }
 
-/* weakest is NULL where nobody watches */
+/* weakest is NULL if it is not requested */
 static int64_t factor(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, dmb_block_weakest *weakest)
 {
     for (uint32_t k = 0; k < pattern->n; k++) {
         const uint32_t block = pattern->order[k], n = matrix->size[block];
-        if (n == 0) continue; /* and with no block at all no values */
+        if (n == 0) continue; /* without any block there are no values */
         const double *D = matrix->values + pattern->diagonal[k];
         const double largest = weakest ? dmb_block_largest(n, D) : 0.0;
         const int64_t failed = eliminate(pattern, matrix, k, n);

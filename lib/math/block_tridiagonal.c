@@ -42,9 +42,9 @@ DMB_BLOCK_KERNEL void gather(int n, int m, const double *restrict D, const doubl
     }
 }
 
-/* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on
- * it. Work rows are subtracted in full length, a fixed one; the columns already done then hold nothing of use.
- * Returns the column without a pivot, or -1. */
+/* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on it.
+ * Work rows are subtracted over their full, fixed length; columns that are already finished then contain irrelevant
+ * values. Returns the column without a pivot, or -1. */
 DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uint8_t *restrict pivot)
 {
     for (int k = 0; k < n; k++) {
@@ -66,7 +66,7 @@ DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, double *restr
     return -1;
 }
 
-/* The eliminated rows of D_i go above the diagonal of its factors. */
+/* Stores the eliminated rows of D_i above the diagonal of its factors. */
 DMB_BLOCK_KERNEL void store_upper(int n, work_row *restrict a, double *restrict D)
 {
     for (int i = 0; i < n; i++)
@@ -137,7 +137,7 @@ DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_row *row)
     return -1;
 }
 
-/* The factorisation; weakest is NULL, a constant, where nobody watches. */
+/* The factorisation; weakest is NULL, a constant, if it is not requested. */
 DMB_BLOCK_KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
                                        uint32_t count, dmb_block_weakest *weakest)
 {

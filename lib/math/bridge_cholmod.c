@@ -1,6 +1,6 @@
-/* CHOLMOD where the build has it (DMB_WITH_CHOLMOD): linked, or loaded when a scene needs it (DMB_LAZY). The order
- * decides the last digits of a scene with joints, so that a build that has it takes no other: where it cannot be loaded
- * there is none. */
+/* CHOLMOD, if it belongs to the build (DMB_WITH_CHOLMOD): linked, or loaded when a scene requires it (DMB_LAZY). The
+ * order determines the last digits of a scene with joints. Therefore a build with CHOLMOD uses no other order: if it
+ * cannot be loaded, ordering fails. */
 #include "math/bridge.h"
 
 #include "base/build.h"
@@ -52,7 +52,7 @@ int dmb_has_cholmod(void)
     return calls_of_build(&calls);
 }
 
-/* Nothing printed, no handler called, AMD alone, and no more analysis than the order needs. */
+/* No output, no error handler, AMD only, and no more analysis than the order requires. */
 static void configure(cholmod_common *common)
 {
     common->print = 0;
@@ -63,7 +63,7 @@ static void configure(cholmod_common *common)
     common->supernodal = CHOLMOD_SIMPLICIAL;
 }
 
-/* The graph as a matrix without values, of which CHOLMOD reads the upper triangle. It is not written to. */
+/* The graph as a matrix without values, of which CHOLMOD reads the upper triangle. It is not modified. */
 static cholmod_sparse graph_matrix(uint32_t n, const int32_t *start, const int32_t *neighbour)
 {
     cholmod_sparse A = {0};
@@ -87,7 +87,7 @@ int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, cons
     (void)allocator;
     int32_t status = DMB_ERR_NO_MEMORY;
     for (uint32_t k = 0; k < n; k++) order[k] = k;
-    if (n <= 2) return DMB_OK; /* any order will do */
+    if (n <= 2) return DMB_OK; /* any order is optimal */
     if (!calls_of_build(&calls)) return DMB_ERR_UNSUPPORTED;
     if (!calls.start(&common)) return DMB_ERR_NO_MEMORY;
     configure(&common);

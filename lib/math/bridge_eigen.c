@@ -25,7 +25,7 @@ static void rotate(size_t n, double *A, double *V, size_t p, size_t q)
     const double off = A[p + n * q], theta = 0.5 * (A[q + n * q] - A[p + n * p]) / off;
     const double t = copysign(1.0, theta) / (fabs(theta) + sqrt(1.0 + theta * theta));
     const double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
-    const double low = A[p + n * p] - t * off, high = A[q + n * q] + t * off; /* less rounding than by turning */
+    const double low = A[p + n * p] - t * off, high = A[q + n * q] + t * off; /* less rounding than by rotation */
     turn(n, A + p, A + q, n, c, s);
     turn(n, A + n * p, A + n * q, 1, c, s);
     turn(n, V + n * p, V + n * q, 1, c, s);
@@ -43,7 +43,8 @@ static double frobenius(size_t count, const double *A)
     return most * sqrt(sum);
 }
 
-/* Rotations of one sweep. An entry below rounding of its own diagonal, or far below that of the matrix, stays. */
+/* Rotations of one sweep. An entry below the rounding of its own diagonal, or far below that of the matrix, is not
+ * rotated. */
 static size_t sweep(size_t n, double *A, double *V, double norm)
 {
     size_t turned = 0;
@@ -113,7 +114,7 @@ static size_t cholesky(size_t n, double *M)
     return 0;
 }
 
-/* x = L^-1 x, elements `step` apart */
+/* x = L^-1 x, elements of x `step` apart */
 static void solve_lower(size_t n, const double *L, double *x, size_t step)
 {
     for (size_t k = 0; k < n; k++) {
@@ -170,7 +171,8 @@ static void exchange_columns(size_t height, double *a, int32_t *order, size_t p,
     }
 }
 
-/* Of columns from k on, the one that is longest below row k: lengths are computed anew, so that none is lost. */
+/* Of columns from k on, the one with the greatest length below row k: lengths are recomputed, so that they do not lose
+ * accuracy. */
 static size_t longest(size_t height, size_t width, const double *a, size_t k)
 {
     size_t found = k;
@@ -212,7 +214,7 @@ void dmb_dense_pivoted_qr(size_t height, size_t width, double *a, int32_t *order
     }
 }
 
-/* Rows p and q become orthogonal; 0 where they are. */
+/* Makes rows p and q orthogonal; returns 0 if they are orthogonal already. */
 static int make_orthogonal(size_t width, size_t height, double *p, double *q)
 {
     double pp = 0.0, qq = 0.0, pq = 0.0;

@@ -11,7 +11,7 @@
 
 typedef struct schur {
     size_t n;
-    double *T, *Z; /* A = Z T Z^T in the end */
+    double *T, *Z; /* A = Z T Z^T at the end */
     double *re, *im;
     double *scale, *v; /* (n) (4 n) */
     double norm;
@@ -24,7 +24,7 @@ static double *at(const schur *s, size_t i, size_t j)
 
 /* ---- Balancing --------------------------------------------------------------------------------------------------- */
 
-/* Row and column i of like length, by a power of 2. 0: they are. */
+/* Scales row and column i to similar length, by a power of 2. Returns 0 if they are already. */
 static int balance_row(schur *s, size_t i)
 {
     const size_t n = s->n;
@@ -56,7 +56,7 @@ static void balance(schur *s)
 
 /* ---- Reflections ------------------------------------------------------------------------------------------------- */
 
-/* v of I - beta v v^T that makes x a multiple of e1; returns beta, 0 where it is. */
+/* v of I - beta v v^T that makes x a multiple of e1; returns beta, 0 if x is already. */
 static double reflection(size_t m, const double *x, double *v)
 {
     double most = 0.0, sum = 0.0;
@@ -72,7 +72,7 @@ static double reflection(size_t m, const double *x, double *v)
     return 1.0 / (length * fabs(first));
 }
 
-/* Rows `row` .. row + m - 1 of columns from `first` on: P T. */
+/* Applies P T to rows `row` .. row + m - 1 and columns from `first` on. */
 static void from_left(schur *s, size_t row, size_t m, size_t first, const double *v, double beta)
 {
     for (size_t j = first; j < s->n; j++) {
@@ -82,7 +82,7 @@ static void from_left(schur *s, size_t row, size_t m, size_t first, const double
     }
 }
 
-/* m columns from A on, in their first `rows` rows: A P. */
+/* Applies A P to m columns from A on, in their first `rows` rows. */
 static void from_right(size_t n, double *A, size_t m, size_t rows, const double *v, double beta)
 {
     for (size_t i = 0; i < rows; i++) {
@@ -109,7 +109,7 @@ static void hessenberg(schur *s)
 
 /* ---- Schur form -------------------------------------------------------------------------------------------------- */
 
-/* First row of the block that ends at `last`; what is below rounding before it becomes zero. */
+/* First row of the block that ends at `last`; a subdiagonal entry below rounding before it is set to zero. */
 static size_t block_start(schur *s, size_t last)
 {
     size_t l = last;
@@ -121,7 +121,7 @@ static size_t block_start(schur *s, size_t last)
     return l;
 }
 
-/* The first column of (T - shift 1) (T - shift 2), with their sum and product, to a factor. */
+/* First column of (T - shift 1) (T - shift 2), from the sum and product of the shifts, up to a factor. */
 static void first_column(const schur *s, size_t l, double sum, double product, double x[3])
 {
     const double scale = fabs(*at(s, l + 1, l)) > 0.0 ? *at(s, l + 1, l) : s->norm, a = *at(s, l, l);
@@ -130,7 +130,7 @@ static void first_column(const schur *s, size_t l, double sum, double product, d
     x[2] = *at(s, l + 2, l + 1);
 }
 
-/* One step on rows l .. last, three at the least. */
+/* One step on rows l .. last, at least three. */
 static void francis(schur *s, size_t l, size_t last, int exceptional)
 {
     double sum = *at(s, last - 1, last - 1) + *at(s, last, last), x[3];
@@ -168,7 +168,7 @@ static void rotate(schur *s, size_t k, double c, double p)
     }
 }
 
-/* The two values of the block at k; where they are real it is made triangular. */
+/* Computes the two eigenvalues of the block at k; if they are real, the block is made triangular. */
 static void split(schur *s, size_t k)
 {
     const double d = *at(s, k + 1, k + 1), half = 0.5 * (*at(s, k, k) - d), c = *at(s, k + 1, k);
@@ -211,7 +211,7 @@ static int32_t to_schur(schur *s)
 
 /* ---- Vectors ----------------------------------------------------------------------------------------------------- */
 
-/* A divisor that rounding made zero: as small as rounding of the value that it is the distance to. */
+/* Replaces a divisor that rounding made zero by the rounding error of the eigenvalue that it is the distance to. */
 static double complex divisor(double complex x, double complex value)
 {
     const double least = fmax(DBL_EPSILON * cabs(value), 1e-290);
@@ -232,8 +232,8 @@ static void scale_down(double complex *y, size_t from, size_t end)
     for (size_t i = from; i < end; i++) y[i] /= most;
 }
 
-/* (B - value) y = (f, g) for a block B of two rows, whose columns are `step` apart: by elimination with exchange of
- * rows, as values that are close to each other need. */
+/* Solves (B - value) y = (f, g) for a block B of two rows, with columns `step` apart, by elimination with row exchange,
+ * which close eigenvalues require. */
 static void solve_two(const double *B, size_t step, double complex value, double complex f, double complex g,
                       double complex *y)
 {
@@ -250,7 +250,7 @@ static void solve_two(const double *B, size_t step, double complex value, double
     }
 }
 
-/* (T - value) y = 0 in the rows before `known`, from below, with y given from there to `end`. */
+/* Solves (T - value) y = 0 in the rows before `known`, from below, with y given from there to `end`. */
 static void substitute(const schur *s, double complex value, double complex *y, size_t known, size_t end)
 {
     for (size_t i = known; i-- > 0;) {
@@ -265,7 +265,8 @@ static void substitute(const schur *s, double complex value, double complex *y, 
     }
 }
 
-/* Column k of V and, of a pair, the next: scale Z y of length 1, its largest component real. `end`: of y. */
+/* Column k of V and, for a pair, the next: Z y scaled to length 1, with its largest component real. `end`: length of y.
+ */
 static void back(schur *s, const double complex *y, size_t k, size_t end)
 {
     const size_t n = s->n;
@@ -288,7 +289,7 @@ static void back(schur *s, const double complex *y, size_t k, size_t end)
     }
 }
 
-/* From the last to the first: a vector needs the columns of Z up to its own. */
+/* From the last to the first: a vector requires the columns of Z up to its own only. */
 static void vectors(schur *s)
 {
     double complex *y = (double complex *)(s->v + 2 * s->n);

@@ -1,5 +1,5 @@
-/* LAPACK through LAPACKE where the build has it (DMB_WITH_LAPACK): linked, or loaded when an analysis needs it
- * (DMB_LAZY). Where it is not there, dense_eigen does the same. */
+/* LAPACK through LAPACKE, if it belongs to the build (DMB_WITH_LAPACK): linked, or loaded when an analysis requires it
+ * (DMB_LAZY). If it is missing, bridge_eigen.c computes the same. */
 #include "math/bridge.h"
 
 #include <float.h>
@@ -63,7 +63,7 @@ static lapack lapack_of_build(void)
 }
 #endif
 
-#if DMB_WITH_LAPACK /* what is called by a pointer is declared as LAPACKE declares it */
+#if DMB_WITH_LAPACK /* functions called by pointer must have the declarations of LAPACKE */
 #define SAME(name, type) _Static_assert(_Generic(&(name), type * : 1, default : 0), #name)
 SAME(LAPACKE_dsyevd_work, syevd);
 SAME(LAPACKE_dsygvd_work, sygvd);
@@ -79,9 +79,9 @@ int dmb_has_lapack(void)
 
 /* ---- Floating-point environment ---------------------------------------------------------------------------------- */
 
-/* LAPACK divides by zero on purpose to learn what the processor makes of it (ieeeck), and raises flags: a host that
- * traps floating-point exceptions would be ended by SIGFPE. Traps are off during a call; flags and traps of the host
- * are as before after it. */
+/* LAPACK divides by zero on purpose to test the processor (ieeeck), which raises flags: a host that traps
+ * floating-point exceptions would be terminated by SIGFPE. Traps are disabled during a call; flags and traps of the
+ * host are restored after it. */
 #if DMB_WITH_LAPACK
 typedef fenv_t environment;
 
@@ -110,7 +110,7 @@ static void restore_environment(const environment *host)
 
 /* ---- Eigenproblems ----------------------------------------------------------------------------------------------- */
 
-/* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
+/* dsyevd and dsygvd require 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, in which
  * 1 + 6n + 2n^2 fits up to n = 32766. */
 _Static_assert(1 + 6 * (int64_t)DMB_EIGEN_MAX + 2 * (int64_t)DMB_EIGEN_MAX * DMB_EIGEN_MAX <= INT32_MAX,
                "work of dsyevd and dsygvd");
@@ -122,7 +122,7 @@ size_t dmb_eigen_work(size_t n)
     return count <= SIZE_MAX / sizeof(double) ? (size_t)count : SIZE_MAX;
 }
 
-/* dgeev needs 4n; its blocked parts take some tens of n. */
+/* dgeev requires 4n; its blocked algorithms use some tens of n. */
 size_t dmb_eigen_general_work(size_t n)
 {
     return n > DMB_EIGEN_MAX ? SIZE_MAX : 40 * n;
@@ -186,8 +186,8 @@ int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V
 /* ---- Rank -------------------------------------------------------------------------------------------------------- */
 
 #define DMB_ROW_MIN 1e-300
-enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, or fewer */
-/* LAPACK counts its work, 34 rows + 32 or 3 min + 2 (rows + columns), in integers of 32 bits. */
+enum { PANEL = 32 }; /* largest number of columns that dgeqp3 processes at a time */
+/* LAPACK counts its workspace, 34 rows + 32 or 3 min + 2 (rows + columns), in integers of 32 bits. */
 _Static_assert(34 * (int64_t)DMB_RANK_SIDE_MAX + PANEL <= INT32_MAX, "work of dgeqp3");
 
 static size_t least(uint32_t a, uint32_t b)
@@ -195,7 +195,8 @@ static size_t least(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* Matrix, tau and singular values, LAPACK's own: 3n + 1 and more for QR, max(3 min + max, 5 min) for values. */
+/* Matrix, tau and singular values, and the workspace of LAPACK: 3n + 1 and more for QR, max(3 min + max, 5 min) for
+ * values. */
 static size_t lapack_work(uint32_t rows, uint32_t columns)
 {
     const size_t qr = 2 * (size_t)rows + ((size_t)rows + 1) * PANEL;
@@ -211,7 +212,8 @@ size_t dmb_rank_work(uint32_t rows, uint32_t columns)
     return (size_t)rows * columns + rest;
 }
 
-/* Unit length without overflow or underflow of squares; zeros for a row that has no length or is not finite. */
+/* Scales a row to unit length without overflow or underflow of squares; a row without length or with values that are
+ * not finite becomes zero. */
 static void scale_row(const double *b, uint32_t columns, const double *weight, double *row)
 {
     double most = 0.0, sum = 0.0;
@@ -229,13 +231,13 @@ static void scale_row(const double *b, uint32_t columns, const double *weight, d
     for (uint32_t j = 0; j < columns && usable; j++) row[j] /= sqrt(sum);
 }
 
-/* R, of `n` rows, in the upper part of the matrix whose columns are `height` apart. */
+/* Diagonal of R in the upper part of the matrix with columns `height` apart. */
 static double diagonal(const double *a, uint32_t height, uint32_t k)
 {
     return fabs(a[(size_t)k * height + k]);
 }
 
-/* A set of equations under way, in the caller's memory. */
+/* Data of a rank computation, in the caller's memory. */
 typedef struct rank_work {
     lapack found;
     uint32_t rows, columns;
@@ -243,7 +245,7 @@ typedef struct rank_work {
     lapack_int size;
 } rank_work;
 
-/* Singular values of R into s; 0 if none are found. */
+/* Singular values of R into s; 0 if the computation fails. */
 static int singular_values(const rank_work *w)
 {
     const uint32_t rows = w->rows, columns = w->columns;
@@ -264,10 +266,11 @@ static int singular_values(const rank_work *w)
     return failed == 0;
 }
 
-/* Rows by rows is, column by column, the transpose: its columns are the equations. LAPACK counts them from 1. */
+/* The row-major matrix is, read column-major, its transpose: the columns are the equations. LAPACK counts them from 1.
+ */
 static void order_rows(const rank_work *w, int32_t *order)
 {
-    for (uint32_t i = 0; i < w->rows; i++) order[i] = 0; /* 0: LAPACK may move it */
+    for (uint32_t i = 0; i < w->rows; i++) order[i] = 0; /* 0: LAPACK may exchange it */
     if (!w->found.present) {
         dmb_dense_pivoted_qr(w->columns, w->rows, w->a, order, w->rest);
         return;

@@ -8,7 +8,8 @@
 
 _Static_assert(sizeof(void *) == sizeof(dmb_foreign), "POSIX: dlsym tells functions as pointers to void");
 
-/* RTLD_NODELETE: it stays when it is closed, so that the loader's count of users does not grow from call to call. */
+/* With RTLD_NODELETE the library remains loaded after dlclose, so that the loader's reference count does not increase
+ * with every call. */
 int dmb_foreign_load(const char *soname, size_t count, const char *const *names, dmb_foreign *functions)
 {
     void *library = dlopen(soname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

@@ -1,7 +1,7 @@
-/* The graph of what is left is kept as a quotient graph: a node that was eliminated becomes an element, a list of the
- * nodes that it coupled; elements that it met are absorbed by it (George, Liu, The evolution of the minimum degree
- * ordering algorithm, 1989). A list of a node loses at least one entry for the element that it gains, so that lists of
- * nodes stay in their place. Degrees are exact, the nodes of one degree stand in a heap by degree and index. */
+/* The remaining graph is stored as a quotient graph: an eliminated node becomes an element, a list of the nodes that it
+ * couples; elements adjacent to it are absorbed (George, Liu, The evolution of the minimum degree ordering algorithm,
+ * 1989). The list of a node loses at least one entry for each element that it gains, so that lists of nodes are updated
+ * in place. Degrees are exact; nodes are in a heap by degree and index. */
 #include "math/bridge.h"
 
 #include <string.h>
@@ -14,10 +14,10 @@ typedef struct quotient {
     int32_t *list;     /* (ends) of node i from start[i]: nodes j >= 0, elements as -1 - e */
     uint32_t *length;  /* (n) of that list */
     uint32_t *degree;  /* (n) */
-    uint32_t *mark;    /* (n) the last round that saw a node */
-    uint32_t *heap;    /* (n) nodes, the least (degree, index) first */
+    uint32_t *mark;    /* (n) the last round that visited a node */
+    uint32_t *heap;    /* (n) nodes, the smallest (degree, index) first */
     uint32_t *place;   /* (n) of a node in the heap; DMB_NONE once eliminated */
-    size_t *element;   /* (n) where the nodes of element e begin in `nodes` */
+    size_t *element;   /* (n) first node of element e in `nodes` */
     uint32_t *members; /* (n) their number; 0 once absorbed */
     uint32_t left, round;
     dmb_vector nodes; /* uint32_t */
@@ -85,7 +85,7 @@ static const uint32_t *members_of(const quotient *q, uint32_t e)
     return (const uint32_t *)q->nodes.items + q->element[e];
 }
 
-/* The nodes of element e that are new, appended. */
+/* Appends the nodes of element e that are new. */
 static int32_t append_members(quotient *q, const dmb_allocator *allocator, uint32_t e)
 {
     int32_t status = DMB_OK;
@@ -96,7 +96,7 @@ static int32_t append_members(quotient *q, const dmb_allocator *allocator, uint3
     return status;
 }
 
-/* Pivot p becomes an element of all nodes that it is coupled with, and absorbs its elements. */
+/* Pivot p becomes an element of all nodes coupled with it, and absorbs its elements. */
 static int32_t make_element(quotient *q, const dmb_allocator *allocator, uint32_t p)
 {
     const int32_t *list = q->list + q->start[p];
@@ -116,8 +116,8 @@ static int32_t make_element(quotient *q, const dmb_allocator *allocator, uint32_
     return status;
 }
 
-/* Node i of the element that p became: its list without what that element stands for. The nodes of the element carry
- * the mark of this round. */
+/* Removes from the list of node i, which belongs to the new element p, the entries that the element represents. The
+ * nodes of the element have the mark of this round. */
 static void shorten(quotient *q, uint32_t i, uint32_t p)
 {
     int32_t *list = q->list + q->start[i];

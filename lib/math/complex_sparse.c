@@ -1,4 +1,4 @@
-/* As block_sparse.c, in complex numbers: with D = A_kk and the later blocks i, j that k is coupled with,
+/* The method of block_sparse.c for complex numbers: with D = A_kk and the later blocks i, j that k is coupled with,
  *
  *     W_kj = D^-1 A_kj,    A_ij -= A_ik W_kj,    b_k <- D^-1 b_k,  b_i -= A_ik b_k;   backwards  b_k -= W_kj b_j
  *
@@ -51,7 +51,7 @@ DMB_BLOCK_KERNEL size_t pivot_of_column(size_t n, size_t k, dmb_complex_array D)
     return p;
 }
 
-/* 1/(a + i b) into both (Smith 1962). */
+/* Computes 1/(a + i b) in place (Smith 1962). */
 static void invert(double *re, double *im)
 {
     const double a = *re, b = *im;
@@ -66,7 +66,7 @@ static void invert(double *re, double *im)
     }
 }
 
-/* The column without a pivot, or -1. */
+/* Factors a block. Returns the column without a pivot, or -1. */
 DMB_BLOCK_KERNEL int64_t factor_sized(size_t n, dmb_complex_array D, uint32_t *pivot)
 {
     for (size_t k = 0; k < n; k++) {
@@ -164,7 +164,7 @@ static void clear_block(dmb_complex_array A, size_t numbers)
     memset(A.im, 0, numbers * sizeof(double));
 }
 
-/* Part of the room that the sizes at run time use. */
+/* Clears the part of the storage that the sizes at run time use. */
 void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix)
 {
     for (uint32_t k = 0; k < pattern->n; k++) {
@@ -178,8 +178,7 @@ void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_comple
     }
 }
 
-/* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each entry behind it, both ways round.
- */
+/* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each later entry, in both orders. */
 static void update_from(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, uint32_t n, uint32_t a,
                         uint32_t end)
 {

@@ -2,9 +2,9 @@
  * first,
  *
  *     | A11 A12 |   | L11    | | U11 U12 |      factor the panel | A11; A21 |,  U12 = L11^-1 A12,
- *     | A21 A22 | = | L21  I | |     A'22 |      A'22 = A22 - L21 U12,  go on with A'22
+ *     | A21 A22 | = | L21  I | |     A'22 |      A'22 = A22 - L21 U12,  continue with A'22
  *
- * and the two substitutions likewise. All the work but that inside the panels is one loop, subtract_product. */
+ * and the two substitutions by panels too. All operations outside the panels are in one loop, subtract_product. */
 #include "math/dense.h"
 
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 #include "math/block_kernel.h"
 
-/* Columns of a panel: 32 rows of 600 columns take 150 kB, within a second-level cache. */
+/* Columns of a panel: 32 rows of 600 columns are 150 kB, which fits a second-level cache. */
 #define DMB_PANEL 32
 
 static size_t smaller(size_t a, size_t b)
@@ -20,8 +20,8 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* y -= f0 x0 + f1 x1 + f2 x2 + f3 x3, term after term; x0.. are rows of X, stride apart. Four rows at a time read and
- * write y once instead of four times. */
+/* y -= f0 x0 + f1 x1 + f2 x2 + f3 x3, one term after another; x0.. are rows of X, stride apart. Four rows together read
+ * and write y once instead of four times. */
 static inline void subtract_four(size_t n, const double *f, const double *restrict X, size_t stride, double *restrict y)
 {
     const double *x0 = X, *x1 = x0 + stride, *x2 = x1 + stride, *x3 = x2 + stride;
@@ -34,13 +34,13 @@ static inline void subtract_one(size_t n, double f, const double *restrict x, do
     for (size_t j = 0; j < n; j++) y[j] -= f * x[j];
 }
 
-/* Rows that stand `stride` numbers apart. */
+/* Rows `stride` numbers apart. */
 typedef struct rows {
     const double *values;
     size_t stride;
 } rows;
 
-/* Y (p x r) -= F (p x q) X (q x r); the rows of Y stand as those of X. */
+/* Y (p x r) -= F (p x q) X (q x r); the rows of Y have the stride of X. */
 static void subtract_product(size_t p, size_t q, size_t r, rows F, rows of_X, double *Y)
 {
     const double *X = of_X.values;
@@ -60,8 +60,8 @@ void dmb_dense_subtract_product(uint32_t p, uint32_t q, uint32_t r, const double
         subtract_product(p, smaller(DMB_PANEL, q - c), r, (rows){F + c, q}, (rows){X + r * c, r}, Y);
 }
 
-/* Columns [begin, end) of rows [begin, n). Rows are exchanged in full length. Returns the column without a pivot, or
- * -1. */
+/* Factors columns [begin, end) of rows [begin, n). Rows are exchanged in full length. Returns the column without a
+ * pivot, or -1. */
 static int64_t factor_panel(size_t n, size_t begin, size_t end, double *A, uint32_t *pivot)
 {
     for (size_t k = begin; k < end; k++) {
@@ -128,7 +128,7 @@ void dmb_dense_solve(uint32_t n, uint32_t m, const double *A, const uint32_t *pi
     substitute_up(n, m, A, B);
 }
 
-/* a . x by four interleaved sums, each in order */
+/* a . x with four interleaved sums, each in order */
 static double dot(size_t n, const double *a, const double *x)
 {
     double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
@@ -185,7 +185,7 @@ static void times_transposed(size_t n, const double *A, const double *X, double 
     }
 }
 
-/* (A X)^T X is the transpose of what is wanted. */
+/* (A X)^T X is the transpose of the result. */
 void dmb_dense_congruence(size_t n, const double *X, double *A, double *work)
 {
     double *column = work + n * n;

@@ -1,4 +1,4 @@
-/* Dense matrices: scalar product of long vectors in eight sums side by side, LU factors, and products for analyses. */
+/* Dense matrices: scalar product of long vectors with eight interleaved sums, LU factors, and products for analyses. */
 #ifndef DMB_MATH_DENSE_H
 #define DMB_MATH_DENSE_H
 
@@ -16,13 +16,13 @@ static inline double dmb_dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* Dense LU factors with row pivoting, for blocks of any size; matrices are row-major without gaps. No allocation,
- * always the same order of operations. Meant for blocks of up to some hundred rows: what does not fit a cache is
- * worked off in panels that do. */
+/* Dense LU factors with row pivoting, for blocks of any size; matrices are row-major without gaps. No allocation; the
+ * order of operations is fixed. For blocks of up to some hundred rows: a block larger than the cache is processed in
+ * panels that fit it. */
 
-/* Factors A (n x n) in place: the multipliers below the diagonal, the reciprocal pivots on it, the rest of U above.
- * pivot (n): the row exchanged with row k at step k. -1 when done, else the first column without a pivot
- * (dmb_block_pivot_holds). */
+/* Factors A (n x n) in place: the multipliers below the diagonal, the reciprocal pivots on it, the remaining part of U
+ * above. pivot (n): the row exchanged with row k at step k. Returns -1 on success, otherwise the first column without a
+ * pivot (dmb_block_pivot_holds). */
 int64_t dmb_dense_factor(uint32_t n, double *A, uint32_t *pivot);
 
 /* B (n x m) <- A^-1 B with a factored A */
@@ -37,7 +37,7 @@ void dmb_dense_subtract_product(uint32_t p, uint32_t q, uint32_t r, const double
 /* y (p) -= F (p x q) x (q) */
 void dmb_dense_subtract_vector(uint32_t p, uint32_t q, const double *F, const double *x, double *y);
 
-/* Products of dense square matrices, column by column without gaps, for analyses: no step calls this. */
+/* Products of dense square matrices, column-major without gaps, for analyses; never called by steps. */
 
 /* A <- X^T A X, all of shape (n, n); work: shape (n + 1, n). O(n^3) */
 void dmb_dense_congruence(size_t n, const double *X, double *A, double *work);

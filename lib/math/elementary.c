@@ -48,9 +48,9 @@ static pair pair_product(pair a, pair b)
 
 /* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4 ---------------------------------------------- */
 
-#define DMB_REDUCE_NEAR 1.6e6 /* [rad] up to which a quarter has 20 bits */
+#define DMB_REDUCE_NEAR 1.6e6 /* [rad] up to which the number of quarters has 20 bits */
 
-/* pi/2 in parts of 33 bits, whose products with a quarter are exact (Cody, Waite 1980). */
+/* pi/2 in parts of 33 bits, whose products with the number of quarters are exact (Cody, Waite 1980). */
 static pair reduce_near(double x, uint32_t *quarter)
 {
     const double shifted = x * 0x1.45f306dc9c883p-1 + DMB_ROUNDING, n = shifted - DMB_ROUNDING;
@@ -68,13 +68,13 @@ static const uint32_t two_over_pi[40] = {
     0xEF2F118B, 0x5A0A6D1F, 0x6D367ECF, 0x27CB09B7, 0x4F463F66, 0x9E5FEA2D, 0x7527BAC7, 0xEBE5F17B,
     0x3D0739F7, 0x8A5292EA, 0x6BFB5FB1, 0x1F8D5D08, 0x56033046, 0xFC7B6BAB, 0xF0CFBC20, 0x9AF4361D};
 
-enum { WINDOW = 7, PRODUCT = WINDOW + 2 }; /* words of 2/pi that count, and of their product with 53 bits */
+enum { WINDOW = 7, PRODUCT = WINDOW + 2 }; /* significant words of 2/pi, and words of their product with 53 bits */
 
-/* The significand of x > 0 times WINDOW words of 2/pi from `first` on, least word first. */
+/* Multiplies the significand of x > 0 by WINDOW words of 2/pi from `first` on; least significant word first. */
 static void multiply_window(uint64_t significand, int first, uint32_t product[PRODUCT])
 {
     const uint64_t low = significand & UINT32_MAX, high = significand >> 32;
-    uint64_t carry = 0; /* of the digit to come and the one after it */
+    uint64_t carry = 0; /* carry into the next digit and the one after it */
     for (int i = 0; i < WINDOW; i++) {
         const uint64_t word = two_over_pi[first + WINDOW - 1 - i];
         const uint64_t digit = word * low + (carry & UINT32_MAX);
@@ -85,7 +85,7 @@ static void multiply_window(uint64_t significand, int first, uint32_t product[PR
     product[WINDOW + 1] = (uint32_t)(carry >> 32);
 }
 
-/* 2^exponent, of a normal number */
+/* 2^exponent, for a normal number */
 static double power_of_two(int exponent)
 {
     const uint64_t bits = (uint64_t)(1023 + exponent) << 52;
@@ -94,7 +94,7 @@ static double power_of_two(int exponent)
     return power;
 }
 
-/* Bit `at` of the product, and those below it as a fraction of 2^at; above a half it is 1 less that, negative. */
+/* The bits of the product below the binary point, as a fraction; if it is above one half, the fraction minus 1. */
 static pair fraction_of(const uint32_t product[PRODUCT], int point, int negative)
 {
     pair sum = {0.0, 0.0};
@@ -106,11 +106,11 @@ static pair fraction_of(const uint32_t product[PRODUCT], int point, int negative
         const pair s = two_sum(sum.high, (double)word * power_of_two(-below));
         sum = two_sum(s.high, s.low + sum.low);
     }
-    if (negative) sum.high = -sum.high, sum.low = -sum.low; /* the last bit of 224 that ~ lacks does not count */
+    if (negative) sum.high = -sum.high, sum.low = -sum.low; /* the last bit of 224 that ~ omits is insignificant */
     return sum;
 }
 
-/* x = significand 2^exponent: words of 2/pi whose part of x 2/pi is a multiple of 4 are left out (Payne, Hanek
+/* x = significand 2^exponent: words of 2/pi whose contribution to x 2/pi is a multiple of 4 are omitted (Payne, Hanek
  * 1983). */
 static pair reduce_far(double x, uint32_t *quarter)
 {
@@ -202,7 +202,7 @@ double dmb_cos(double x)
 
 /* ---- Power ------------------------------------------------------------------------------------------------------- */
 
-/* log x as a pair, to 2^-64 or so of itself: x = 2^e m, m from sqrt(1/2) to sqrt 2, s = (m - 1)/(m + 1),
+/* log x as a pair, with a relative error of about 2^-64: x = 2^e m, m from sqrt(1/2) to sqrt 2, s = (m - 1)/(m + 1),
  * log m = 2 s (1 + s^2/3 + s^4/5 + ... + s^28/29) */
 static pair logarithm(double x)
 {

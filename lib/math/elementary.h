@@ -1,21 +1,21 @@
-/* Sine, cosine, angle and power by additions, multiplications, divisions and square roots alone, which IEEE 754 rounds
- * in one way: the same bits on every processor and with every C library, which choose among theirs at run time. A step
- * and the compile of a scene take such functions from here and from real.h, never from the C library
- * (tests/abi/step_calls). NaN of a NaN. */
+/* Sine, cosine, angle and power from additions, multiplications, divisions and square roots only, which IEEE 754 rounds
+ * uniquely: results are bitwise equal on every processor and with every C library. (C libraries select among their
+ * implementations at run time.) A step and the compile of a scene use these functions and those of real.h, never those
+ * of the C library (tests/abi/step_calls). NaN gives NaN. */
 #ifndef DMB_MATH_ELEMENTARY_H
 #define DMB_MATH_ELEMENTARY_H
 
 #include "math/real.h"
 
-/* Of any x [rad], to 0.8 units in the last place; NaN of infinity. */
+/* For any x [rad], to 0.8 units in the last place; NaN for infinity. */
 double dmb_sin(double x);
 double dmb_cos(double x);
 void dmb_sin_cos(double x, double *sine, double *cosine);
 
-/* x^y of x >= 0, to 0.9 units in the last place; 0 below 1e-307, NaN for x < 0. x^0 = 1. */
+/* x^y for x >= 0, to 0.9 units in the last place; 0 below 1e-307, NaN for x < 0. x^0 = 1. */
 double dmb_pow(double x, double y);
 
-/* Angle of the direction (x, y) [rad], to 2 units in the last place; 0 where both are 0, -0 counts as 0. */
+/* Angle of the direction (x, y) [rad], to 2 units in the last place; 0 if both are 0; -0 counts as 0. */
 double dmb_atan2(double y, double x);
 
 /* Lane by lane. */

@@ -1,5 +1,5 @@
-/* Symmetric elimination with pivots of one or two rows (Bunch, Parlett 1971); each tells its signs. Of a chain it goes
- * from block to block. The front holds a block and the next one,
+/* Symmetric elimination with pivots of one or two rows (Bunch, Parlett 1971); the pivots give the signs of the
+ * eigenvalues. A chain is eliminated from block to block. The front contains a block and the next one,
  *     [S_i, U_i; U_i^T, D_{i+1}]   ->   S_{i+1} = D_{i+1} - U_i^T S_i^-1 U_i
  * with pivots chosen inside S_i. */
 #include "math/inertia.h"
@@ -10,7 +10,7 @@
 #include "math/block_kernel.h"
 
 /* Rows and columns of a symmetric matrix, stored in full with rows `stride` numbers apart: the first n are eliminated,
- * those up to `rows` updated. */
+ * the others up to `rows` are updated. */
 typedef struct front {
     double *a;
     size_t stride, n, rows;
@@ -32,7 +32,7 @@ static void exchange(front *f, size_t i, size_t j)
     }
 }
 
-/* Largest diagonal entry p, and off-diagonal entry (r, s), r > s, among the rows k .. n-1 that are left. */
+/* Largest diagonal entry p, and off-diagonal entry (r, s), r > s, among the remaining rows k .. n-1. */
 static void look_for_pivot(const front *f, size_t k, size_t *p, size_t *r, size_t *s)
 {
     double off = 0.0;
@@ -51,7 +51,7 @@ static void look_for_pivot(const front *f, size_t k, size_t *p, size_t *r, size_
 static uint32_t eliminate_one(front *f, size_t k)
 {
     const double *x = row(f, k), pivot = x[k];
-    if (pivot == 0.0) return 0; /* nothing but zeros is left of the n rows */
+    if (pivot == 0.0) return 0; /* the remaining part of the n rows is zero */
     for (size_t i = k + 1; i < f->rows; i++) {
         double *y = row(f, i);
         const double factor = y[k] / pivot;
@@ -106,7 +106,7 @@ uint32_t dmb_dense_negative(uint32_t n, double *A)
     return eliminate(&f);
 }
 
-/* L U, and the exchanges taken back from the last to the first. */
+/* Multiplies L U and reverses the exchanges from the last to the first. */
 void dmb_dense_from_factors(uint32_t n, const double *LU, const uint32_t *pivot, double *A)
 {
     const size_t rows = n;
@@ -123,7 +123,7 @@ void dmb_dense_from_factors(uint32_t n, const double *LU, const uint32_t *pivot,
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
-/* The block that was left of the step before becomes the one to eliminate. */
+/* The remaining block of the last step becomes the one to eliminate. */
 static void shift(front *f)
 {
     const size_t from = f->n, size = f->rows - f->n;
@@ -154,7 +154,7 @@ void dmb_block_row_sizes(uint32_t n, const double *D, double arm_square, const u
         if (solved == NULL || solved[i]) size[i] = fmax(size[i], floor * most * (2 * i < n ? 1.0 : arm_square));
 }
 
-/* Raises the diagonal of the block D that was appended last, whose first row is `at`. */
+/* Adds to the diagonal of the block D that was appended last, whose first row is `at`. */
 static void raise_last(front *f, const dmb_block_raise *raise, const double *D, uint32_t at)
 {
     double size[DMB_BLOCK_SIZE_MAX] = {0.0};

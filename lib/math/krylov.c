@@ -7,10 +7,11 @@
 #include "math/bridge.h"
 #include "math/dense.h"
 
-/* A vector shorter than this part of what it was before is rounding: the space is closed. */
+/* A vector whose length is below this fraction of its length before orthogonalisation is rounding: the space is
+ * invariant. */
 #define DMB_KRYLOV_CLOSED 1e-13
 
-/* The space grows by at least this part of it before it is looked at again. */
+/* The space grows by at least this fraction before convergence is checked again. */
 enum { DMB_KRYLOV_GROWTH = 12 };
 
 typedef struct basis {
@@ -25,7 +26,7 @@ typedef struct basis {
     double *work; /* shape (2 length) */
     /* of the last projection */
     double *matrix, *re, *im, *S, *lapack;
-    uint32_t *order; /* values by falling modulus, those of im < 0 left out */
+    uint32_t *order; /* values by descending modulus, without those of im < 0 */
     size_t values;   /* length of order */
 } basis;
 
@@ -41,7 +42,7 @@ static const double *metric_of(const basis *b, size_t i)
     return b->vector[i] + b->A->length;
 }
 
-/* x less its parts along the vectors from `first` on; what is taken off is added to `column` where there is one. */
+/* Subtracts from x its components along the vectors from `first` on, and adds them to `column` if there is one. */
 static void orthogonalise(const basis *b, size_t first, double *x, double *column)
 {
     const size_t n = b->A->length;
@@ -52,7 +53,8 @@ static void orthogonalise(const basis *b, size_t first, double *x, double *colum
     }
 }
 
-/* Takes x, orthogonal to the rest, into the basis. Its length; 0 if nothing of it is left, and < 0 without memory. */
+/* Appends x, which is orthogonal to the others, to the basis. Returns its length; 0 if it vanishes, < 0 without memory.
+ */
 static double append(basis *b, const double *x, double before)
 {
     const size_t n = b->A->length;
@@ -70,7 +72,7 @@ static double append(basis *b, const double *x, double before)
     return length;
 }
 
-/* A random vector, smoothed by the operator. */
+/* Appends a random vector, smoothed by the operator. */
 static int32_t throw_in(basis *b)
 {
     double *x = b->work, *y = b->work + b->A->length;
@@ -82,8 +84,9 @@ static int32_t throw_in(basis *b)
     return append(b, x, before) < 0.0 ? DMB_ERR_NO_MEMORY : DMB_OK;
 }
 
-/* Multiplies the next vector: a column of H, and a new vector of what is not in the space yet. With a symmetric
- * operator all but the last vectors drop out but for rounding, which the second pass takes care of. */
+/* Multiplies the next vector: adds a column of H, and a new vector from the part outside the space. With a symmetric
+ * operator all components except those along the last vectors vanish apart from rounding, which the second pass
+ * removes. */
 static int32_t process(basis *b, size_t start)
 {
     const size_t n = b->A->length, k = b->processed++;
@@ -138,7 +141,7 @@ static int32_t project(basis *b)
     return DMB_OK;
 }
 
-/* |rows of H below the processed square times s|: what A x - value x has outside the space. */
+/* |rows of H below the processed square times s|: the part of A x - value x outside the space. */
 static double residual_part(const basis *b, const double *s)
 {
     double sum = 0.0;
@@ -157,7 +160,7 @@ static double residual(const basis *b, uint32_t i)
     return sqrt(sum);
 }
 
-/* Values that have converged before the first that has not. */
+/* Number of values that have converged before the first one that has not. */
 static uint32_t converged(const basis *b, uint32_t wanted, double tolerance)
 {
     uint32_t k = 0;
@@ -167,13 +170,13 @@ static uint32_t converged(const basis *b, uint32_t wanted, double tolerance)
 
 static int have_converged(const basis *b, uint32_t wanted, double tolerance)
 {
-    if (b->values < wanted) return b->processed == b->count; /* these are all */
+    if (b->values < wanted) return b->processed == b->count; /* these are all values */
     for (uint32_t k = 0; k < wanted; k++)
         if (!(residual(b, b->order[k]) <= tolerance * modulus(b, b->order[k]))) return 0;
     return 1;
 }
 
-/* Number of values, all converged, that hold as many as are enough beyond the two bounds; 0: there are not so many. */
+/* Number of values, all converged, that include `enough` values beyond the two bounds; 0 if there are fewer. */
 static uint32_t enough_converged(const basis *b, uint32_t wanted, double tolerance)
 {
     const dmb_operator *A = b->A;
@@ -189,7 +192,8 @@ static uint32_t enough_converged(const basis *b, uint32_t wanted, double toleran
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* Processes up to `target` vectors; where the space closes before the dimension is reached, it is opened again. */
+/* Processes up to `target` vectors; if the space becomes invariant before the dimension is reached, a random vector is
+ * added. */
 static int32_t extend(basis *b, size_t target, size_t start)
 {
     int32_t status = DMB_OK;
@@ -211,8 +215,8 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Grows the space until what is wanted has converged, throws a random vector in, and grows it until that holds again.
- */
+/* Extends the space until the requested values have converged, appends a random vector, and extends it until they have
+ * converged again. */
 static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
 {
     const size_t end = smaller(b->A->dimension, b->limit - start - 2);
@@ -230,7 +234,7 @@ static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
             *count = enough > 0 ? enough : wanted;
             return DMB_OK;
         }
-        if (done && b->A->counted) { /* once more, for vectors as sharp as confirmation leaves them */
+        if (done && b->A->counted) { /* one more extension, for vectors as accurate as a confirmation gives */
             confirmed = target = smaller(end, target + 2 * start);
             continue;
         }
@@ -244,13 +248,13 @@ static int32_t search(basis *b, uint32_t *count, size_t start, double tolerance)
         }
         if (status < 0) return status;
         if (target == end) return DMB_ERR_NO_CONVERGENCE;
-        const size_t more =
-            2 * (size_t)start + 2; /* a projection costs the cube of the space: it grows by a part of it */
+        const size_t more = 2 * (size_t)start + 2; /* the cost of a projection is cubic in the size of the space:
+                                                      therefore the space grows by a fraction of it */
         target = smaller(end, target + (target / DMB_KRYLOV_GROWTH > more ? target / DMB_KRYLOV_GROWTH : more));
     }
 }
 
-/* ---- Answer ------------------------------------------------------------------------------------------------------ */
+/* ---- Result ------------------------------------------------------------------------------------------------------ */
 
 /* out = V s, scaled */
 static void combine(const basis *b, const double *s, double factor, double *out)

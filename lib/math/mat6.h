@@ -1,5 +1,5 @@
 /* 6x6 matrices (row-major, 36 numbers), 6-vectors (translation; rotation) and the adjoint maps of SE(3).
- * Vector functions may write onto their inputs; matrix products need an output of their own. */
+ * Vector functions may overwrite their inputs; matrix products require a separate output. */
 #ifndef DMB_MATH_MAT6_H
 #define DMB_MATH_MAT6_H
 
@@ -75,7 +75,7 @@ static inline void dmb_mat6_add_skew(dmb_real s, const dmb_real a[3], int i, int
     block[13] += s * a[0];
 }
 
-/* y[j] = sum_k a[k * step] B[k][j]: one row of a product, over whole rows of B so that it vectorises */
+/* y[j] = sum_k a[k * step] B[k][j]: one row of a product, along whole rows of B so that it vectorises */
 static inline void dmb_mat6_row(const dmb_real *a, int step, const dmb_real B[36], dmb_real *restrict y)
 {
     for (int j = 0; j < 6; j++) y[j] = a[0] * B[j];

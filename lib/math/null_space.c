@@ -37,7 +37,7 @@ static void exchange_columns(size_t n, double *A, uint32_t *order, size_t a, siz
     }
 }
 
-/* The reflection that makes column k of A zero below its diagonal, on all columns after it; v: shape (2n). */
+/* Applies the reflection that makes column k of A zero below its diagonal, to all later columns; v: shape (2n). */
 static void reflect(size_t n, size_t k, double norm, double *A, double *v)
 {
     double *products = v + n, square = 0.0;

@@ -1,15 +1,16 @@
-/* Null space of a matrix of few columns (Golub, Van Loan 2013, 5.2 and 5.4): its rows are taken into a triangle by
- * Givens rotations, which Householder's QR with column pivoting then looks at. For analyses: no step calls this. */
+/* Null space of a matrix with few columns (Golub, Van Loan 2013, 5.2 and 5.4): its rows are accumulated in a triangle
+ * by Givens rotations, to which Householder QR with column pivoting is applied. For analyses; never called by steps. */
 #ifndef DMB_MATH_NULL_SPACE_H
 #define DMB_MATH_NULL_SPACE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Takes a row of n numbers, of which the first `from` are 0, into the triangle R, shape (n, n) by rows; row is lost. */
+/* Adds a row of n numbers, of which the first `from` are 0, to the triangle R, shape (n, n) by rows; row is
+ * overwritten. */
 void dmb_rotate_in(size_t n, size_t from, double *R, double *row);
 /* Rank of A, shape (n, n) by rows, which becomes the triangle [T11 T12; 0 0] of its columns in `order`; v: shape (2n),
- * lost. */
+ * workspace. */
 size_t dmb_triangulate(size_t n, double tolerance, double *A, uint32_t *order, double *v);
 /* A after dmb_triangulate. */
 typedef struct dmb_triangle {

@@ -30,7 +30,7 @@ static inline const dmb_gauss_rule *dmb_gauss(int n)
     return (n >= 2 && n <= 5) ? &rule[n - 2] : (const dmb_gauss_rule *)0;
 }
 
-/* Gauss-Lobatto rules on [0,1]: n points, both ends among them, integrate polynomials up to degree 2n-3 exactly. */
+/* Gauss-Lobatto rules on [0,1]: n points, including both ends, integrate polynomials up to degree 2n-3 exactly. */
 
 enum { DMB_LOBATTO_MOST = 5 };
 

@@ -1,7 +1,7 @@
-/* The number that vec3, mat6, so3, se3 and element/beam_math are written in: a double; or, in a file that defines
- * DMB_LANES before it includes them, that many doubles side by side, a vector of the compiler. Each lane goes through
- * the very operations, in the same order, that a double alone goes through, so all of them give the same bits. Where a
- * double would branch, lanes take the frequent branch together and the few others are put right one by one. */
+/* The number type of vec3, mat6, so3, se3 and element/beam_math: a double; or, in a file that defines DMB_LANES before
+ * it includes them, a compiler vector of that many doubles. Each lane performs the same operations in the same order as
+ * a single double, so that results are bitwise equal. Where a double would branch, all lanes take the frequent branch
+ * together and the others are corrected one by one. */
 #ifndef DMB_MATH_REAL_H
 #define DMB_MATH_REAL_H
 
@@ -15,9 +15,9 @@
 
 #define DMB_PI 3.14159265358979323846
 #define DMB_TWO_PI 6.283185307179586477
-#define DMB_ROUNDING 0x1.8p52 /* added and taken off again, it rounds a number below 2^51 to an integer */
+#define DMB_ROUNDING 0x1.8p52 /* added and subtracted again, it rounds a number below 2^51 to an integer */
 
-/* Short products that are made many times: in lanes a call would take its vectors through memory. */
+/* Short, frequent products are always inlined: a call with lanes would pass its vectors through memory. */
 #if defined(__GNUC__) && defined(DMB_LANES) && !defined(DMB_COUNTED)
 #define DMB_REAL_INLINE static inline __attribute__((always_inline))
 #else
@@ -51,18 +51,18 @@ static inline dmb_real dmb_real_max(dmb_real a, dmb_real b)
 {
     return a > b ? a : b;
 }
-/* x with its sign changed where s < 0 */
+/* x with its sign changed if s < 0 */
 static inline dmb_real dmb_real_follow(dmb_real s, dmb_real x)
 {
     return s < 0.0 ? -x : x;
 }
-/* 1 if every lane of a is below that of b; not so for a NaN */
+/* 1 if every lane of a is below that of b; 0 for NaN */
 static inline int dmb_real_below(dmb_real a, dmb_real b)
 {
     return a < b;
 }
 
-/* Where something holds, lane by lane: what comparisons give, joined by & and |. */
+/* Result of a comparison, lane by lane; combined by & and |. */
 typedef int dmb_mask;
 
 static inline dmb_mask dmb_mask_less(dmb_real a, dmb_real b)
@@ -90,7 +90,7 @@ static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
 {
     return mask ? a : b;
 }
-/* 2^k of a k from -1022 to 1023, given as k + DMB_ROUNDING: the lowest bits of that are k. */
+/* 2^k for k from -1022 to 1023, given as k + DMB_ROUNDING: its lowest bits are k. */
 static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
 {
     uint64_t bits;
@@ -102,7 +102,7 @@ static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
 
 #else
 
-/* Processors have instructions for what the language has no vector word for. */
+/* Processors have instructions for operations that the language of compiler vectors lacks. */
 #if (DMB_LANES == 4 && defined(__AVX2__)) || (DMB_LANES == 8 && defined(__AVX512F__))
 #include <immintrin.h>
 #define DMB_LANES_NATIVE
@@ -198,8 +198,6 @@ static inline dmb_real dmb_real_sqrt(dmb_real x)
 #endif
 }
 
-/* The angle of a direction in the plane, in the number of math/real.h. */
-
 /* atan2(y, x) by atan(r) = sum (-r^2)^k r/(2k+1), r the smaller of |x|, |y| over the larger, brought below tan(pi/8) by
  * atan(r) = pi/4 + atan((r - 1)/(r + 1)). No call, so that it goes side by side; NaN where both are 0,
  * and -0 counts as 0. */
@@ -223,14 +221,12 @@ static inline dmb_real dmb_real_atan2(dmb_real y, dmb_real x)
     return dmb_real_follow(y, angle);
 }
 
-/* The exponential, in the number of math/real.h. */
-
 #define DMB_LN2_HIGH 0x1.62e42fefa4000p-1 /* 41 bits, so that its product with an exponent is exact */
 #define DMB_LN2_LOW -0x1.8432a1b0e2634p-43
 #define DMB_LOG2_E 0x1.71547652b82fep+0
 
-/* e^(x + tail) of -708 <= x <= 709, |tail| tiny beside x: e^x = 2^k e^r, k the integer nearest to x/ln 2, |r| <= 0.35,
- * with e^r = 1 + r + r^2 (1/2! + r/3! + ... + r^11/13!). No call, so that it goes side by side. */
+/* e^(x + tail) of -708 <= x <= 709, |tail| much smaller than |x|: e^x = 2^k e^r, k the integer nearest to x/ln 2, |r|
+ * <= 0.35, with e^r = 1 + r + r^2 (1/2! + r/3! + ... + r^11/13!). No call, so that it vectorises. */
 static inline dmb_real dmb_real_exp_near(dmb_real x, dmb_real tail)
 {
     static const double series[12] = {1.0 / 2.0,       1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,
@@ -244,7 +240,7 @@ static inline dmb_real dmb_real_exp_near(dmb_real x, dmb_real tail)
     return (1.0 + (r + (r * r * sum + rest))) * dmb_real_power_of_two(shifted);
 }
 
-/* e^x to 0.9 units in the last place; 0 below -708, where it would be denormal before long; infinity above 709. */
+/* e^x to 0.9 units in the last place; 0 below -708, near the denormal range; infinity above 709. */
 static inline dmb_real dmb_real_exp(dmb_real x)
 {
     const dmb_mask low = dmb_mask_less(x, dmb_real_of(-708.0)), high = dmb_mask_less(dmb_real_of(709.0), x);

@@ -1,7 +1,7 @@
 /* Poses: exponential, logarithm, tangent operators of SE(3) and their derivatives.
  *
- * h = (U; O): translation part U, rotation vector O. A pose is (R, x) or (q, x). Arguments named k take coefficients
- * already evaluated at |O|^2, so that one element evaluates its series once; NULL has them evaluated here.
+ * h = (U; O): translation part U, rotation vector O. A pose is (R, x) or (q, x). Arguments named k are coefficients
+ * already evaluated at |O|^2, so that an element evaluates its series once; with NULL they are evaluated here.
  * Formulas: eq:kinematics.exp-pose to eq:kinematics.reversal. */
 #ifndef DMB_MATH_SE3_H
 #define DMB_MATH_SE3_H
@@ -10,7 +10,7 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 
-/* A 6x6 matrix [S, B; 0, S], as T6 and T6^-1 both are. Both turn into their transposed blocks for -h. */
+/* A 6x6 matrix [S, B; 0, S], the form of T6 and T6^-1. For -h the blocks are transposed. */
 typedef struct dmb_se3_tangent {
     dmb_real S[9];
     dmb_real B[9];
@@ -44,8 +44,8 @@ static inline void dmb_se3_exp(const dmb_real h[6], const dmb_so3_coefficients *
     dmb_so3_polynomial_apply(h + 3, f.b, f.a2, h, x);
 }
 
-/* (q, x) = exp h. With a, b, a2 of the half angle those of the whole are b = a^2/2, a2 = (a2 + a b)/4: sums of parts of
- * one sign. */
+/* (q, x) = exp h. From a, b, a2 of the half angle those of the whole angle are b = a^2/2, a2 = (a2 + a b)/4: sums of
+ * terms of equal sign. */
 static inline void dmb_se3_exp_to_quat(const dmb_real h[6], dmb_real q[4], dmb_real x[3])
 {
     dmb_so3_coefficients half;
@@ -64,7 +64,7 @@ static inline void dmb_se3_advance(dmb_real q[4], dmb_real x[3], const dmb_real 
     dmb_quat_normalize(q);
 }
 
-/* d = log (q, x) = (S(O)^T x; O). The coefficients at |O|^2 are handed back in k unless that is NULL. */
+/* d = log (q, x) = (S(O)^T x; O). Returns the coefficients at |O|^2 in k unless k is NULL. */
 static inline void dmb_se3_log_from_quat(const dmb_real q[4], const dmb_real x[3], dmb_so3_inverse_coefficients *k,
                                          dmb_real d[6])
 {
@@ -86,8 +86,8 @@ static inline void dmb_se3_log(const double R[9], const double x[3], dmb_so3_inv
 }
 #endif
 
-/* The change of I + p O~ + q O~^2 as O moves along U, p and q being functions of |O|:
- * p U~ + q (U~O~ + O~U~) + (O.U)(dp O~ + dq O~^2), with U~O~ + O~U~ = O U^T + U O^T - 2 (O.U) I */
+/* Derivative of I + p O~ + q O~^2 in the direction U of O, p and q being functions of |O|:
+ *    p U~ + q (U~O~ + O~U~) + (O.U)(dp O~ + dq O~^2), with U~O~ + O~U~ = O U^T + U O^T - 2 (O.U) I */
 static inline void dmb_so3_polynomial_derivative(const dmb_real h[6], dmb_real p, dmb_real q, dmb_real dp, dmb_real dq,
                                                  dmb_real out[9])
 {
@@ -105,7 +105,7 @@ static inline void dmb_so3_polynomial_derivative(const dmb_real h[6], dmb_real p
     for (int i = 0; i < 9; i += 4) out[i] -= trace;
 }
 
-/* T6(h) = [T, B; 0, T]: body velocity = T6(h) h' (eq:kinematics.tangent-pose). Block S holds T(O). */
+/* T6(h) = [T, B; 0, T]: body velocity = T6(h) h' (eq:kinematics.tangent-pose). Block S is T(O). */
 static inline void dmb_se3_tangent_at(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_se3_tangent *T)
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
@@ -223,7 +223,7 @@ DMB_REAL_INLINE void dmb_so3_symmetric_apply(const dmb_real O[3], dmb_real c, co
     dmb_vec3_axpy(c, x, out);
 }
 
-/* out = T6(h)^-1 vb - T6(-h)^-1 va: [P, Q; 0, P] times the difference, [O~, U~; 0, O~] times the mean of both. */
+/* out = T6(h)^-1 vb - T6(-h)^-1 va: [P, Q; 0, P] times the difference plus [O~, U~; 0, O~] times the mean of both. */
 DMB_REAL_INLINE void dmb_se3_inverse_tangents_apply(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
                                                     const dmb_real va[6], const dmb_real vb[6], dmb_real out[6])
 {
@@ -266,8 +266,8 @@ typedef struct dmb_se3_rows {
     dmb_real U[9], V[9], X[9], W[9];
 } dmb_se3_rows;
 
-/* C = T^T Z for a T6 = [S, B; 0, S]: [S^T U, S^T V; B^T U + S^T X, B^T V + S^T W]. Of X only the last two rows are not
- * 0. */
+/* C = T^T Z for a T6 = [S, B; 0, S]: [S^T U, S^T V; B^T U + S^T X, B^T V + S^T W]. Only the last two rows of X are
+ * nonzero. */
 static inline void dmb_se3_tangent_times_rows(const dmb_se3_tangent *T, const dmb_se3_rows *Z, dmb_real *restrict C)
 {
     dmb_real block[9];
@@ -284,7 +284,7 @@ static inline void dmb_se3_tangent_times_rows(const dmb_se3_tangent *T, const dm
     dmb_mat6_add_block(dmb_real_of(1.0), block, 1, 1, C);
 }
 
-/* The same where the product is symmetric. */
+/* The same for a symmetric product. */
 static inline void dmb_se3_tangent_times_own_rows(const dmb_se3_tangent *T, const dmb_se3_rows *Z, dmb_real *restrict C)
 {
     dmb_real block[9], turned[9];
@@ -308,8 +308,8 @@ static inline void dmb_so3_double_cross_gradient(const dmb_real r[3], const dmb_
         for (int j = 0; j < 3; j++) out[3 * i + j] = (i == j ? d + r[i] * a[j] : r[i] * a[j]) + -2.0 * a[i] * r[j];
 }
 
-/* d/dO (c O~^2 a) = c ((O.a) I + O a^T - 2 a O^T) + e w O^T, w = O x (O x a). Odd in O: the part of both J and Jm
- * that follows the sign of h. */
+/* d/dO (c O~^2 a) = c ((O.a) I + O a^T - 2 a O^T) + e w O^T, w = O x (O x a). Odd in O: the part of both J and Jm that
+ * changes sign with h. */
 static inline void dmb_so3_square_derivative(const dmb_real O[3], const dmb_real a[3],
                                              const dmb_so3_inverse_coefficients *k, dmb_real out[9])
 {
@@ -378,8 +378,8 @@ static inline void dmb_se3_stress_times_tangent(dmb_real f, const dmb_se3_stress
     dmb_mat6_add_block(f, block, 1, 1, out);
 }
 
-/* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part.
- * Of the shape of T6 itself, so it comes as that. */
+/* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part. It
+ * has the form of T6 and is returned as such. */
 static inline void dmb_se3_velocity_derivative_at(const dmb_real h[6], const dmb_real v[6],
                                                   const dmb_so3_inverse_coefficients *k, dmb_se3_tangent *X)
 {

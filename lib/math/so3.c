@@ -8,8 +8,8 @@
 
 /* ---- Large angles ------------------------------------------------------------------------------------------------ */
 
-/* a = sin t/t, b = (1 - cos t)/t^2 by the half angle, and the others by a and b, t = sqrt x: beyond pi nothing cancels.
- */
+/* a = sin t/t, b = (1 - cos t)/t^2 from the half angle, and the others from a and b, t = sqrt x: beyond pi there is no
+ * cancellation. */
 static void dmb_so3_coefficients_closed(double x, dmb_so3_coefficients *k)
 {
     const double t = sqrt(x), s = dmb_sin(0.5 * t);
@@ -30,8 +30,8 @@ void dmb_so3_far_coefficients(double x, double out[5])
     out[0] = k.a, out[1] = k.b, out[2] = k.a2, out[3] = k.db, out[4] = k.da2;
 }
 
-/* c = sum 2/((2 pi k)^2 - x): all terms are positive, so nothing cancels. Poles k = 1, 2 as they stand, the rest,
- * regular up to t = 6 pi, as a series. */
+/* c = sum 2/((2 pi k)^2 - x): all terms are positive, so that there is no cancellation. The poles k = 1, 2 are
+ * evaluated directly, the remaining sum, regular up to t = 6 pi, as a series. */
 static void dmb_so3_inverse_coefficients_poles(double x, dmb_so3_inverse_coefficients *k)
 {
     static const double c[10] = {2.0007593556872226e-02, 2.5438120688625620e-05, 5.5845683904944151e-08,
@@ -89,14 +89,14 @@ double dmb_quat_far_log_factor(double q0, double n)
 
 /* ---- Axes from two directions ------------------------------------------------------------------------------------ */
 
-#define DMB_ALONG 1e-6 /* [rad] directions closer than this span no plane */
+#define DMB_ALONG 1e-6 /* [rad] directions closer than this define no plane */
 
 static double largest_of(const double a[3])
 {
     return fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
 }
 
-/* Unit vector along a, whatever the length; false for none. */
+/* Unit vector along a, for any length; false for length 0. */
 static bool unit_along(const double a[3], double out[3])
 {
     const double scale = largest_of(a);
@@ -106,7 +106,8 @@ static bool unit_along(const double a[3], double out[3])
     return true;
 }
 
-/* y := unit vector across x next to direction. Twice, so that rounding of the first pass goes too. */
+/* y := unit vector normal to x in the direction of `direction`. Two passes, so that rounding of the first one is
+ * removed. */
 static bool across(const double x[3], const double direction[3], double y[3])
 {
     double d[3];

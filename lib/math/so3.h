@@ -1,8 +1,8 @@
-/* Rotations: exponential, logarithm, tangent operators, quaternions (scalar first); eq:kinematics.exp-rotation and
- * those that follow it.
+/* Rotations: exponential, logarithm, tangent operators, quaternions (scalar first); eq:kinematics.exp-rotation and the
+ * equations after it.
  *
- * O is a rotation vector, t = |O| its angle, x = t^2. Every coefficient is a smooth function of x, and up to the
- * angle pi a polynomial gives it: no trigonometric call, no division by a small angle, the same bits whatever the
+ * O is a rotation vector, t = |O| its angle, x = t^2. Every coefficient is a smooth function of x, and up to the angle
+ * pi a polynomial gives it: no trigonometric call, no division by a small angle, and results that do not depend on the
  * mathematics library of the host. */
 #ifndef DMB_MATH_SO3_H
 #define DMB_MATH_SO3_H
@@ -14,16 +14,15 @@
 #include "math/real.h"
 #include "math/vec3.h"
 
-/* Coefficients of rotations away from zero, where the short series of so3.h ends: out of line, doubles only. */
-
-/* a, b, a2, db, da2 of so3.h at x = |O|^2. */
+/* Coefficients of rotations away from zero, where the short series below ends; doubles only, not inlined. a, b, a2, db,
+ * da2 at x = |O|^2. */
 void dmb_so3_far_coefficients(double x, double out[5]);
-/* c, e, e2 of so3.h at x = |O|^2; singular at |O| = 2 pi, where the inverse is. */
+/* c, e, e2 at x = |O|^2; singular at |O| = 2 pi, as the inverse is. */
 void dmb_so3_far_inverse_coefficients(double x, double out[3]);
 /* f with O = f v for the quaternion (q0; v), q0 >= 0, n = |v|^2. */
 double dmb_quat_far_log_factor(double q0, double n);
 
-/* Squared angles: below the first a short series does, below the second (just above pi^2) the long one. */
+/* Squared angles: the short series holds below the first, the long one below the second (just above pi^2). */
 #define DMB_SO3_SMALL 0.25
 #define DMB_SO3_MEDIUM 10.5
 
@@ -59,7 +58,7 @@ static inline void dmb_so3_tails(dmb_real x, int terms, dmb_real *s4, dmb_real *
     *s5 = v;
 }
 
-/* a2 = 1/6 - x s5, b = 1/2 - x s4, a = 1 - x a2, and db = (a-2b)/x, da2 = (b-3 a2)/x lose their division. */
+/* a2 = 1/6 - x s5, b = 1/2 - x s4, a = 1 - x a2; db = (a-2b)/x and da2 = (b-3 a2)/x become series without division. */
 static inline void dmb_so3_coefficients_series(dmb_real x, int terms, dmb_so3_coefficients *k)
 {
     dmb_real s4, s5;
@@ -71,7 +70,7 @@ static inline void dmb_so3_coefficients_series(dmb_real x, int terms, dmb_so3_co
     k->da2 = 3.0 * s5 - s4;
 }
 
-/* The coefficients at x = |O|^2; exact limits at x = 0. */
+/* Computes the coefficients at x = |O|^2; exact limits at x = 0. */
 static inline void dmb_so3_coefficients_at(dmb_real x, dmb_so3_coefficients *k)
 {
     dmb_so3_coefficients_series(x, 7, k);
@@ -112,7 +111,7 @@ static inline void dmb_so3_inverse_coefficients_series(dmb_real x, dmb_so3_inver
     k->e2 = w;
 }
 
-/* The coefficients of the inverse tangent at x = |O|^2; singular at t = 2 pi, where the inverse is. */
+/* Computes the coefficients of the inverse tangent at x = |O|^2; singular at t = 2 pi, as the inverse is. */
 static inline void dmb_so3_inverse_coefficients_at(dmb_real x, dmb_so3_inverse_coefficients *k)
 {
     dmb_so3_inverse_coefficients_series(x, k);
@@ -128,7 +127,7 @@ static inline void dmb_so3_inverse_coefficients_at(dmb_real x, dmb_so3_inverse_c
     }
 }
 
-/* The given coefficients, or those of O when there are none (NULL). */
+/* Returns the given coefficients, or those of O if k is NULL. */
 static inline dmb_so3_coefficients dmb_so3_coefficients_or(const dmb_real O[3], const dmb_so3_coefficients *k)
 {
     dmb_so3_coefficients own;
@@ -199,7 +198,7 @@ static inline void dmb_quat_mul(const dmb_real p[4], const dmb_real q[4], dmb_re
     dmb_vec3_set(x, y, z, out + 1);
 }
 
-/* out = p^-1 q for unit p: q seen from p */
+/* out = p^-1 q for unit p: q relative to p */
 static inline void dmb_quat_between(const dmb_real p[4], const dmb_real q[4], dmb_real out[4])
 {
     dmb_real c[4];
@@ -207,7 +206,7 @@ static inline void dmb_quat_between(const dmb_real p[4], const dmb_real q[4], dm
     dmb_quat_mul(c, q, out);
 }
 
-/* To unit length. Within 1e-8 of it one Newton step of 1/sqrt is exact: no root, no division. */
+/* Normalises q. Within 1e-8 of unit length one Newton step of 1/sqrt is exact: no root, no division. */
 static inline void dmb_quat_normalize(dmb_real q[4])
 {
     const dmb_real n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], d = n - 1.0;
@@ -219,8 +218,8 @@ static inline void dmb_quat_normalize(dmb_real q[4])
     for (int i = 0; i < 4; i++) q[i] *= s;
 }
 
-/* q = (cos(t/2), sin(t/2) O/t): with the coefficients at the half angle, cos = 1 - (x/4) b and sin(t/2)/t = a/2;
- * these are given back. */
+/* q = (cos(t/2), sin(t/2) O/t): with the coefficients at the half angle, cos = 1 - (x/4) b and sin(t/2)/t = a/2; these
+ * coefficients are returned. */
 static inline void dmb_quat_exp_half(const dmb_real O[3], dmb_so3_coefficients *half, dmb_real q[4])
 {
     const dmb_real y = 0.25 * dmb_vec3_norm_squared(O);
@@ -253,8 +252,8 @@ static inline dmb_real dmb_quat_log_factor(dmb_real q0, const dmb_real v[3])
     return f;
 }
 
-/* O = log q (eq:kinematics.log-rotation), |O| <= pi, from the branch q0 >= 0 of q and -q; the length of q does not
- * matter */
+/* O = log q (eq:kinematics.log-rotation), |O| <= pi, from the branch q0 >= 0 of q and -q; independent of the length of
+ * q */
 static inline void dmb_quat_log(const dmb_real q[4], dmb_real O[3])
 {
     const dmb_real f = dmb_quat_log_factor(dmb_real_abs(q[0]), q + 1);
@@ -275,7 +274,7 @@ DMB_REAL_INLINE void dmb_quat_to_matrix(const dmb_real q[4], dmb_real R[9])
 
 #ifndef DMB_LANES
 
-/* Row `pivot` of 4 q q^T, read off R: divided by its length it is q up to sign. */
+/* Row `pivot` of 4 q q^T, computed from R: divided by its length it is q up to sign. */
 static inline void dmb_quat_matrix_row(const double R[9], int pivot, double q[4])
 {
     const double wx = R[7] - R[5], wy = R[2] - R[6], wz = R[3] - R[1];
@@ -287,7 +286,7 @@ static inline void dmb_quat_matrix_row(const double R[9], int pivot, double q[4]
     dmb_quat_copy(row[pivot], q);
 }
 
-/* q of R, q0 >= 0. The largest of 4 q_i^2 is at least 1, so the division is always safe. */
+/* q of R, q0 >= 0. The largest of 4 q_i^2 is at least 1, so that the division is always safe. */
 static inline void dmb_quat_from_matrix(const double R[9], double q[4])
 {
     const double s[4] = {R[0] + R[4] + R[8], R[0] - R[4] - R[8], R[4] - R[0] - R[8], R[8] - R[0] - R[4]};
@@ -320,11 +319,11 @@ static inline void dmb_quat_rotate_inverse(const dmb_real q[4], const dmb_real v
     dmb_quat_rotate(c, v, out);
 }
 
-/* Rotation about the x axis in q = swing * twist: 2 atan2(qx, q0), on the turn nearest to the predicted angle.
- * Undefined where the swing is a half turn (qx = q0 = 0); the prediction is returned there. */
+/* Rotation about the x axis in q = swing * twist [rad]: 2 atan2(qx, q0), in the turn nearest to the predicted angle.
+ * Undefined if the swing is a half turn (qx = q0 = 0), in which case the prediction is returned. */
 static inline dmb_real dmb_quat_twist(const dmb_real q[4], dmb_real predicted)
 {
-    const double whole = 6755399441055744.0; /* 1.5 2^52: adding and taking it off rounds to an integer */
+    const double whole = 6755399441055744.0; /* 1.5 2^52: adding and subtracting it rounds to an integer */
     const dmb_real angle = 2.0 * dmb_real_atan2(q[1], q[0]);
     const dmb_real turns = ((predicted - angle) / DMB_TWO_PI + whole) - whole;
     const dmb_real twist = angle + DMB_TWO_PI * turns;
@@ -332,7 +331,7 @@ static inline dmb_real dmb_quat_twist(const dmb_real q[4], dmb_real predicted)
 }
 
 /* x <- R x for both vectors of x, R the same twist: its half angle has cosine q0/n and sine qx/n, n^2 = q0^2 + qx^2.
- * Undefined where the swing is a half turn; x stays as it is there. */
+ * Undefined if the swing is a half turn; x is then unchanged. */
 static inline void dmb_quat_twist_pair(const dmb_real q[4], dmb_real x[6])
 {
     const dmb_real n2 = q[0] * q[0] + q[1] * q[1];
@@ -347,11 +346,10 @@ static inline void dmb_quat_twist_pair(const dmb_real q[4], dmb_real x[6])
     }
 }
 
-/* Axes of a frame from two directions. */
-
-/* M, axes as columns, row-major, orthonormal to rounding: x along axis, y along normal less its part along x. normal =
- * 0 stands for y of the surrounding frame, or z where x is along that. False, with M unchanged, if the axis is zero or
- * the normal is along it within 1e-6 rad. All numbers finite. */
+/* Axes of a frame from two directions. M, axes as columns, row-major, orthonormal to rounding: x along axis, y along
+ * normal minus its component along x. For normal = 0 the normal is y of the surrounding frame, or z if x is along y.
+ * False, with M unchanged, if the axis is zero or the normal is parallel to it within 1e-6 rad. All numbers must be
+ * finite. */
 bool dmb_frame_axes(const double axis[3], const double normal[3], double M[9]);
 
 #endif

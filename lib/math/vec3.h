@@ -1,5 +1,5 @@
-/* Vectors of three and 3x3 matrices (row-major, 9 numbers).
- * Vector functions may write onto their inputs; matrix products need an output of their own. */
+/* Vectors of three and 3x3 matrices (row-major, 9 numbers). Vector functions may overwrite their inputs; matrix
+ * products require a separate output. */
 #ifndef DMB_MATH_VEC3_H
 #define DMB_MATH_VEC3_H
 
@@ -78,7 +78,7 @@ static inline void dmb_skew(const dmb_real a[3], dmb_real out[9])
     dmb_vec3_set(-a[1], a[0], zero, out + 6);
 }
 
-/* out = a~ b~ = b a^T - (a . b) I, the products that are 0 left out */
+/* out = a~ b~ = b a^T - (a . b) I, without the products that are 0 */
 static inline void dmb_skew_product(const dmb_real a[3], const dmb_real b[3], dmb_real out[9])
 {
     const dmb_real x = a[0] * b[0], y = a[1] * b[1], z = a[2] * b[2];

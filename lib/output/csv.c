@@ -1,5 +1,5 @@
-/* The recorder's table as comma-separated values: one header line, '.' as decimal mark whatever the locale, and digits
- * enough to read every number back. */
+/* The recorder's table as comma-separated values: one header line, '.' as decimal mark in every locale, and enough
+ * digits to reproduce every number exactly. */
 #include <math.h>
 #include <stddef.h>
 
@@ -49,7 +49,7 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
     dmb_text_put_short(file, place->fraction);
 }
 
-/* Of an unknown quantity all that its place says. */
+/* For an unknown quantity the whole place is written. */
 static void put_place(dmb_text_file *file, const dmb_output_entry *entry, const dmb_place *place)
 {
     const int32_t kind = entry != NULL ? entry->place : DMB_AT_PLACE;

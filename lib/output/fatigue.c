@@ -1,5 +1,5 @@
-/* Fatigue of places during a run: stress around the section (eq:fatigue.stress), counted by rainflow, summed by an S-N
- * curve (eq:fatigue.damage). */
+/* Fatigue of places during a run: stress around the section (eq:fatigue.stress), counted by rainflow, damage summed
+ * with an S-N curve (eq:fatigue.damage). */
 #include "output/fatigue.h"
 
 #include <math.h>
@@ -45,13 +45,13 @@ static int32_t check_options(dmb_sim *sim, const dmb_fatigue_options *options, u
     return check.status;
 }
 
-/* A pipe on the axis of a hole that bends: it is bent as it turns, which its section force does not tell. */
+/* 1 for an axial-torsional pipe in a curved hole: its rotating bending is not contained in its section force. */
 static int bends_unseen(const dmb_sim *sim, dmb_place place)
 {
     const dmb_scene *scene = sim->scene;
     dmb_material_point point;
     if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) return 0;
-    (void)dmb_material_point_of(sim, place, &point); /* of a place that has a section */
+    (void)dmb_material_point_of(sim, place, &point); /* the place has a section, which has been checked */
     return scene->layout.size[scene->element_node[point.element]] == DMB_NODE_PATH;
 }
 
@@ -75,7 +75,7 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
     return DMB_OK;
 }
 
-/* [byte] of all arrays behind the struct; of too many more than any block has. */
+/* [byte] Size of the block with all arrays; more than any block can have if the sum is too large. */
 static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
 {
     const double counters = (double)places * options->points;
@@ -99,7 +99,7 @@ static void take_section(const dmb_sim *sim, dmb_place place, dmb_fatigue_sectio
     out->modulus = dmb_ring_second_moment(diameters[0], diameters[1]) / (0.5 * diameters[0]);
 }
 
-/* Structs first, then doubles, then turning points, which are aligned as doubles are. */
+/* Structs first, then doubles, then turning points, which have the alignment of doubles. */
 static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *places)
 {
     const uint32_t points = fatigue->options.points, classes = fatigue->options.classes;
@@ -225,7 +225,7 @@ static int take_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double str
     return !(fabs(stress) <= fatigue->options.stress_range);
 }
 
-/* Stress of bending at the angle a from y to z: N/A + (M_y sin a - M_z cos a) r/I. */
+/* Bending stress at the angle a from y to z (eq:fatigue.stress): N/A + (M_y sin a - M_z cos a) r/I. */
 static void take_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_section *loads)
 {
     dmb_fatigue_section *at = &fatigue->sections[place];
@@ -238,7 +238,7 @@ static void take_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_
     at->clipped += (uint64_t)clipped;
 }
 
-/* All places are asked before the first is counted, so that a sim without one of them changes nothing. */
+/* Reads all places before any is counted, so that an error at one of them changes nothing. */
 static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
 {
     int32_t status = DMB_OK;
@@ -269,9 +269,9 @@ int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
     return DMB_OK;
 }
 
-/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
 
-/* A counter with what it has not counted yet; its histogram is not touched. */
+/* Returns a copy of a counter with its residual turning points counted; its histogram is unchanged. */
 static dmb_fatigue_counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
 {
     dmb_fatigue_counter found = fatigue->counters[(size_t)place * fatigue->options.points + point];
@@ -280,7 +280,8 @@ static dmb_fatigue_counter whole(const dmb_fatigue *fatigue, uint32_t place, uin
     return found;
 }
 
-/* [-] Damages that differ by no more are alike: those of two points of one circle differ by rounding. */
+/* [-] Damages whose relative difference is smaller count as equal: those of two points of one circle differ by
+ * rounding. */
 #define DMB_DAMAGES_ALIKE 1e-9
 
 static int is_worse(const dmb_fatigue_counter *a, const dmb_fatigue_counter *b)

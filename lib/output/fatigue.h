@@ -13,7 +13,7 @@ typedef struct dmb_fatigue_counter {
     double damage, count;
     double lowest, highest; /* [Pa] */
     double range;           /* [Pa] the largest */
-    uint32_t largest;       /* [-] that in levels, by which points compare */
+    uint32_t largest;       /* [-] the largest range in levels, used to compare points of equal damage */
     uint32_t reserved;
 } dmb_fatigue_counter;
 
@@ -27,7 +27,7 @@ typedef struct dmb_fatigue_section {
 struct dmb_fatigue {
     uint32_t magic;
     uint32_t place_count;
-    size_t bytes; /* of this block, all else in it */
+    size_t bytes; /* of this block, which includes all arrays */
     dmb_allocator allocator;
     dmb_fatigue_options options;
     dmb_fatigue_section *sections; /* shape (place_count) */

@@ -1,4 +1,4 @@
-/* The counts of a dmb_fatigue as bytes, with which another one of the same options and places counts on. */
+/* The counts of a dmb_fatigue as bytes, from which another one with the same options and places can continue. */
 #include "output/fatigue.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@
 
 #define MARK UINT64_C(0x31657567697461) /* "atigue1" */
 
-/* Followed by the clipped samples of each place, the counters without their pointers, and the arrays of these. */
+/* Header of the snapshot. The clipped samples of each place, the counters without their pointers, and the arrays of the
+ * counters follow. */
 typedef struct head {
     uint64_t mark;
     dmb_fatigue_options options;
@@ -95,8 +96,8 @@ static dmb_turn turn_at(const unsigned char *turns, uint32_t i)
     return turn;
 }
 
-/* Turning points alternate, and the ranges of all but the last one shrink: of `classes` levels at most classes + 1 fit,
- * and one more sample finds room. */
+/* Checks the turning points: they alternate, and all ranges except the last decrease. Of `classes` levels at most
+ * classes + 1 are then possible, which leaves space for one more sample. */
 static int are_turns(const unsigned char *turns, uint32_t count, uint32_t classes)
 {
     if (count > classes + 2) return 0;
@@ -120,7 +121,7 @@ static int is_counter(const dmb_fatigue_counter *counter, uint32_t classes)
            !isnan(counter->highest) && counter->largest < classes;
 }
 
-/* The counters and their arrays, all of which is somebody's bytes. */
+/* Checks the counters and their arrays, because the bytes come from outside. */
 static int are_counters(const dmb_fatigue *fatigue, const unsigned char *counters)
 {
     const uint32_t classes = fatigue->options.classes;

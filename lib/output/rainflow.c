@@ -1,6 +1,6 @@
 /* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). Turning points
- * whose ranges shrink are not counted yet: of levels 0 .. n - 1 at most n + 2. Cycles are told with the values of their
- * turning points, not with the middles of levels. */
+ * with decreasing ranges are not counted yet: for levels 0 .. n - 1 at most n + 2. Cycles are reported with the values
+ * of their turning points, not with the centres of levels. */
 #include "output/output.h"
 
 #include <math.h>
@@ -15,14 +15,14 @@ static void tell(dmb_rainflow_fn count, void *context, const dmb_turn *a, const 
     count(context, a->level < b->level ? a : b, a->level < b->level ? b : a, weight);
 }
 
-/* The last level goes on in the direction of the one before it: it takes its place. */
+/* 1 if the level continues in the direction of the last two turning points: it then replaces the last one. */
 static int goes_on(const dmb_rainflow *flow, uint32_t level)
 {
     const dmb_turn *last = flow->turns + flow->count - 1;
     return flow->count > 1 && (last[0].level > last[-1].level) == (level > last[0].level);
 }
 
-/* Within the level of the last turn it may lie farther out; the start has no direction yet. */
+/* Updates the extreme value of the last turning point within its level; the first one has no direction yet. */
 static void stay(dmb_rainflow *flow, double value)
 {
     dmb_turn *last = flow->turns + flow->count - 1;
@@ -30,8 +30,9 @@ static void stay(dmb_rainflow *flow, double value)
     last->value = last[0].level > last[-1].level ? fmax(last->value, value) : fmin(last->value, value);
 }
 
-/* X the range of the last two turns, Y that of the two before: Y is counted where X >= Y; as a cycle, and its turns go,
- * or as half a one with the start of all, which goes (eq:fatigue.rainflow). */
+/* X is the range of the last two turning points, Y that of the two before. If X >= Y, Y is counted: as a cycle, and its
+ * turning points are removed; or as a half cycle if it contains the first turning point, which is removed
+ * (eq:fatigue.rainflow). */
 static void reduce(dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
 {
     while (flow->count >= 3) {
@@ -50,7 +51,8 @@ static void reduce(dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
     }
 }
 
-/* A turn is one only once the next level turns back: the last one is not counted against those before until then. */
+/* A turning point is final only when the next level reverses the direction. Until then the last one is not counted
+ * against the earlier ones. */
 void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, double value, dmb_rainflow_fn count, void *context)
 {
     const dmb_turn turn = {value, level, 0};
@@ -71,8 +73,8 @@ static void visit_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *co
     for (uint32_t i = 1; i < flow->count; i++) tell(count, context, flow->turns + i - 1, flow->turns + i, 0.5);
 }
 
-/* The last turn counts as one: cycles that it closes are whole ones. They are at the end of the list and are passed
- * over, together with their turns, without writing. */
+/* The last level is treated as a turning point: cycles that it closes are full cycles. They are at the end of the list
+ * and are skipped, together with their turning points, without writing to it. */
 void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
 {
     uint32_t n = flow->count, first = 0;
@@ -81,7 +83,7 @@ void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *co
         return;
     }
     const dmb_turn *last = flow->turns + n - 1;
-    n--; /* turns before the last one */
+    n--; /* turning points before the last one */
     while (n - first >= 2 && range(last, flow->turns + n - 1) >= range(flow->turns + n - 1, flow->turns + n - 2)) {
         const int whole = n - first > 2;
         tell(count, context, flow->turns + n - 2, flow->turns + n - 1, whole ? 1.0 : 0.5);

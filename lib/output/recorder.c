@@ -1,4 +1,4 @@
-/* A recorder as the caller filled it, checked. */
+/* Copy of the caller's recorder, checked. */
 #include <math.h>
 
 #include "base/sized_struct.h"
@@ -12,7 +12,8 @@ DMB_DECLARE_STRUCT(dmb_recorder)
 
 enum { DMB_OUTPUTS_MAX = 4096 };
 
-/* A sample that falls short of its time by this part of an interval has reached it: sums of steps round. */
+/* A sample that is earlier than its time by less than this fraction of an interval is due: sums of step lengths have
+ * rounding errors. */
 #define DMB_SAMPLE_SLACK 1e-6
 
 int dmb_table_fits(uint64_t row_count, uint64_t capacity, uint64_t width)
@@ -78,7 +79,7 @@ static int32_t value_of(const dmb_recorder *r, const dmb_sim *sim, const dmb_out
     return dmb_output_value(sim, output, value);
 }
 
-/* The row counts only once it is whole. */
+/* The row is counted only when it is complete. */
 static int32_t take(dmb_recorder *recorder, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);
@@ -116,7 +117,7 @@ int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim)
 DMB_DEFINE_INIT(dmb_profile_recorder, 48, {.row_count = 0})
 DMB_DECLARE_STRUCT(dmb_profile)
 
-/* As of dmb_query_profile. */
+/* Bound of dmb_query_profile. */
 enum { STATIONS_MAX = 1 << 24 };
 
 static uint64_t width_of(const dmb_profile *profile)
@@ -124,7 +125,7 @@ static uint64_t width_of(const dmb_profile *profile)
     return 1 + (uint64_t)profile->station_count * profile->quantity_count;
 }
 
-/* Copies of both structs, as far as they can be checked without a sim. */
+/* Copies both structs and checks them as far as possible without a sim. */
 static int32_t take_structs(const dmb_profile_recorder *given, dmb_profile_recorder *r, dmb_profile *profile,
                             dmb_message *why)
 {
@@ -144,7 +145,7 @@ static int32_t take_structs(const dmb_profile_recorder *given, dmb_profile_recor
     return check.status;
 }
 
-/* The row counts only once it is whole. */
+/* The row is counted only when it is complete. */
 static int32_t take_profile(dmb_profile_recorder *recorder, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);

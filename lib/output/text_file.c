@@ -22,12 +22,14 @@
 
 #if DMB_WITH_FILES
 #if DMB_POSIX
-enum { TRIES = 100 }; /* names of files beside that may be taken, by runs that were killed or are under way */
+enum {
+    TRIES = 100
+}; /* names tried for the temporary file: others may belong to runs that were killed or are in progress */
 
-/* Of a name so many bytes stand in that of the file beside it: names end at 255. */
+/* [byte] Part of a file name that the name of the temporary file contains: names are limited to 255. */
 enum { NAME_MAX_BESIDE = 200 };
 
-/* Place of the ending of the file beside. */
+/* Position of the suffix of the temporary file's name. */
 static size_t stem_of(const char *path, size_t length)
 {
     const char *slash = strrchr(path, '/');
@@ -35,7 +37,7 @@ static size_t stem_of(const char *path, size_t length)
     return length - folder > NAME_MAX_BESIDE ? folder + NAME_MAX_BESIDE : length;
 }
 
-/* A file that is there keeps its links and its mode. */
+/* Opens a temporary file in the folder of the target. An existing file keeps its links and its mode. */
 static int32_t open_beside(dmb_text_file *file, const char *path)
 {
     char resolved[PATH_MAX];
@@ -53,7 +55,7 @@ static int32_t open_beside(dmb_text_file *file, const char *path)
     for (uint32_t i = 0; i < TRIES && file->stream == NULL; i++) {
         memcpy(file->part + stem, ".part", 6);
         (void)dmb_number_from_u64(file->part + stem + 5, i);
-        file->stream = fopen(file->part, "wbx"); /* never one that is there */
+        file->stream = fopen(file->part, "wbx"); /* never an existing file */
     }
     if (file->stream == NULL) return DMB_ERR_IO;
     if (exists && fchmod(fileno(file->stream), old.st_mode & 0xFFF) != 0) file->failed = 1;
@@ -76,7 +78,7 @@ int32_t dmb_text_open(dmb_text_file *file, const char *path)
 int32_t dmb_text_close(dmb_text_file *file)
 {
     int failed = file->failed | ferror(file->stream);
-    if (fclose(file->stream) != 0) failed = 1; /* what was buffered may only now meet a full disk */
+    if (fclose(file->stream) != 0) failed = 1; /* buffered data may reach a full disk only now */
     file->stream = NULL;
     if (file->beside && !failed && rename(file->part, file->path) != 0) failed = 1;
     if (file->beside && failed) (void)remove(file->part);
@@ -141,7 +143,7 @@ void dmb_text_put_count(dmb_text_file *file, uint64_t value)
 
 /* ---- Base 64 ----------------------------------------------------------------------------------------------------- */
 
-/* `count` of three bytes as four digits, '=' for what is missing */
+/* Writes `count` of three bytes as four digits, '=' for missing ones */
 static void put_group(dmb_text_file *file, uint32_t bytes, uint32_t count)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

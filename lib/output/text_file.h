@@ -1,6 +1,6 @@
-/* Writing text to a file, numbers alike in every locale. A failure is kept until the file is closed. Text goes
- * to a file beside the one asked for, which takes its place when all of it is there: a write that fails leaves the old
- * file, and no other. Devices and pipes are written to directly. */
+/* Writing text to a file; numbers are independent of the locale. A failure is stored until the file is closed. Text is
+ * written to a temporary file in the same folder, which replaces the target when it is complete: a write that fails
+ * leaves the old file and no other. Devices and pipes are written to directly. */
 #ifndef DMB_OUTPUT_TEXT_FILE_H
 #define DMB_OUTPUT_TEXT_FILE_H
 
@@ -14,7 +14,7 @@
 
 typedef FILE dmb_stream;
 #else
-typedef void dmb_stream; /* nothing opens */
+typedef void dmb_stream; /* no file can be opened */
 #endif
 
 enum { DMB_PATH_MAX = 4096 };
@@ -22,11 +22,11 @@ enum { DMB_PATH_MAX = 4096 };
 typedef struct dmb_text_file {
     dmb_stream *stream;
     int failed;
-    int beside;                      /* 1: `part` is written and takes the place of `path`; 0: it is written itself */
-    int looking;                     /* 1: numbers are looked at only, output/vtk */
-    int strange;                     /* 1: one of them was not finite */
-    int base64;                      /* 1: numbers go out as words in base 64 */
-    uint32_t waiting, waiting_count; /* bytes of a group of three */
+    int beside;                      /* 1: `part` is written and then replaces `path`; 0: `path` is written directly */
+    int looking;                     /* 1: numbers are only inspected, see output/vtk */
+    int strange;                     /* 1: a number was not finite */
+    int base64;                      /* 1: numbers are written as words in base 64 */
+    uint32_t waiting, waiting_count; /* bytes of an incomplete group of three */
     char path[DMB_PATH_MAX], part[DMB_PATH_MAX + 16];
 } dmb_text_file;
 
@@ -34,17 +34,17 @@ typedef struct dmb_text_file {
  * closed. */
 int32_t dmb_text_open(dmb_text_file *file, const char *path);
 void dmb_text_put(dmb_text_file *file, const char *text);
-void dmb_text_put_number(dmb_text_file *file, double value); /* 17 digits: reads back the same */
+void dmb_text_put_number(dmb_text_file *file, double value); /* 17 digits: exact when read back */
 void dmb_text_put_short(dmb_text_file *file, double value);  /* 6 digits */
 void dmb_text_put_count(dmb_text_file *file, uint64_t value);
-/* 64-bit words in base 64, least byte first, between begin and end (RFC 4648). */
+/* 64-bit words in base 64, least significant byte first, between begin and end (RFC 4648). */
 void dmb_text_begin_base64(dmb_text_file *file);
 void dmb_text_put_word(dmb_text_file *file, uint64_t word);
 void dmb_text_end_base64(dmb_text_file *file);
 /* Ends a public call that writes the file: a failure is the thread's last error, `why` its message unless that is empty
  * (NULL: empty). Returns status. */
 int32_t dmb_file_told(const char *call, const char *path, int32_t status, const dmb_message *why);
-/* DMB_OK if everything has reached the file, else DMB_ERR_IO. */
+/* DMB_OK if all data have reached the file, else DMB_ERR_IO. */
 int32_t dmb_text_close(dmb_text_file *file);
 
 #endif

@@ -98,7 +98,7 @@ void dmb_vtk_begin_looked(dmb_text_file *file, const char *name, uint32_t compon
     begin_array(file, "Float64", name, components, file->strange ? "binary" : "ascii");
     if (!file->strange) return;
     dmb_text_begin_base64(file);
-    dmb_text_put_word(file, tuples * components * sizeof(double)); /* in header_type, one stream with the numbers */
+    dmb_text_put_word(file, tuples * components * sizeof(double)); /* in header_type, in one stream with the numbers */
 }
 
 void dmb_vtk_end_looked(dmb_text_file *file)
@@ -163,7 +163,7 @@ static dmb_id string_id(const dmb_sim *sim, uint32_t string)
     return id;
 }
 
-/* Every point in order: each pipe without its last one, then the string's end. */
+/* Calls `put` for every point in order: each pipe without its last point, then the end of the string. */
 static void walk_string(dmb_text_file *file, const dmb_sim *sim, uint32_t string, const dmb_vtk_picture *picture,
                         dmb_vtk_station_fn *put)
 {
@@ -214,7 +214,7 @@ static void put_index(dmb_text_file *file, uint64_t index)
     dmb_text_put(file, "\n");
 }
 
-/* One poly-line a string, through its points in order. */
+/* One poly-line per string, through its points in order. */
 static void put_lines(dmb_text_file *file, const dmb_sim *sim, uint32_t per_element, uint64_t points)
 {
     uint64_t end = 0;

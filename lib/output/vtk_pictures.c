@@ -81,7 +81,7 @@ static uint32_t elements_of(const dmb_pipe_map *pipe)
     return pipe->elements > 0 ? pipe->elements : 1;
 }
 
-/* Straight between the sites at the two ends of an element. */
+/* Normal force, linear between the contact points at the two ends of an element. */
 static void put_normal_force(dmb_text_file *file, const void *context, const dmb_vtk_station *at)
 {
     const dmb_sim *sim = context;
@@ -132,14 +132,14 @@ typedef struct tube {
     uint32_t reserved;
 } tube;
 
-/* The last ring ends at depth1 whatever the spacing. */
+/* The last ring is at depth1 for any spacing. */
 static double ring_depth(const tube *t, double spacing, uint64_t ring)
 {
     return ring + 1 == t->rings ? t->depth1 : t->depth0 + (double)ring * spacing;
 }
 
-/* Carries the direction y to the next ring without turning it about the axis, so that the quads do not twist; where the
- * axis turned too far, the hole's own frame. */
+/* Transports the direction y to the next ring without rotation about the axis, so that the quads do not twist. If the
+ * axis has turned too far, y of the hole's own frame is used. */
 static void transfer_direction(const dmb_hole *hole, double depth, const double t[3], double y[3])
 {
     double R[9], length;

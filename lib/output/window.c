@@ -1,7 +1,7 @@
-/* Least, greatest and mean of outputs over a moving window. Time since the first sample is divided into slots of
- * length/slots; a slot that the window has left is written anew, so memory does not grow. Between samples a output is
- * a straight line: over an interval h from a to b the integral is h (a + b)/2, and of its square h (a a + a b + b b)/3.
- * An interval belongs to the slot that its end is in. */
+/* Minimum, maximum and mean of outputs over a moving window. Time since the first sample is divided into slots of
+ * length/slots. Slots that have left the window are reused, so that memory does not grow. Between samples an output is
+ * linear: over an interval h from a to b the integral is h (a + b)/2, and that of its square h (a a + a b + b b)/3. An
+ * interval belongs to the slot of its end. */
 #include "output/output.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ DMB_DEFINE_INIT(dmb_window_options, 24, {.slots = 100})
 DMB_DEFINE_INIT(dmb_window_result, 72, {.samples = 0})
 
 enum { OUTPUTS_MAX = 4096, SLOTS_MIN = 2, SLOTS_MAX = 65536 };
-/* More slots since the first sample than this are not counted in whole numbers. */
+/* Upper bound of slot numbers since the first sample; larger ones are not exact integers. */
 #define SLOT_NUMBER_MAX 9e15
 
 /* One output in one slot. */
@@ -30,7 +30,7 @@ typedef struct slot_sum {
 } slot_sum;
 
 typedef struct slot {
-    double number; /* since the first sample; -1: empty */
+    double number; /* number since the first sample; -1: empty */
     uint64_t samples;
     double time; /* [s] */
 } slot;
@@ -39,16 +39,16 @@ typedef struct watched {
     dmb_output output;
     double level;
     double last; /* value of the last sample */
-    double next; /* of the one that is being taken */
+    double next; /* value of the sample that is being recorded */
 } watched;
 
 struct dmb_window {
     uint32_t magic;
     uint32_t output_count;
-    size_t bytes; /* of this block, all else in it */
+    size_t bytes; /* of this block, which includes all arrays */
     dmb_allocator allocator;
-    uint32_t slot_count; /* 1 without a length */
-    int32_t taken;       /* 1: there is a sample */
+    uint32_t slot_count; /* 1 if there is no length */
+    int32_t taken;       /* 1: at least one sample has been recorded */
     double length;       /* [s] */
     double first, last;  /* [s] times of samples */
     watched *outputs;    /* shape (output_count) */
@@ -152,7 +152,7 @@ int32_t dmb_window_reset(dmb_window *window)
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
-/* Number of the slot that a time is in. */
+/* Number of the slot that contains a time. */
 static double slot_number(const dmb_window *w, double time)
 {
     if (!(w->length > 0.0)) return 0.0;
@@ -181,7 +181,7 @@ static void add_sample(watched *c, double step, int is_first, slot_sum *sum)
     if (fabs(b) <= c->level) sum->low += step;
 }
 
-/* All outputs are asked before the first is counted, so that a sim without one of them changes nothing. */
+/* Reads all outputs before any is recorded, so that an error in one of them changes nothing. */
 static int32_t ask_all(dmb_window *w, const dmb_sim *sim, dmb_message *why)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
@@ -235,7 +235,7 @@ int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
     return status < 0 ? dmb_sim_fail(sim, status, "window", why.text) : status;
 }
 
-/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
 
 static void set_means(const slot_sum *total, double last, dmb_window_result *r)
 {

@@ -1,5 +1,5 @@
-/* The wall at the accepted state: contact, the hole at a depth, places that can be stuck. Sites are counted FULL ones
- * first (strings, then bodies), then those of PATH nodes. */
+/* The wall at the accepted state: contact, the hole at a depth, places that can be stuck. Contact points are numbered
+ * with those of FULL nodes first (strings, then bodies), then those of PATH nodes. */
 #include <math.h>
 #include <string.h>
 
@@ -90,13 +90,11 @@ int32_t dmb_answer_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
     return dmb_contact_total_write(sum, &answer);
 }
 
-/* The hole's axis at a measured depth. */
-
 /* ---- The hole ---------------------------------------------------------------------------------------------------- */
 
 DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED, .section = -1})
 
-#define VERTICAL 1e-9 /* [-] no azimuth within this of the vertical */
+#define VERTICAL 1e-9 /* [-] closer to the vertical the azimuth is undefined */
 
 static int32_t hole_of(const dmb_model *model, const dmb_hole **hole)
 {
@@ -108,7 +106,7 @@ static int32_t hole_of(const dmb_model *model, const dmb_hole **hole)
     return DMB_OK;
 }
 
-/* As described: a survey without a bend is a straight hole inside. */
+/* Range of the description: a survey without a bend is stored as a straight hole. */
 static int32_t beyond(const dmb_wall_def *wall, double depth)
 {
     if (wall->survey_count == 0) return DMB_HOLE_SURVEYED;
@@ -124,7 +122,7 @@ static void direction(dmb_hole_point *point)
     point->azimuth = across > VERTICAL ? atan2(0.0 - t[1], t[0]) : 0.0;
 }
 
-/* Last section that begins at or above the depth; DMB_NONE: none. */
+/* Last section that begins at or above the depth; DMB_NONE if there is none. */
 static uint32_t section_at(const dmb_model *model, double depth)
 {
     uint32_t low = 0, high = model->sections.count;
@@ -142,7 +140,7 @@ static void take_wall(const dmb_model *model, const dmb_hole *hole, double depth
 {
     const dmb_wall_def *wall = &model->wall;
     const uint32_t section = section_at(model, depth);
-    double v[DMB_WALL_COUNT] = {0.0, /* told as it is now */
+    double v[DMB_WALL_COUNT] = {0.0, /* the radius is set below, from the present state of the hole */
                                 wall->stiffness,
                                 wall->restitution,
                                 wall->damping,
@@ -195,8 +193,6 @@ int32_t dmb_answer_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *po
     if (status < 0) return status;
     return sim->scene->has_hole ? tell_hole(sim->model, &sim->scene->hole, depth, point) : DMB_ERR_UNSUPPORTED;
 }
-
-/* Places that can be stuck. */
 
 /* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
 

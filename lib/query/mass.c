@@ -1,5 +1,5 @@
-/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts,
- * each from the description, as the compile step added them. */
+/* Contributions to the rigid mass of a node. The rigid_mass of a node is the sum of all parts fixed to it. Each
+ * contribution is computed from the description, as the compile step added it. */
 #include "query/query.h"
 
 #include <float.h>
@@ -39,7 +39,8 @@ static void begin(dmb_rigid_mass *share, uint32_t node)
     share->node = node;
 }
 
-/* A solid of revolution with its centre at x [m] along the node's axis, and beside it by the pipe's offset. */
+/* Adds a solid of revolution with its centre at x [m] along the node's axis, displaced laterally by the pipe's offset.
+ */
 static void add_part(dmb_rigid_mass *share, const dmb_rigid_part *part, double x, const dmb_described_pipe *pipe)
 {
     const double centre[3] = {x, 0.0, 0.0};
@@ -56,7 +57,8 @@ void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share)
     add_part(share, &part, pipe->map->start + 0.5 * dmb_pipe_body_length(pipe->def), pipe);
 }
 
-/* The joint ends where the pipe does; behind a flexible pipe the node may stand further on, in rigid pipes. */
+/* The tool joint ends at the end of the pipe. After a flexible pipe the node may be further along, within rigid pipes.
+ */
 void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share)
 {
     const dmb_pipe_map *map = pipe->map;
@@ -81,7 +83,7 @@ double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pi
     dmb_rigid_part part;
     begin(share, scene->element_node[last] + 1);
     dmb_joint_of(pipe->def, &part);
-    part.inertia[1] -= part.mass * joint * joint / 12.0; /* of slices about their own middles */
+    part.inertia[1] -= part.mass * joint * joint / 12.0; /* inertia of the slices about their own centres */
     part.mass *= fraction;
     part.inertia[0] *= fraction;
     part.inertia[1] = part.inertia[1] * fraction + part.mass * length * length / 12.0;
@@ -98,16 +100,16 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
                          pipe->offset);
 }
 
-/* A bit's reference point is the string's end; its centre is half its length beyond. */
+/* The reference point of a bit is the end of the string; its centre is half its length beyond. */
 static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
 {
     dmb_rigid_part part;
-    if (!dmb_id_is_none(def->stabiliser)) return; /* it is the ring's */
+    if (!dmb_id_is_none(def->stabiliser)) return; /* the mass is that of the stabiliser */
     dmb_bit_body_of(def, &part);
     add_part(share, &part, arm + 0.5 * def->length, NULL);
 }
 
-/* [m] outer diameter of the pipe or tool joint that a ring sits on. */
+/* [m] outer diameter of the pipe or tool joint that carries a ring. */
 static double diameter_under(const dmb_model *model, const dmb_stabiliser_def *def)
 {
     const uint32_t named = dmb_model_part_index(model, def->string, DMB_PART_STRING);
@@ -146,7 +148,7 @@ void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
     dmb_rigid_mass_add(share, def->mass, centre, def->inertia);
 }
 
-/* Mud that goes along with rings, bodies and bits, and with rigid pipes, by their descriptions. */
+/* Added mass of mud on rings, bodies and bits, and on rigid pipes, from their descriptions. */
 static double body_mud_energy(const dmb_sim *sim, uint32_t body)
 {
     const dmb_model *model = sim->model;
@@ -177,7 +179,7 @@ static double rigid_pipe_mud_energy(const dmb_sim *sim, const dmb_described_pipe
     return dmb_added_mass_kinetic_energy(sim->scene, &sim->now, &part);
 }
 
-/* On the hole's axis only mass and the inertia about it are felt. */
+/* On a PATH node only the mass and the inertia about the hole's axis contribute. */
 double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 {
     const double *v = sim->now.velocity + sim->scene->layout.row[share->node];
@@ -193,16 +195,16 @@ int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, i
     const dmb_body_def *bodies = model->bodies.items;
     const dmb_bit_def *bits = model->bits.items;
     const int is_bit = body >= model->bodies.count;
-    if (body >= model->bodies.count + model->bits.count) return 0; /* a ring */
+    if (body >= model->bodies.count + model->bits.count) return 0; /* a contact ring */
     if (is_bit && !dmb_id_is_none(bits[body - model->bodies.count].stabiliser)) return 0;
     const dmb_id id = is_bit ? bits[body - model->bodies.count].string : bodies[body].string;
     const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
     return (is_bit ? DMB_ATTACH_END : bodies[body].attach) == attach && (named == DMB_NONE ? 0 : named) == string;
 }
 
-/* The energy ledger. The powers in it are those of forces on the bodies; the forces of inertia and potential do the
- * negative of what the energies gain, exactly in continuous time. The part that is missing in discrete time, the time
- * integration has taken out (scheme). */
+/* The energy ledger. Its powers are those of the forces on the bodies. The powers of inertia forces and potential
+ * forces are minus the rates of the energies, exactly in continuous time. The difference in discrete time is numerical
+ * dissipation of the time integration (scheme). */
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
 
@@ -218,8 +220,8 @@ static void energies_now(const dmb_sim *sim, dmb_energy *e)
     e->contact = dmb_contact_energy(sim->scene, &sim->now);
 }
 
-/* [J] what the error is measured by: the largest of the energies supplied, spent, exchanged with gravity, and present
- * at the start and now. */
+/* [J] reference of the relative error: the largest of the energies supplied, dissipated, exchanged with gravity, and
+ * present at the start and now. */
 static double scale_of(const dmb_ledger *ledger, const dmb_energy *e)
 {
     const double spent = fabs(e->friction) + fabs(e->impact) + fabs(e->damping) + fabs(e->rock);
@@ -227,15 +229,15 @@ static double scale_of(const dmb_ledger *ledger, const dmb_energy *e)
     return fmax(fmax(e->input, spent), fmax(fabs(e->gravity), present));
 }
 
-/* [-] a breath of energy is no infinity */
+/* [-] bounded by DBL_MAX, because a very small scale must not give infinity */
 static double share_of(double part, double scale)
 {
     return scale > 0.0 ? fmin(fabs(part) / scale, DBL_MAX) : 0.0;
 }
 
-/* balance = what went in less what was spent and what is stored; 0 in continuous time.
+/* balance = energy supplied - energy dissipated - energy stored; 0 in continuous time.
  *   scheme = -(work of inertia + work of potential) - (E - E_start)
- *   unexplained = balance - scheme = sum of all works: the residual's own, from iterations that stopped early */
+ *   unexplained = balance - scheme = sum of all works: the work of the residual, from iterations that stopped early */
 static void balance(const dmb_ledger *ledger, dmb_energy *e)
 {
     const double *work = ledger->work;
@@ -267,8 +269,8 @@ int32_t dmb_answer_energy(const dmb_sim *sim, dmb_energy *energy)
     return dmb_energy_write(energy, &answer);
 }
 
-/* Kinetic energy part by part: a pipe's own, eccentricity included, and half of what is fixed to its two ends: its tool
- * joint, that of the pipe before it, and the bodies and bits at the ends of the string. */
+/* Kinetic energy by part: that of the pipe itself, eccentricity included, and half of that of parts fixed to its two
+ * ends: its tool joint, the tool joint of the previous pipe, and the bodies and bits at the ends of the string. */
 
 static double elastic_body(const dmb_sim *sim, const dmb_described_pipe *pipe)
 {
@@ -307,7 +309,8 @@ static double body_energy(const dmb_sim *sim, uint32_t body)
     return dmb_share_kinetic_energy(sim, &share) + body_mud_energy(sim, body);
 }
 
-/* Bodies and bits fixed to one end of a string; an id that names nothing is the first string. */
+/* Kinetic energy of bodies and bits fixed to one end of a string; an id that names nothing stands for the first string.
+ */
 static double end_bodies(const dmb_sim *sim, uint32_t string, int32_t attach)
 {
     const dmb_model *model = sim->model;

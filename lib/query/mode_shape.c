@@ -1,5 +1,5 @@
-/* Shapes of modes: a mode's shape is a motion of the nodes, so that a sim that seems to move like it answers the
- * questions of any motion. */
+/* Mode shapes. A mode shape is a motion of the nodes; therefore a copy of the sim with this motion is queried like any
+ * other motion. */
 #include <string.h>
 
 #include "analysis/modes/modes.h"
@@ -28,7 +28,7 @@ static int32_t check_index(const dmb_modes *modes, uint32_t index, const void *a
     return index < modes->count ? DMB_OK : DMB_ERR_VALUE;
 }
 
-/* The state, moving as the real (part 0) or imaginary (part 1) part of a mode. */
+/* Copy of the state with the real (part 0) or imaginary (part 1) part of a mode as velocity. */
 static dmb_sim moving(const dmb_modes *modes, uint32_t index, int part)
 {
     dmb_sim view = *modes->state;
@@ -50,7 +50,7 @@ int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info)
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
 
-/* Adds that of stretch, of twist, of bending with shear. */
+/* Adds the strain energy of axial strain, of torsion, and of bending with shear. */
 static void add_strain_parts(const dmb_sim *view, uint32_t first, uint32_t count, double sum[3])
 {
     for (uint32_t e = first; e < first + count; e++) {
@@ -69,7 +69,7 @@ static double strain_energy(const dmb_sim *view, uint32_t first, uint32_t count)
     return parts[0] + parts[1] + parts[2];
 }
 
-/* Parts of their sum, 0 where that is 0. */
+/* Fractions of the sum; 0 if the sum is 0. */
 static void take_shares(const double parts[3], double share[3])
 {
     const double all = parts[0] + parts[1] + parts[2];

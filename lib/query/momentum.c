@@ -1,6 +1,6 @@
-/* Momentum of the whole scene: the sum over the nodes of Ad^-T p, p = M v with the consistent mass, which is what the
- * equations conserve exactly. The centre of mass follows from the same mass matrix: half of an element at each end and
- * the first moments +-rho A L^2/12 of its cubic shapes. */
+/* Momentum of the whole scene: the sum over the nodes of Ad^-T p, p = M v with the consistent mass, which the equations
+ * conserve exactly. The centre of mass follows from the same mass matrix: half of an element at each end and the first
+ * moments +-rho A L^2/12 of its cubic shapes. */
 #include "query/query.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@
 
 DMB_DECLARE_STRUCT(dmb_momentum)
 
-/* A frame that carries mass: pose, world frame, and where its node's rows end. */
+/* A frame with mass: its pose in the world frame and its velocity. */
 typedef struct carrier {
     double rotation[9];
     double position[3];
@@ -39,7 +39,7 @@ static void carrier_of(const dmb_scene *scene, const dmb_configuration *c, uint3
     dmb_arm_velocity(arm, out->velocity);
 }
 
-/* A bar or a mass on the hole's axis feels its two rows alone. */
+/* Axial-torsional elements and masses on the hole's axis contribute in their two rows only. */
 static void keep_rows(double v[6])
 {
     v[1] = v[2] = v[4] = v[5] = 0.0;
@@ -57,7 +57,7 @@ static void add_momentum(const carrier *at, const double p[6], dmb_momentum *sum
     dmb_vec3_add(sum->angular, moment, sum->angular);
 }
 
-/* Adds a mass and its first moment in the carrier's frame; centre holds sum m x until the end. */
+/* Adds a mass and its first moment in the carrier's frame; `centre` is the sum of m x until the end. */
 static void add_mass(const carrier *at, double mass, const double moment[3], dmb_momentum *sum)
 {
     double b[3];
@@ -67,7 +67,7 @@ static void add_mass(const carrier *at, double mass, const double moment[3], dmb
     dmb_vec3_add(sum->centre, b, sum->centre);
 }
 
-/* The element's first moment: +-rho A L^2/12 at its ends, of a bent one where its centre is. */
+/* First moment of the element: +-rho A L^2/12 at its ends; of a curved element at its actual centre. */
 static void add_element_mass(const dmb_element_type *type, const double d[6], const carrier *A, const carrier *B,
                              dmb_momentum *sum)
 {
@@ -119,7 +119,7 @@ static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, c
     add_mass(&at, rigid_mass->mass, rigid_mass->moment, sum);
 }
 
-/* Mud has no part in mass and centre. */
+/* Added mass of mud contributes to momentum, not to mass and centre. */
 static void add_added_mass(const dmb_scene *scene, const dmb_configuration *c, const dmb_added_mass *added,
                            dmb_momentum *sum)
 {

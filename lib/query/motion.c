@@ -1,4 +1,4 @@
-/* Pose, unwrapped rotation and motion: of sections inside elements, of places, of points off them. */
+/* Pose, unwrapped rotation and motion: of sections inside elements, of places, of points offset from them. */
 #include "query/query.h"
 
 #include <math.h>
@@ -12,15 +12,16 @@
 
 /* ---- Between nodes ----------------------------------------------------------------------------------------------- */
 
-/* The pose of a section inside an element, seen from the element's end A:
+/* Pose of a section inside an element, relative to the element's end A:
  *
  *     H(x) = exp(x d) exp(c(x) d),   x = 0 at A .. 1 at B,   d = log(H_A^-1 H_B)
  *
- * exp(x d) is the element's own helix, exact for any uniform strain (Sonneville, Cardona, Bruls 2014). It spreads the
- * sideways part of d evenly; c puts it onto the S of the Timoshenko cubic shapes N3, G3 (eq:beam.section-pose), which
- * is where the shear force of the corrected stiffness 1/GA* = 1/GA + L^2/(12 EI) belongs. To first order in the bending
- * of the element the two together are the shapes N1 .. N4, G1 .. G4 about the frame in the middle, so that a beam
- * loaded at its nodes is exact in between. c is 0 at both ends: nodes are reproduced. */
+ * exp(x d) is the element's own helix, exact for any uniform strain (Sonneville, Cardona, Bruls 2014). It distributes
+ * the lateral part of d uniformly; c redistributes it as the S-shape of the Timoshenko cubic shapes N3, G3
+ * (eq:beam.section-pose), which is consistent with the shear force of the corrected stiffness 1/GA* = 1/GA + L^2/(12
+ * EI). To first order in the bending of the element both together are the shapes N1 .. N4, G1 .. G4 about the frame in
+ * the middle, so that a beam loaded at its nodes is exact between them. c is 0 at both ends, so that nodes are
+ * reproduced. */
 
 void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose)
 {
@@ -42,7 +43,7 @@ void dmb_relative_pose(const dmb_scene *scene, uint32_t element, const dmb_end_p
     dmb_section_ends(&scene->types[scene->element_type[element]], a->rotation, b->rotation, x, d);
 }
 
-/* Bars on the hole's axis do not bend by themselves: no bending shape. */
+/* Axial-torsional elements on the hole's axis have no bending of their own and therefore no bending shape. */
 void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *material_point,
                               dmb_section_shape *shape)
 {
@@ -52,7 +53,7 @@ void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *
                          shape);
 }
 
-/* Section seen from node a: rotation Q and place r [m]. */
+/* Section relative to node a: rotation Q and position r [m]. */
 static void section_from_node(const dmb_scene *scene, const dmb_material_point *material_point, const dmb_end_pose *a,
                               const dmb_end_pose *b, double Q[9], double r[3])
 {
@@ -63,8 +64,8 @@ static void section_from_node(const dmb_scene *scene, const dmb_material_point *
     dmb_section_pose(&scene->types[scene->element_type[material_point->element]], &shape, d, Q, r);
 }
 
-/* From a node and a place r seen from it, `before` in world axes at the start. The displacement never subtracts world
- * positions. */
+/* Computes the position from a node and the vector r relative to it; `before` is that vector in world axes at the
+ * start. The displacement is computed without subtraction of world positions. */
 static void place_from_node(const dmb_scene *scene, uint32_t node, const dmb_end_pose *now, const double r[3],
                             const double before[3], dmb_material_point_pose *pose)
 {
@@ -158,7 +159,7 @@ static void motion_of_exp(const double h[6], const double rate[6], const double 
     dmb_se3_tangent_apply(&T, y, out->acceleration);
 }
 
-/* From a frame to the frame exp h seen from it: V <- Ad^-1 V + W, V' <- Ad^-1 V' - W^ (Ad^-1 V) + W' */
+/* Motion of the frame exp h relative to a moving frame: V <- Ad^-1 V + W, V' <- Ad^-1 V' - W^ (Ad^-1 V) + W' */
 static void follow(const double h[6], const double rate[6], const double second[6], dmb_material_point_motion *motion)
 {
     dmb_material_point_motion own;
@@ -224,7 +225,8 @@ static void section_motion(const dmb_scene *scene, const dmb_configuration *conf
     follow(c[0], c[1], c[2], motion);
 }
 
-/* Accelerations of a quasi-static state: those of the point in the world are 0, so its body-frame rate is -w x v. */
+/* Accelerations of a quasi-static state: the acceleration of the point in the world is 0, so that its body-frame rate
+ * is -w x v. */
 static void rest(dmb_material_point_motion *motion)
 {
     dmb_vec3_cross(motion->velocity, motion->velocity + 3, motion->acceleration);
@@ -250,7 +252,7 @@ double dmb_material_point_turn(const dmb_configuration *configuration, const dmb
     return turn[0] + material_point->fraction * (turn[1] - turn[0]);
 }
 
-/* [m] from the near node to a section, along the unbent element. */
+/* [m] distance from the near node to a section, along the undeformed element. */
 static double along(const dmb_scene *scene, const dmb_material_point *material_point)
 {
     if (material_point->fixed) return material_point->arm;
@@ -258,7 +260,8 @@ static double along(const dmb_scene *scene, const dmb_material_point *material_p
     return type->arm[0] + material_point->fraction * type->length;
 }
 
-/* A PATH node knows its depth exactly; elsewhere the axis is searched from where the section is about. */
+/* The depth of a PATH node is known exactly; otherwise the axis is searched near the approximate depth of the section.
+ */
 double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
                                 const dmb_material_point *material_point, const double x[3])
 {
@@ -271,8 +274,6 @@ double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration 
     dmb_hole_project(&scene->hole, x, &depth, &segment, point, tangent);
     return depth;
 }
-
-/* Pose, unwrapped rotation and motion: of sections inside elements, of places, of points off them. */
 
 /* ---- At a place -------------------------------------------------------------------------------------------------- */
 
@@ -342,7 +343,7 @@ int32_t dmb_answer_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motio
     return dmb_motion_write(motion, &answer);
 }
 
-/* ---- Poses and motions off a place ------------------------------------------------------------------------------- */
+/* ---- Poses and motions of points offset from a place ------------------------------------------------------------- */
 
 static int32_t check_finite(const double *values, int count)
 {
@@ -379,13 +380,13 @@ int32_t dmb_answer_pose_at(const dmb_sim *sim, dmb_place place, const double off
     if (status < 0) return status;
     dmb_material_point_start_axes(sim->scene, &point, R0);
     move_pose(offset, R0, &answer);
-    status = check_finite(answer.position, 3); /* offsets may be as long as numbers go */
+    status = check_finite(answer.position, 3); /* offsets are not bounded, so that the sum may overflow */
     if (status < 0) return status;
     answer.depth = dmb_material_point_depth(sim->scene, &sim->now, &point, answer.position);
     return dmb_pose_write(pose, &answer);
 }
 
-/* v + w x r, and a + w' x r in the axes of the body, with w x (w x r) more in the world. */
+/* v + w x r, and a + w' x r in the axes of the body; in the world w x (w x r) is added. */
 static void move_motion(const double r[3], int32_t world, dmb_motion *motion)
 {
     const double *w = motion->velocity + 3;
@@ -416,5 +417,3 @@ int32_t dmb_answer_motion_at(const dmb_sim *sim, dmb_place place, const double o
     if (status >= 0) status = check_finite(answer.acceleration, 6);
     return status < 0 ? status : dmb_motion_write(motion, &answer);
 }
-
-/* The part or node that each row of the equations belongs to. */

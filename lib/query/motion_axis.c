@@ -1,6 +1,6 @@
-/* Sections of axial-torsional elements in a curved hole. Bars do not leave the axis: a section between the depths s_A
- * and s_B of two nodes is at s = (1 - f) s_A + f s_B, with the frame of A carried along the axis and its part f of the
- * torsion. */
+/* Sections of axial-torsional elements in a curved hole. These elements stay on the axis: a section between the depths
+ * s_A and s_B of two nodes is at s = (1 - f) s_A + f s_B, with the frame of A transported along the axis and the
+ * fraction f of the torsion. */
 #include "element/beam.h"
 #include "math/so3.h"
 #include "math/vec3.h"
@@ -14,14 +14,14 @@ int dmb_is_on_curved_axis(const dmb_scene *scene, const dmb_material_point *mate
     return scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
 }
 
-/* [-] of the way from node to node, rigid arms included. */
+/* [-] fraction of the distance from node to node, rigid arms included. */
 static double fraction_of(const dmb_scene *scene, const dmb_material_point *material_point)
 {
     const dmb_element_type *type = &scene->types[scene->element_type[material_point->element]];
     return (type->arm[0] + material_point->fraction * type->length) / (type->arm[0] + type->length + type->arm[1]);
 }
 
-/* Place of the axis at the section less those at the nodes: how far the axis bends between them [m]. */
+/* Position on the axis at the section minus the linear interpolation of the positions at the nodes [m]. */
 static double bow_of(const dmb_scene *scene, const double ends[2], double f, double bow[3])
 {
     const double s = ends[0] + f * (ends[1] - ends[0]);
@@ -58,7 +58,7 @@ void dmb_axis_pose_of(const dmb_scene *scene, const dmb_configuration *configura
     dmb_mat3_mul(carried, twist, pose->rotation);
 }
 
-/* V = (v; R^T (v t x k) + w e_x), rows in between as the place is. */
+/* V = (v; R^T (v t x k) + w e_x); rows are interpolated in the same way as the position. */
 static void axis_vector(const dmb_scene *scene, const dmb_material_point *material_point, double s, const double R[9],
                         const double *rows, double vector[6])
 {

@@ -1,5 +1,5 @@
-/* Outputs that a driller reads. The section at the rig end carries what the rig holds: by its force on the near side,
- * tension > 0, the hook load is that force, and the torque that the rig puts in is the opposite of the section's. */
+/* Outputs for the driller. The section at the rig end transfers the load carried by the rig. The hook load is the axial
+ * force on its near side, tension > 0; the torque applied by the rig is the opposite of the torque of the section. */
 #include "force/bit_rock.h"
 #include "query/query.h"
 #include "sim/access.h"
@@ -30,13 +30,14 @@ static dmb_place far_end(const asked_string *s)
     return dmb_station(s->id, s->map->pipe_count - 1, 1.0);
 }
 
-/* Nothing is 0, not -0. */
+/* Avoids -0: 0 stays +0. */
 static double signed_value(double sign, double value)
 {
     return sign > 0.0 ? value : 0.0 - value;
 }
 
-/* dmb_query_section tells the mean of an element of an axial-torsional pipe; here it is the section itself. */
+/* For axial-torsional pipes dmb_query_section returns the mean over an element; here the value is that at the section
+ * itself. */
 static int32_t section_of_rig_end(const asked_string *s, int32_t component, double sign, double *value)
 {
     const dmb_pipe_map *pipe = s->sim->scene->pipes + s->map->first_pipe;
@@ -88,7 +89,7 @@ static double sum_of_strain(const asked_string *s, int component)
 typedef struct bits_of_string {
     uint32_t count, rocks; /* bits, those with a rock law */
     uint32_t first;
-    int32_t on_bottom; /* 1: one of them is */
+    int32_t on_bottom; /* 1 if one of them is on bottom */
     double weight, torque;
 } bits_of_string;
 
@@ -127,7 +128,7 @@ static int32_t value_of_bits(const asked_string *s, int32_t quantity, double *va
 
 /* ---- The rig ----------------------------------------------------------------------------------------------------- */
 
-/* Support and motion drives by the reaction, drives with a force of their own by that; along the string's x axis. */
+/* Sum of the reaction of support and motion drives and the force of force drives, along the string's x axis. */
 static int32_t force_of_rig(const asked_string *s, int32_t component, double sign, double *value)
 {
     const dmb_scene *scene = s->sim->scene;

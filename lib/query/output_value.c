@@ -1,5 +1,5 @@
-/* Outputs: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
- * dmb_output_value is the one owner of their values. */
+/* Outputs: one number queried from a sim, for recorders, windows, responses and events. quantity_name contains their
+ * names; dmb_output_value is the only function that computes their values. */
 #include "query/query.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static int32_t section_value(const dmb_sim *sim, const dmb_output *output, doubl
     return DMB_OK;
 }
 
-/* Of the first numbers, those of query.h, but for sections, drives, bits and the ledger. */
+/* Values of the first quantities, those of query.h, except sections, drives, bits and the ledger. */
 static int32_t first_value(const dmb_sim *sim, const dmb_output *output, double *value)
 {
     const int32_t q = output->quantity;
@@ -284,7 +284,7 @@ int32_t dmb_answer_output(const dmb_sim *sim, const dmb_output *output, double *
     return answer;
 }
 
-/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
+/* ---- Error messages ---------------------------------------------------------------------------------------------- */
 
 static const char *wanted(int32_t place)
 {

@@ -1,5 +1,5 @@
-/* Places of the user in the mesh: rigid with a node or inside an element; pipes, bodies and contact points by number.
- */
+/* Places of the user in the mesh: rigidly connected to a node or inside an element; pipes, bodies and contact points by
+ * number. */
 #include "query/query.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe
     return &sim->scene->pipes[map->first_pipe + pipe];
 }
 
-/* The scene lists the described bodies first, then the bits, then the rings. */
+/* The scene lists the described bodies first, then the bits, then the contact rings. */
 uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id)
 {
     uint32_t index = dmb_model_part_index(sim->model, id, DMB_PART_BODY);
@@ -42,7 +42,7 @@ static void fix(dmb_material_point *point, uint32_t node, double arm)
     point->fixed = 1;
 }
 
-/* The tool joint, counted back from the far end so that fraction 1 falls on it without round-off. */
+/* Point in the tool joint, measured back from the far end so that fraction 1 is exactly at the end. */
 static void place_in_joint(const dmb_scene *scene, const dmb_pipe_map *pipe, double back, dmb_material_point *point)
 {
     const uint32_t last = pipe->element + pipe->elements - 1;
@@ -57,7 +57,8 @@ static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t element)
     return scene->types + scene->element_type[element];
 }
 
-/* Elements, counted from the near end, that the place is behind: it is that many lengths from there, and more. */
+/* Position along a pipe in element lengths: the number of elements before the place plus the fraction of the next one.
+ */
 static double count_lengths(const dmb_scene *scene, const dmb_pipe_map *pipe, double along)
 {
     const uint32_t last = pipe->elements - 1;
@@ -69,7 +70,7 @@ static double count_lengths(const dmb_scene *scene, const dmb_pipe_map *pipe, do
     return k + (along - start) / type_of(scene, pipe->element + k)->length;
 }
 
-/* `along` [m] from the pipe's near end, on its flexible part. */
+/* Point at `along` [m] from the near end of the pipe, on its flexible part. */
 static void place_in_element(const dmb_scene *scene, const dmb_pipe_map *pipe, double along, dmb_material_point *point)
 {
     const uint32_t last = pipe->elements - 1;
@@ -127,7 +128,7 @@ const dmb_pipe_run *dmb_pipe_run_of(const dmb_model *model, uint32_t string, uin
     return NULL;
 }
 
-/* A site of either kind, by its number. */
+/* A contact point of either kind, by its number. */
 typedef struct site_owner {
     dmb_id part;
     uint32_t pipe, node;
@@ -151,8 +152,8 @@ static int32_t is_on_string(dmb_id part)
     return (part.index >> 24 == DMB_PART_STRING) | (part.index >> 24 == DMB_PART_STABILISER);
 }
 
-/* First site in first .. end that is not on a string, or whose node is at least `node`: sites of strings and of rings
- * stand in the order of their nodes, and those of bodies come last. */
+/* First contact point in first .. end that is not on a string, or whose node is at least `node`: contact points of
+ * strings and rings are in the order of their nodes, those of bodies are last. */
 static uint32_t first_at(const dmb_scene *scene, uint32_t first, uint32_t end, uint32_t node)
 {
     while (first < end) {
@@ -166,7 +167,7 @@ static uint32_t first_at(const dmb_scene *scene, uint32_t first, uint32_t end, u
     return first;
 }
 
-/* A rigid stretch has the sites of all its pipes on one node. */
+/* In a rigid section the contact points of all its pipes are on one node. */
 static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb_id string, uint32_t pipe,
                        uint32_t node)
 {

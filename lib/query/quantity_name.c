@@ -1,4 +1,5 @@
-/* Names, units and places of all outputs, by rising number. Names are part of the interface: they do not change. */
+/* Names, units and places of all outputs, in order of their numbers. Names are part of the interface: they must not
+ * change. */
 #include <stddef.h>
 #include <string.h>
 
@@ -251,7 +252,7 @@ static const dmb_output_entry names[] = {
 
 enum { NAME_COUNT = sizeof names / sizeof names[0] };
 
-/* First entry whose number is not below; the numbers of query.h are their places. */
+/* First entry whose number is not lower; entries of query.h are at the index of their number. */
 static size_t place_of(int32_t quantity)
 {
     size_t low = 0, high = NAME_COUNT;
@@ -298,7 +299,7 @@ int32_t dmb_output_next(int32_t quantity)
 
 /* ---- Profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Names, units and needs of the quantities of a profile. */
+/* Names, units and required groups of the quantities of a profile. */
 
 static const struct quantity {
     const char *name, *unit;

@@ -1,5 +1,5 @@
-/* Inner side of the queries: places, motion, section, masses, reactions, outputs and profiles of an accepted state, as
- * analyses and output take them. */
+/* Internal interface of the queries: places, motion, section, masses, reactions, outputs and profiles of an accepted
+ * state, as used by analyses and output. */
 #ifndef DMB_QUERY_QUERY_H
 #define DMB_QUERY_QUERY_H
 
@@ -16,50 +16,48 @@
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 typedef struct dmb_material_point {
-    uint32_t node;    /* the node it is rigid with; near node of the element otherwise */
+    uint32_t node;    /* node to which it is rigidly connected; otherwise near node of the element */
     uint32_t element; /* element of a flexible or axial-torsional pipe; DMB_NONE on rigid pipes and bodies */
-    double arm;       /* [m] along body x from the node, where `fixed` */
+    double arm;       /* [m] along body x from the node, if `fixed` */
     double fraction;  /* [-] along the element's flexible length, 0 .. 1 */
-    double beyond;    /* [m] behind the element's far end, inside the tool joint; 0 elsewhere */
-    int32_t fixed;    /* 1: rigid with the node (body, rigid pipe, tool joint, end of an element) */
+    double beyond;    /* [m] beyond the element's far end, inside the tool joint; 0 elsewhere */
+    int32_t fixed;    /* 1: rigidly connected to the node (body, rigid pipe, tool joint, end of an element) */
     int32_t reserved;
 } dmb_material_point;
 
-/* Errors: DMB_ERR_ID, DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (pipe or fraction outside the part). O(1). */
+/* Material point of a place. Errors: DMB_ERR_ID, DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (pipe or fraction outside the part).
+ * O(1). */
 int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point);
 
-/* A string's pipe, or NULL where there is none: DMB_ERR_ID or DMB_ERR_VALUE in *status. */
+/* Pipe of a string, or NULL if there is none: DMB_ERR_ID or DMB_ERR_VALUE in *status. */
 const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe, int32_t *status);
 
 /* Number of a body or bit in scene->bodies; DMB_NONE if the id names neither. */
 uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id);
 
-/* The description behind a pipe of a compiled string. */
-
-/* The call of dmb_model_add_pipes that made a pipe; NULL if there is none. O(number of such calls). */
+/* Description of a pipe of a compiled string: the call of dmb_model_add_pipes that added it; NULL if there is none.
+ * O(number of such calls). */
 const dmb_pipe_run *dmb_pipe_run_of(const dmb_model *model, uint32_t string, uint32_t pipe);
 
-/* Contact sites by the part they belong to. */
-
-/* Site, as dmb_query_contact counts them, at the far end of a string's pipe, or of a body (pipe 0); DMB_NONE where
- * nothing meets the wall. part and pipe must be valid. O(log sites), on rigid stretches O(their pipes). */
+/* Contact point, numbered as in dmb_query_contact, at the far end of a string's pipe, or of a body (pipe 0); DMB_NONE
+ * if nothing there can touch the wall. part and pipe must be valid. O(log sites), in rigid sections O(their pipes). */
 uint32_t dmb_site_of(const dmb_sim *sim, dmb_id part, uint32_t pipe);
 
-/* Site behind the first `elements` elements of a pipe; 0: at its near end. A rigid pipe has one element here. */
+/* Contact point after the first `elements` elements of a pipe; 0: at its near end. A rigid pipe counts as one element.
+ */
 uint32_t dmb_site_after(const dmb_sim *sim, dmb_id string, uint32_t pipe, uint32_t elements);
 
-/* [N] normal force of a site in the accepted state; 0 for DMB_NONE. */
+/* [N] normal force of a contact point in the accepted state; 0 for DMB_NONE. */
 double dmb_site_normal_force(const dmb_sim *sim, uint32_t site);
 
-/* [N] the same by part; 0 without a site. Errors: DMB_ERR_ID, DMB_ERR_VALUE (no such pipe). */
+/* [N] normal force of the contact point of a part; 0 if there is none. Errors: DMB_ERR_ID, DMB_ERR_VALUE (no such
+ * pipe). */
 int32_t dmb_normal_force_at(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *force);
 
-/* Of a site in the accepted state, with the friction of an assumed slip. */
+/* Force of a contact point in the accepted state, with the friction of an assumed slip. */
 void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force);
 
 /* ---- Motion inside elements -------------------------------------------------------------------------------------- */
-
-/* The two nodes of an element seen from each other. */
 
 typedef struct dmb_end_pose {
     double rotation[9];     /* [-] body to world, row-major */
@@ -71,19 +69,19 @@ void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configura
                       dmb_end_pose *pose);
 void dmb_end_pose_at_start(const dmb_scene *scene, uint32_t node, dmb_end_pose *pose);
 
-/* d = log(H_A^-1 H_B) of the element's flexible ends from the poses of its nodes, whatever their kind. */
+/* d = log(H_A^-1 H_B) of the element's flexible ends from the poses of its nodes, for nodes of any kind. */
 void dmb_relative_pose(const dmb_scene *scene, uint32_t element, const dmb_end_pose *a, const dmb_end_pose *b,
                        double d[6]);
 
 /* Shape of the section at a point inside an element. */
 void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *point, dmb_section_shape *shape);
 
-/* Pose and motion of a point: of its node, moved by a rigid arm, or of a section between two nodes. */
+/* Pose and motion of a point: of its node, displaced by a rigid arm, or of a section between two nodes. */
 
 typedef struct dmb_material_point_pose {
     double rotation[9];     /* [-] body to world, row-major */
     double position[3];     /* [m] world */
-    double displacement[3]; /* [m] world, position less that at time 0 as described */
+    double displacement[3]; /* [m] world, position minus that at time 0 as described */
 } dmb_material_point_pose;
 
 void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
@@ -112,7 +110,7 @@ void dmb_axis_motion_of(const dmb_scene *scene, const dmb_configuration *configu
 /* R_a: axes of node A at time 0. */
 void dmb_axis_start_rotation(const dmb_scene *scene, const dmb_material_point *point, const double R_a[9], double R[9]);
 
-/* [rad] turn about the pipe's axis since time 0, linear between nodes */
+/* [rad] rotation about the pipe's axis since time 0, linear between nodes */
 double dmb_material_point_turn(const dmb_configuration *configuration, const dmb_material_point *point);
 
 /* [m] measured depth of the closest point of the hole's axis to x; 0 without a hole. O(log stations). */
@@ -121,8 +119,8 @@ double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration 
 
 /* ---- Mass -------------------------------------------------------------------------------------------------------- */
 
-/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts,
- * each from the description, as the compile step added them. */
+/* Contributions to the rigid mass of a node. The rigid_mass of a node is the sum of all parts fixed to it. Each
+ * contribution is computed from the description, as the compile step added it. */
 
 /* A pipe of a string with its description. */
 typedef struct dmb_described_pipe {
@@ -131,7 +129,7 @@ typedef struct dmb_described_pipe {
     uint32_t string, number;
     int32_t eccentric;
     int32_t reserved;
-    double offset[2]; /* [m] of its centre of mass, where eccentric */
+    double offset[2]; /* [m] of its centre of mass, if eccentric */
 } dmb_described_pipe;
 
 /* string and pipe must be valid. O(number of dmb_model_add_pipes calls). */
@@ -139,22 +137,22 @@ void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_d
 
 /* A rigid pipe without its tool joint. */
 void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
-/* A pipe's tool joint; mass 0 where there is none. */
+/* Tool joint of a pipe; mass 0 if there is none. */
 void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
-/* The first `length` [m] of it, as of a uniform body; returns its mass. */
+/* The first `length` [m] of the tool joint, as of a uniform body; returns its mass. */
 double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
                             dmb_rigid_mass *share);
-/* Part that eccentricity adds on the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
+/* Contribution of eccentricity to the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
 void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
                          dmb_rigid_mass *share);
 /* A body or bit, by its number in scene->bodies. */
 void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share);
 
-/* 1 where a body or bit, by its number in scene->bodies, is fixed to this end of a string, DMB_ATTACH_START or _END; an
- * id that names nothing is the first string. */
+/* 1 if a body or bit, by its number in scene->bodies, is fixed to this end of a string, DMB_ATTACH_START or _END; an id
+ * that names nothing stands for the first string. */
 int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, int32_t attach);
 
-/* [J] of a share on its node in the accepted state. */
+/* [J] Kinetic energy of a rigid mass on its node in the accepted state. */
 double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
 
 /* ---- Section forces ---------------------------------------------------------------------------------------------- */
@@ -162,12 +160,11 @@ double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 /* Section force at a point of a pipe, in its tool joint too, as dmb_section tells it; point: that of the place, of an
  * element. */
 void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_material_point *point, double force[6]);
-/* Section force at a point of an element of the pipe, not in its tool joint, as dmb_section tells it. O(log sites +
- * loads
- * + springs + stuck places). */
+/* Section force at a point of an element of the pipe, not in its tool joint, in the convention of dmb_section. O(log
+ * sites + loads + springs + stuck places). */
 void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                          double load[6]);
-/* From the load at the near end of the tool joint to that at the point in it, in place. */
+/* Changes the load at the near end of the tool joint to that at the point in it, in place. */
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6]);
 
@@ -177,32 +174,32 @@ typedef struct dmb_mud_pressure {
     double outside, inside; /* [Pa] */
 } dmb_mud_pressure;
 
-/* 1: the pressures inside and outside differ. */
+/* 1 if the pressures inside and outside differ. */
 static inline int dmb_mud_is_apart(const dmb_scene *scene)
 {
     return scene->flow_count > 0 || !(scene->inner_density < 0.0);
 }
 
-/* At a distance from the rig end of the string [m], x [m] in the world. At rest each mud stands up to the start of the
- * hole, or to the rig end as described without a hole. Where it flows the annulus has what it loses from here up to the
- * rig end in addition; inside it is the pressure outside at the far end, the loss there, and that on the way to it. */
+/* Mud pressures [Pa] at a distance [m] from the rig end of the string, at the point x [m], world frame. At rest each
+ * mud column extends to the start of the hole, or, without a hole, to the rig end as described. With flow, the pressure
+ * in the annulus increases by the loss between this point and the rig end; the pressure inside is the pressure outside
+ * at the far end plus the loss there plus the loss between this point and the far end. */
 dmb_mud_pressure dmb_mud_pressure_at(const dmb_sim *sim, uint32_t string, double distance, const double x[3]);
 
 /* ---- Loads over limits ------------------------------------------------------------------------------------------- */
 
-/* Loads over limits of a pipe in its hole: stress at its surface, and the buckling of a long pipe that lies on the
- * wall. */
+/* Loads over limits of a pipe in its hole: stress at its surface, and buckling of a long pipe that lies on the wall. */
 
 /* [Pa] Largest von Mises stress at the outer surface of a tube under effective axial force [N], torque and bending
- * moment [N m]: s = |N_e|/A + M r/I, t = T r/J, sqrt(s^2 + 3 t^2). A fluid at rest of one density inside and outside
- * adds the same pressure in all directions to what N_e gives, which no yield criterion of shear sees. */
+ * moment [N m]: s = |N_e|/A + M r/I, t = T r/J, sqrt(s^2 + 3 t^2). A fluid at rest with the same density inside and
+ * outside adds a hydrostatic stress to that of N_e, which does not affect the von Mises stress. */
 double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double axial_force, double torque,
                           double bending_moment);
 
-/* [Pa] Likewise where the pressure inside is higher by `pressure` [Pa], the largest of both surfaces. With s = N_e/A +
- * M rho/I at the radius rho the axial stress is s + (p_i A_i - p_o A_o)/A; radial and hoop stress of Lame lie by
- * +- h, h = pressure A_i A_o/(A pi rho^2), about the same mean, so that the von Mises stress is sqrt(s^2 + 3 h^2 + 3
- * t^2) (Sparks 1984). diameters: outer, inner [m]. */
+/* [Pa] Largest von Mises stress of both surfaces of a tube if the pressure inside is higher by `pressure` [Pa]. With
+ * s = N_e/A + M rho/I at the radius rho the axial stress is s + (p_i A_i - p_o A_o)/A. The radial and hoop stresses of
+ * Lame are (p_i A_i - p_o A_o)/A +- h, h = pressure A_i A_o/(A pi rho^2), so that the von Mises stress is
+ * sqrt(s^2 + 3 h^2 + 3 t^2) (Sparks 1984). diameters: outer, inner [m]. */
 double dmb_tube_pressed_von_mises(const double diameters[2], double axial_force, double torque, double bending_moment,
                                   double pressure);
 
@@ -221,32 +218,32 @@ double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force
 
 /* [-] Compression -N_e over the load of sinusoidal buckling, sqrt(4 EI w_c/r) where w_c = |w_across + N_e dt/ds| is the
  * contact force per metre before buckling (Dawson, Paslay 1984; He, Kyllingstad 1995), but at least 2.55 (EI
- * w_along^2)^(1/3) (Wu, Juvkam-Wold 1995). 0 in tension, infinite where nothing holds the pipe straight. */
+ * w_along^2)^(1/3) (Wu, Juvkam-Wold 1995). 0 in tension; NaN if the limit is 0, because nothing presses the pipe to the
+ * wall. */
 double dmb_sinusoidal_share(const dmb_confined_pipe *pipe, double axial_force);
-/* [-] likewise of helical buckling: sqrt(8 EI w_c/r) (Chen, Lin, Cheatham 1990), at least 5.55 (EI w_along^2)^(1/3). */
+/* [-] the same for helical buckling: compression over sqrt(8 EI w_c/r) (Chen, Lin, Cheatham 1990), at least 5.55 (EI
+ * w_along^2)^(1/3). */
 double dmb_helical_share(const dmb_confined_pipe *pipe, double axial_force);
 
 /* ---- Joints and constraints -------------------------------------------------------------------------------------- */
 
-/* Rows that act, the first of its room; and those of them that are dropped because others hold what they hold. */
+/* Number of active rows, the first of its rows; and number of those excluded as redundant. */
 uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint);
 uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint);
-/* Largest violation of an equation of position that joint j holds. */
+/* Largest violation of an equation of position of joint j. */
 double dmb_joint_violation(const dmb_sim *sim, uint32_t j);
 
 /* ---- Outputs ---------------------------------------------------------------------------------------------------- */
 
-/* Outputs: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
- * dmb_output_value is the one owner of their values. */
-
-/* Kinds of places that outputs take. */
+/* Outputs: one number queried from a sim, for recorders, windows, responses and events. quantity_name contains their
+ * names; dmb_output_value is the only function that computes their values. Kinds of places of outputs: */
 enum {
     DMB_AT_PLACE = 0,   /* any place on a string, body or bit */
     DMB_AT_SECTION = 1, /* a place on a flexible or axial-torsional pipe */
     DMB_AT_PIPE = 2,    /* a place on a string */
     DMB_AT_PART = 3,    /* a pipe of a string, a body or a bit */
     DMB_AT_STRING = 4,  /* a string or {0, 0} */
-    DMB_AT_BIT = 5,     /* and so on: place.part alone */
+    DMB_AT_BIT = 5,     /* place.part alone, also for the following kinds */
     DMB_AT_DRIVE = 6,
     DMB_AT_JOINT = 7,
     DMB_AT_CONSTRAINT = 8, /* a joint, coupling, constraint or joint drive */
@@ -265,22 +262,22 @@ typedef struct dmb_output_entry {
     int32_t place; /* DMB_AT_... */
 } dmb_output_entry;
 
-/* NULL for an unknown quantity. */
+/* Returns the entry of a quantity; NULL if it is unknown. */
 const dmb_output_entry *dmb_output_name_of(int32_t quantity);
 
-/* The present value. Errors: those of dmb_query_output. */
+/* Computes the present value of an output. Errors: those of dmb_query_output. */
 /* Why output number i has no value. */
 void dmb_output_explain(const dmb_output *output, uint32_t i, int32_t status, dmb_message *message);
 int32_t dmb_output_value(const dmb_sim *sim, const dmb_output *output, double *value);
 
-/* Those of a driller, DMB_OUTPUT_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
+/* Values of the outputs for the driller, DMB_OUTPUT_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
 int32_t dmb_driller_value(const dmb_sim *sim, const dmb_output *output, double *value);
-/* The string that such a output means: the id and its number, the model's first for {0, 0}. DMB_ERR_ID. */
+/* String to which such an output refers: its id and number; for {0, 0} the first string of the model. DMB_ERR_ID. */
 int32_t dmb_output_string(const dmb_sim *sim, const dmb_output *output, dmb_id *string, uint32_t *index);
 
 /* ---- Profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Groups of quantities that are computed together, and only where one of them is asked for. */
+/* Groups of quantities that are computed together, only if one of them is requested. */
 enum {
     DMB_TAKES_STATION = 0,
     DMB_TAKES_POSE = 1,
@@ -292,7 +289,7 @@ enum {
     DMB_TAKES_BUCKLING = 64
 };
 
-/* Groups that DMB_PROFILE_... takes; -1: there is no such quantity. */
+/* Groups that a quantity DMB_PROFILE_... requires; -1 if there is no such quantity. */
 int32_t dmb_profile_groups(int32_t quantity);
 
 /* A quantity DMB_PROFILE_... at a place of a string. Errors: DMB_ERR_VALUE, _ID, _NOT_FINITE. O(runs of pipes). */

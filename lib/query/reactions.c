@@ -20,7 +20,7 @@
 
 DMB_DECLARE_STRUCT(dmb_joint_state)
 
-/* V' of frame b relative to frame a. */
+/* Acceleration V' of frame b relative to frame a. */
 static void relative_acceleration(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, double out[6])
 {
     const dmb_scene_joint *joint = sim->scene->joints + j;
@@ -58,7 +58,7 @@ static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
     }
 }
 
-/* -J^T f, in frame b or turned into the world. */
+/* Reaction -J^T f, in frame b or rotated to the world. */
 static void reaction(const dmb_sim *sim, uint32_t j, const dmb_joint_rows *rows, const double world[9],
                      dmb_joint_state *answer)
 {
@@ -163,9 +163,9 @@ double dmb_joint_violation(const dmb_sim *sim, uint32_t j)
     return most;
 }
 
-/* ---- Guided ends: the residual that is left in the rows that are not solved for ---------------------------------- */
+/* ---- Supported ends: the residual in the rows that are not solved for -------------------------------------------- */
 
-/* The rows of the node as components of a wrench; free ones carry none. */
+/* Residual of the constrained rows of the node as a wrench; components of free rows are 0. */
 static void held_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
 {
     static const uint32_t path_component[2] = {DMB_X, DMB_RX};
@@ -250,8 +250,6 @@ int32_t dmb_answer_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
     return dmb_bit_state_write(state, &answer);
 }
 
-/* Springs between points, and poses off a place. */
-
 /* ---- Springs ----------------------------------------------------------------------------------------------------- */
 
 DMB_DEFINE_INIT(dmb_spring_state, 136, {.length = 0.0})
@@ -285,7 +283,7 @@ int32_t dmb_answer_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *s
     return dmb_spring_state_write(state, &answer);
 }
 
-/* ---- Whose the rows of the equations are ------------------------------------------------------------------------- */
+/* ---- Owners of the rows of the equations ------------------------------------------------------------------------- */
 
 DMB_DEFINE_INIT(dmb_row, 32, {.component = DMB_X})
 

@@ -21,8 +21,8 @@ void dmb_section_force_at(const dmb_sim *sim, dmb_place place, const dmb_materia
     if (point->beyond > 0.0) dmb_section_load_in_joint(sim, &pipe, point, force);
 }
 
-/* Mean strain e/L. Its sideways part is mostly bending of the element, which the corrected stiffness GA* accounts for;
- * shear proper is the share (GA* : GA) of it. */
+/* Mean strain e/L. Its lateral part is mostly bending of the element, which the corrected stiffness GA* includes; the
+ * actual shear is the fraction (GA* : GA) of it. */
 static void section_strain(const dmb_scene *scene, const dmb_configuration *configuration,
                            const dmb_material_point *point, double strain[6])
 {
@@ -65,7 +65,7 @@ static double at_rest(const dmb_scene *scene, uint32_t string, double density, c
 
 /* ---- Flow -------------------------------------------------------------------------------------------------------- */
 
-/* The end of the string on its node's axis, world. */
+/* Position of the end of the string on its node's axis, world frame. */
 static void end_position(const dmb_sim *sim, uint32_t node, double arm, double x[3])
 {
     double R[9], u[3];
@@ -74,7 +74,7 @@ static void end_position(const dmb_sim *sim, uint32_t node, double arm, double x
     for (int k = 0; k < 3; k++) x[k] += arm * R[3 * k];
 }
 
-/* [Pa] lost between the rig end and a distance: in the bore, in the annulus. */
+/* [Pa] pressure loss between the rig end and a distance: in the bore, in the annulus. */
 static void losses_to(const dmb_scene *scene, double distance, double loss[2])
 {
     uint32_t low = 0, high = scene->flow_count - 1;
@@ -91,7 +91,8 @@ static void losses_to(const dmb_scene *scene, double distance, double loss[2])
     loss[1] = piece->before[1] + along * piece->annulus.gradient;
 }
 
-/* [Pa] between the far end of the string and the nozzles, as the motors there run now; none without flow. */
+/* [Pa] pressure loss of the motors between the far end of the string and the nozzles, at their present speeds; none
+ * without flow. */
 static double motor_loss(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -131,8 +132,8 @@ dmb_mud_pressure dmb_mud_pressure_at(const dmb_sim *sim, uint32_t string, double
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */
 
-/* eq:mud.stretch: [m] (1 - 2 nu)(p_i A_i - p_o A_o)/(E A) L by Lame's stresses, and rho Q V/(E A) L, at the piece's
- * near end; both are straight between its ends but for the bend of the string. */
+/* eq:mud.stretch: [m] (1 - 2 nu)(p_i A_i - p_o A_o)/(E A) L from Lame's stresses, and rho Q V/(E A) L, at the near end
+ * of the piece. Both are linear between its ends, apart from the curvature of the string. */
 static double stretch_of(const dmb_sim *sim, const dmb_flow_piece *piece)
 {
     const dmb_scene *scene = sim->scene;
@@ -149,8 +150,8 @@ static double stretch_of(const dmb_sim *sim, const dmb_flow_piece *piece)
     return sum * piece->length / piece->steel;
 }
 
-/* [m] of an element in mud at rest, whose pressures are straight between its ends: (1 - 2 nu)(p_i A_i - p_o A_o)/(E A)
- * L, as above. */
+/* [m] stretch of an element in mud at rest, whose pressures are linear between its ends: (1 - 2 nu)(p_i A_i - p_o
+ * A_o)/(E A) L, as above. */
 static double stretch_at_rest(const dmb_sim *sim, uint32_t string, const dmb_pipe_def *def, uint32_t element)
 {
     const dmb_scene *scene = sim->scene;
@@ -168,7 +169,7 @@ static double stretch_at_rest(const dmb_sim *sim, uint32_t string, const dmb_pip
            section.stiffness[0];
 }
 
-/* [m] of all strings, by the calls that described their pipes. */
+/* [m] stretch of all strings in mud at rest, by the calls that described their pipes. */
 static double resting_stretch(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -263,7 +264,7 @@ double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force
     return force;
 }
 
-/* Compression over the buckling load, NaN where nothing presses the pipe to the wall: `on_wall` of EI w_c/r under the
+/* Compression over the buckling load [-]; NaN if nothing presses the pipe to the wall: `on_wall` of EI w_c/r under the
  * root, `upright` times the length scale of a heavy vertical column (eq:drilling.sinusoidal, eq:drilling.helical,
  * eq:drilling.vertical). */
 static double share(const dmb_confined_pipe *pipe, double axial_force, double on_wall, double upright)

@@ -1,6 +1,6 @@
-/* Section forces inside an element by Newton's law for the piece between its end A and the section
- * (eq:beam.section-force): the load at A, less the concentrated loads on the piece, less its share of the distributed
- * ones. */
+/* Section forces inside an element by Newton's law for the segment between its end A and the section
+ * (eq:beam.section-force): the load at A, minus the concentrated loads on the segment, minus its part of the
+ * distributed loads. */
 #include <string.h>
 
 #include "element/beam.h"
@@ -15,7 +15,7 @@
 
 /* ---- The element ------------------------------------------------------------------------------------------------- */
 
-/* A section: its axes and its place [m] in the frame of node A. */
+/* A section: its axes and its position [m] in the frame of node A. */
 typedef struct section_frame {
     double Q[9], r[3];
 } section_frame;
@@ -54,7 +54,7 @@ static void host_of(const dmb_sim *sim, uint32_t element, host *h)
     dmb_element_end_loads(scene, &sim->now, element, h->load);
 }
 
-/* A wrench at a section, in its axes, to the frame of node A about the point x. */
+/* Adds a wrench at a section, given in its axes, in the frame of node A about the point x. */
 static void add_moved(const section_frame *at, const double w[6], double sign, const double x[3], double sum[6])
 {
     double f[6], arm[3], moment[3];
@@ -68,12 +68,12 @@ static void add_moved(const section_frame *at, const double w[6], double sign, c
 
 /* ---- Concentrated loads ------------------------------------------------------------------------------------------ */
 
-/* All that act on the element: their sum about end B, that of those up to the fraction x about the section there, and
- * what their nodes carry. */
+/* All loads on the element: their sum about end B, the sum of those up to the fraction x about the section there, and
+ * the equivalent loads on the nodes. */
 typedef struct point_loads {
-    double x, at[3];        /* the section, and its place in the frame of node A */
+    double x, at[3];        /* the section, and its position in the frame of node A */
     double all[6], part[6]; /* in the frame of node A */
-    double nodes[12];       /* in the frame of each */
+    double nodes[12];       /* each in the frame of its node */
 } point_loads;
 
 /* w: wrench at the section, in its axes. */
@@ -92,7 +92,7 @@ static void add_point(const host *h, double fraction, const double w[6], point_l
     if (fraction <= loads->x) add_moved(&at, w, 1.0, loads->at, loads->part);
 }
 
-/* Wall force -N n + along t + friction, world; the friction acts on the surface, r n off the centre. */
+/* Wall force -N n + along t + friction, world frame; friction acts on the surface, at r n from the centre. */
 static void site_wrench(const dmb_sim *sim, uint32_t site, double w[6])
 {
     const double radius = sim->scene->sites[site].radius;
@@ -111,7 +111,7 @@ static void site_wrench(const dmb_sim *sim, uint32_t site, double w[6])
     dmb_mat3_tvec(R, w + 3, w + 3);
 }
 
-/* The first ring inside an element that is not before this one. */
+/* First contact point inside an element whose number is not below this one. */
 static uint32_t first_inside(const dmb_scene *scene, uint32_t element)
 {
     uint32_t low = 0, high = scene->inside_count;
@@ -136,7 +136,7 @@ static void add_sites(const host *h, point_loads *loads)
     }
 }
 
-/* A wrench at a point off its section, in the axes of both. */
+/* Adds a wrench at a point offset from its section, in the axes of both. */
 static void add_force(const host *h, const dmb_scene_point *point, const double at_point[6], point_loads *loads)
 {
     double w[6], moment[3];
@@ -203,7 +203,7 @@ static void point_loads_of(const host *h, double x, const section_frame *at, poi
     add_stuck(h, loads);
 }
 
-/* The element's nodes carry all of them: their shares belong to the piece. */
+/* Removes the equivalent loads from the nodes of the element, because the loads act on the segment. */
 static void take_from_nodes(host *h, const point_loads *loads)
 {
     double f[12];
@@ -218,8 +218,8 @@ static void take_from_nodes(host *h, const point_loads *loads)
 
 /* ---- Eccentric mass ---------------------------------------------------------------------------------------------- */
 
-/* M a - ad_v^T M v - weight of a rigid share on its node, in the node's frame; `lifted` [kg, kg m] of its mass and
- * first moment along the axis are carried by the mud. */
+/* M a - ad_v^T M v - weight of a rigid mass on its node, in the frame of the node; the parts `lifted` [kg, kg m] of its
+ * mass and first moment along the axis are carried by the buoyancy of the mud. */
 static void share_wrench(const dmb_sim *sim, const dmb_rigid_mass *share, const double lifted[2], double f[6])
 {
     const dmb_scene *scene = sim->scene;
@@ -238,7 +238,7 @@ static void share_wrench(const dmb_sim *sim, const dmb_rigid_mass *share, const 
     dmb_vec3_sub(f + 3, moment, f + 3);
 }
 
-/* Each node has half of the element's eccentric part, which acts along the whole of it. */
+/* Each node has half of the eccentric mass, which acts along the whole element. */
 static void take_eccentric(host *h, const dmb_described_pipe *pipe)
 {
     if (!pipe->eccentric) return;
@@ -255,7 +255,7 @@ static void take_eccentric(host *h, const dmb_described_pipe *pipe)
 
 /* ---- Distributed loads ------------------------------------------------------------------------------------------- */
 
-/* F1 [N]: what the inertia force of a section at B is more than at A, times the length; frame of node A. */
+/* F1 [N]: inertia force of a section at B minus that at A, times the length; frame of node A. */
 static void growth_of_inertia(const host *h, double F1[3])
 {
     const dmb_scene *scene = h->sim->scene;
@@ -277,8 +277,8 @@ static void growth_of_inertia(const host *h, double F1[3])
     dmb_vec3_scale(h->type->mass_per_metre * h->type->length, F1, F1);
 }
 
-/* x (r_A - r)/2 + x^2 L (t_A - t)/12: integral of the way from the section to the piece's points, over their fraction
- * (trapezoidal rule with end correction; exact for cubic curves). */
+/* x (r_A - r)/2 + x^2 L (t_A - t)/12: integral of the vector from the section to the points of the segment, over their
+ * fraction (trapezoidal rule with end correction; exact for cubic curves). */
 static void way_to(const host *h, double x, const section_frame *at, double way[3])
 {
     for (int i = 0; i < 3; i++)
@@ -293,8 +293,8 @@ static void total_of(const host *h, const point_loads *loads, double T[6])
     add_moved(&h->b, h->load + 6, -1.0, h->b.r, T);
 }
 
-/* D of the piece up to x, about its section: of a density that is uniform but for the inertia, which grows by F1; what
- * moment is left over the whole element is spread evenly. */
+/* D of the segment up to x, about its section, for a uniform density plus the inertia, which increases by F1; the
+ * remaining moment of the whole element is distributed uniformly. */
 static void distributed_to(const host *h, double x, const section_frame *at, const double T[6], double D[6])
 {
     double F1[3], way[3], moment[3], left[3], span[3], grown[3];
@@ -324,7 +324,7 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
     point_loads loads;
     host_of(sim, point->element, &h);
     if (!h.bending) {
-        dmb_vec6_copy(h.load, load); /* mean of a bar */
+        dmb_vec6_copy(h.load, load); /* mean of an axial-torsional element */
         return;
     }
     frame_at(&h, x, &at);
@@ -341,7 +341,8 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
 
 /* ---- In a tool joint --------------------------------------------------------------------------------------------- */
 
-/* From its near end to the section, `beyond` [m] further on: mass and weight of that part of it. */
+/* Section load in a tool joint: from its near end to the section, `beyond` [m] further, by mass and weight of the part
+ * between. */
 void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pipe, const dmb_material_point *point,
                                double load[6])
 {
