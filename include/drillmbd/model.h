@@ -149,8 +149,8 @@ typedef struct dmb_wall_def {
     int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_EXACT */
     int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
     double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not
-                                 resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (that of a ball
-                                 at h w = 10 and e = 0.4: 8.3 times with EXACT); dmb_statistics.bounces counts them */
+                                 resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that
+                                 of the law; dmb_statistics.bounces counts them */
     double exponent;          /* [-] n, 1 .. 3; default 1 */
     double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for
                                  less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1 */

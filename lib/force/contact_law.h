@@ -102,6 +102,14 @@ static inline void dmb_contact_normal_force(const dmb_local_normal *law, const d
     out->whole = N.whole;
 }
 
+/* Normal force and derivative of the rings `own` give way to a force and its derivative by the depth. */
+static inline void dmb_contact_take_own(dmb_mask own, dmb_real force, dmb_real by_depth, dmb_contact_force *out)
+{
+    out->F[0] = dmb_real_select(own, -force, out->F[0]);
+    out->by_depth[0] = dmb_real_select(own, -by_depth, out->by_depth[0]);
+    out->normal_rate = dmb_real_select(own, dmb_real_of(0.0), out->normal_rate);
+}
+
 /* Adds the friction force at N = -F[0]. From the friction law: F its force, by_speed its tangent (2,2), by_normal
  * dF/dN. */
 static inline void dmb_contact_add_friction(const dmb_real F[2], const dmb_real by_speed[4],

@@ -46,6 +46,13 @@ static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *l
  * coefficient; its static part must extend beyond smoothing_speed. Other laws are returned unchanged. */
 dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
 
+/* [-] Largest friction over normal force. */
+static inline dmb_real dmb_friction_most(const dmb_local_friction *local)
+{
+    const int has_static = local->law->kind == DMB_FRICTION_STRIBECK || local->law->kind == DMB_FRICTION_BRISTLE;
+    return has_static ? dmb_real_max(local->mu_static, local->mu_dynamic) : local->mu_dynamic;
+}
+
 /* Friction as a function of velocity alone. F [unit of N] is the force on the pipe, dF_dv its tangent (2,2) row by row,
  * dF_dN its derivative with respect to N (2).
  *   COULOMB, STRIBECK: F = -mu(s) N v/s, s = sqrt(|v|^2 + v_eps^2), mu constant (mu_dynamic) or the Stribeck curve

@@ -308,6 +308,20 @@ static inline dmb_real dmb_section_normal_slope(const dmb_section_contact *c, dm
     return power * (c->stiffness_slope * (1.0 + c->normal.mu * ratio) + c->normal.stiffness * c->factor_slope * ratio);
 }
 
+/* The same of the mean force over a step of length h from the depth `before`, which is linear in K, mu and c. */
+static inline dmb_real dmb_section_mean_slope(const dmb_section_contact *c, dmb_real before, dmb_real d,
+                                              dmb_real impact_speed, dmb_mask plastic, double h)
+{
+    const dmb_local_normal slopes = {c->normal.law, c->stiffness_slope, c->damping_slope, c->normal.mu};
+    const dmb_real factor = dmb_normal_factor(&c->normal, impact_speed);
+    const dmb_real floored = dmb_real_max(impact_speed, dmb_real_of(c->normal.law->impact_floor));
+    dmb_normal_parts p, by_place;
+    if (c->normal.law->kind == DMB_NORMAL_NONE) return dmb_real_of(0.0);
+    dmb_normal_parts_of(&c->normal, before, d, factor, plastic, h, &p);
+    dmb_normal_parts_of(&slopes, before, d, factor, plastic, h, &by_place);
+    return by_place.elastic + by_place.damper + c->factor_slope / floored * p.rise / h;
+}
+
 /* Derivatives of F_t and F_b by depth through the friction coefficients: smooth laws are linear in them; bristles
  * (memory) are mu N at their limit. */
 static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const dmb_contact_force *force, int memory,
@@ -330,7 +344,8 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
 /* Of a ring that touches. */
 typedef struct dmb_section_ring {
     dmb_real length;          /* [m] of wall that it stands for */
-    dmb_contact_depth at;     /* its penetration d and impact speed */
+    dmb_real penetration;     /* [m] d */
+    dmb_real normal_slope;    /* [N/m2] dN/ds per metre of pipe where N is not 0 */
     int32_t friction, memory; /* 1: friction acts; by bristles */
 } dmb_section_ring;
 
@@ -338,7 +353,7 @@ static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_conta
                                      const dmb_section_ring *ring, dmb_section_contact *c)
 {
     const dmb_normal_law *law = c->normal.law;
-    const dmb_real zero = dmb_real_of(0.0), d = ring->at.penetration, length = ring->length;
+    const dmb_real zero = dmb_real_of(0.0), d = ring->penetration, length = ring->length;
     const dmb_real unit = length * dmb_wall_unit_energy(law, d);
     const dmb_mask pushes = dmb_mask_less(force->F[0], zero);
     const dmb_real divisor = dmb_real_select(pushes, force->F[0], dmb_real_of(1.0));
@@ -347,8 +362,7 @@ static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_conta
     c->stored_slope = c->stiffness_bend * unit;
     c->stored_by_depth = length * c->stiffness_slope * dmb_normal_reduced_power(law->exponent, d) * d;
     c->along = -force->F[0] * c->rho - c->advance * c->stored;
-    c->by_place[0] =
-        dmb_real_select(pushes, -length * dmb_section_normal_slope(c, d, f->speed[0], ring->at.impact_speed), zero);
+    c->by_place[0] = dmb_real_select(pushes, -length * ring->normal_slope, zero);
     if (ring->friction) dmb_section_friction_slope(f, force, ring->memory, c, by_friction);
     for (int k = 0; k < 2; k++) {
         const dmb_real by_normal = dmb_real_select(pushes, -force->F[1 + k] / divisor, zero); /* dF/dN = F/N */

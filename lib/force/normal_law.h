@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "drillmbd/model.h"
+#include "force/mean_force.h"
 #include "math/elementary.h"
 
 typedef struct dmb_normal_law {
@@ -85,7 +86,7 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real da
     return dmb_real_select(full, damping, damping * x * x * (3.0 - 2.0 * x));
 }
 
-/* ---- Touch within a step ----------------------------------------------------------------------------------------- */
+/* ---- Touch that a step resolves ---------------------------------------------------------------------------------- */
 
 #define DMB_TOUCH_FIRST (11.0 / 6.0)
 #define DMB_TOUCH_MOST 4.0 /* [-] largest weight, reached after steps that are much shorter than the previous one */
@@ -156,6 +157,116 @@ static inline void dmb_normal_response_at(const dmb_local_normal *local, dmb_rea
     out->force = dmb_real_select(pulls, zero, out->force);
     out->d_depth = dmb_real_select(pulls, zero, out->d_depth);
     out->d_rate = dmb_real_select(pulls, zero, out->d_rate);
+}
+
+/* ---- Touch and release that a step does not resolve --------------------------------------------------------------
+ *
+ * In a step of length h from the depth x0 to x1 (< 0: off the wall) in which a contact closes or opens, it has its mean
+ * force (eq:contact.mean). With d = max(x, 0), the energy V = K d^(n+1)/(n+1) and the impulse D(d) of the damping on
+ * the way to the depth d, integral of c dd, mu V/v0 of restitution laws,
+ *     G = (V1 - V0)/(x1 - x0) + (D1 - D0)/h, never pulling
+ * so that the wall takes G (x1 - x0) - (V1 - V0) >= 0 out of the bodies.
+ */
+
+/* Per metre of pipe. */
+typedef struct dmb_normal_parts {
+    dmb_real elastic, elastic_by_depth; /* [N/m], [N/m2] (V1 - V0)/(x1 - x0) */
+    dmb_real damper, damper_by_depth;   /* [N/m], [N/m2] (D1 - D0)/h */
+    dmb_real rise;                      /* [J/m] V1 - V0 */
+} dmb_normal_parts;
+
+/* V, dV/dx, d2V/dx2 at x. */
+static inline dmb_mean_end dmb_normal_end(const dmb_local_normal *local, dmb_real x)
+{
+    const dmb_real zero = dmb_real_of(0.0), d = dmb_real_max(x, zero);
+    const dmb_mask closed = dmb_mask_less(zero, x);
+    const double n = local->law->exponent;
+    const dmb_real stiffness = local->stiffness * dmb_normal_reduced_power(n, d);
+    dmb_mean_end end;
+    end.place = x;
+    end.force = stiffness * d;
+    end.energy = end.force * d / (n + 1.0);
+    end.slope = dmb_real_select(closed, n * stiffness, zero);
+    return end;
+}
+
+/* [N s/m2] D at d >= 0 and dD/dd; of a fading damper c (x^3 - x^4/2) impact_depth up to x = d/impact_depth = 1. */
+static inline dmb_real dmb_normal_damped(const dmb_local_normal *local, dmb_real d, dmb_real *by_depth)
+{
+    const dmb_normal_law *law = local->law;
+    const dmb_real zero = dmb_real_of(0.0), full = d * local->damping;
+    dmb_real slope;
+    *by_depth = zero;
+    if (law->kind != DMB_NORMAL_KELVIN_VOIGT && law->kind != DMB_NORMAL_IMPACT) return zero;
+    *by_depth = dmb_normal_damping(law, local->damping, d, &slope);
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT) return full;
+    const dmb_real x = d / law->impact_depth;
+    const dmb_real fades = local->damping * law->impact_depth * (x * x * x * (1.0 - 0.5 * x));
+    return dmb_real_select(dmb_mask_less(d, dmb_real_of(law->impact_depth)), fades,
+                           full - 0.5 * local->damping * law->impact_depth);
+}
+
+/* The law as if it went on pulling off the wall, to x < 0: V(-x). */
+static inline dmb_mean_end dmb_normal_mirrored(const dmb_mean_end *end, const dmb_mean_end *mirrored, dmb_mask where)
+{
+    const dmb_mean_end to = {end->place, dmb_real_select(where, mirrored->energy, end->energy),
+                             dmb_real_select(where, -mirrored->force, end->force),
+                             dmb_real_select(where, mirrored->slope, end->slope)};
+    return to;
+}
+
+/* factor [s/m]: mu/v0. plastic: where a contact opens, the force falls as the law does till it would pull, so that the
+ * wall keeps what is stored there. */
+static inline void dmb_normal_parts_of(const dmb_local_normal *local, dmb_real before, dmb_real depth, dmb_real factor,
+                                       dmb_mask plastic, double h, dmb_normal_parts *out)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    const dmb_mask off = plastic & dmb_mask_less(zero, before) & dmb_mask_less(depth, zero);
+    const dmb_mean_end a = dmb_normal_end(local, before), b = dmb_normal_end(local, depth);
+    dmb_real slope0, slope1;
+    out->rise = b.energy - a.energy;
+    if (dmb_mask_any(off)) {
+        const dmb_mean_end behind = dmb_normal_end(local, -depth), to = dmb_normal_mirrored(&b, &behind, off);
+        dmb_mean_elastic(&a, &to, &out->elastic, &out->elastic_by_depth);
+    } else {
+        dmb_mean_elastic(&a, &b, &out->elastic, &out->elastic_by_depth);
+    }
+    const dmb_real damped0 = dmb_normal_damped(local, dmb_real_max(before, zero), &slope0);
+    const dmb_real damped1 = dmb_normal_damped(local, dmb_real_max(depth, zero), &slope1);
+    out->damper = (damped1 - damped0 + factor * out->rise) / h;
+    out->damper_by_depth = dmb_real_select(dmb_mask_less(zero, depth), (slope1 + factor * b.force) / h, zero);
+}
+
+static inline dmb_real dmb_normal_factor(const dmb_local_normal *local, dmb_real impact_speed)
+{
+    return local->mu / dmb_real_max(impact_speed, dmb_real_of(local->law->impact_floor));
+}
+
+/* G as `force`, its derivative by x1, and [J/m] what the wall takes. */
+typedef struct dmb_normal_mean {
+    dmb_real force, d_depth, taken;
+} dmb_normal_mean;
+
+static inline void dmb_normal_mean_at(const dmb_local_normal *local, dmb_real before, dmb_real depth,
+                                      dmb_real impact_speed, dmb_mask plastic, double h, dmb_normal_mean *out)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    dmb_normal_parts p;
+    out->force = out->d_depth = out->taken = zero;
+    if (local->law->kind == DMB_NORMAL_NONE) return;
+    dmb_normal_parts_of(local, before, depth, dmb_normal_factor(local, impact_speed), plastic, h, &p);
+    out->force = p.elastic + p.damper;
+    const dmb_mask pulls = dmb_mask_less(out->force, zero);
+    out->force = dmb_real_select(pulls, zero, out->force);
+    out->d_depth = dmb_real_select(pulls, zero, p.elastic_by_depth + p.damper_by_depth);
+    out->taken = out->force * (depth - before) - p.rise;
+}
+
+/* Newton's correction of the depth x at which a ring comes to rest against its mean force that would come to `depth`
+ * without: x + yield G(x) = depth. G is convex, so that from `depth` on all of them go the same way. */
+static inline void dmb_normal_mean_correct(dmb_real depth, dmb_real yield, const dmb_normal_mean *mean, dmb_real *x)
+{
+    *x = *x - (*x - depth + yield * mean->force) / (1.0 + yield * mean->d_depth);
 }
 
 #endif

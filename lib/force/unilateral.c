@@ -1,12 +1,9 @@
 #include "force/unilateral.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "drillmbd/forces.h"
-
-/* [-] displacement relative to the places, below which the mean force is the average of both ends. */
-#define DMB_UNILATERAL_NEAR 1e-9
+#include "force/mean_force.h"
 
 int dmb_stop_acts(const dmb_joint_law *law)
 {
@@ -60,16 +57,19 @@ static int pulls(const dmb_unilateral_end *a, const dmb_unilateral_end *b, doubl
     return a->depth <= 0.0 && b->depth <= 0.0 && force > 0.0;
 }
 
+static dmb_mean_end mean_end_of(const dmb_unilateral_end *end)
+{
+    const dmb_mean_end to = {end->place, end->energy, end->force, end->slope};
+    return to;
+}
+
 void dmb_unilateral_mean_of(const dmb_unilateral_end *a, const dmb_unilateral_end *b, double damping, double step,
                             dmb_unilateral_mean *mean)
 {
-    const double way = b->place - a->place, rise = b->energy - a->energy;
-    const double middle = 0.5 * (a->force + b->force);
-    const int near = !(fabs(way) > DMB_UNILATERAL_NEAR * (fabs(a->place) + fabs(b->place)));
-    const double elastic = near ? middle : rise / way;
-    mean->force = elastic + damping * (b->depth - a->depth) / step;
-    mean->by_place = near ? 0.5 * b->slope : (b->force - elastic) / way;
+    const dmb_mean_end from = mean_end_of(a), to = mean_end_of(b);
+    dmb_mean_elastic(&from, &to, &mean->force, &mean->by_place);
+    mean->force += damping * (b->depth - a->depth) / step;
     if (b->closed) mean->by_place += damping / step;
     if (pulls(a, b, mean->force)) mean->force = mean->by_place = 0.0;
-    mean->dissipated = mean->force * way - rise;
+    mean->dissipated = mean->force * (b->place - a->place) - (b->energy - a->energy);
 }

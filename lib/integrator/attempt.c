@@ -143,9 +143,7 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_a
     dmb_free_rigids_place(sim);
     dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
     attempt->released = 1;
-    status = dmb_newton(sim, c, attempt);
-    dmb_release_end(sim);
-    return status;
+    return dmb_newton(sim, c, attempt);
 }
 
 /* A row that was found redundant has to hold with the others; where it does not, the constraints have become singular.
@@ -167,11 +165,30 @@ enum { DMB_CHANGES = 1000 };
 /* Most times that a step is taken again since taking it without the forces that open lets others open. */
 enum { DMB_RELEASES_MAX = 4 };
 
+/* [-] Energy gained over the energy exchanged with the wall: from the first on the step is taken again with the mean
+ * forces in its history, from the second on it is divided where no iteration is left for that. */
+#define DMB_GAIN_CARRIED 0.002
+#define DMB_GAIN_DIVIDED 0.1
+
+/* A step that gains energy at the wall. 1: it is to be taken again, < 0: divided. */
+static int32_t carry(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    const double gain = dmb_bounces_gain(&attempt->evaluation);
+    if (attempt->iterations >= sim->options.max_iterations)
+        return gain > DMB_GAIN_DIVIDED && !sim->options.bounded_work ? DMB_ERR_NO_CONVERGENCE : 0;
+    if (!(gain > DMB_GAIN_CARRIED)) return 0;
+    dmb_bounces_carry(sim);
+    return 1;
+}
+
 /* Contacts that open, and those that open when it is taken again without their forces. */
 static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
     opens |= dmb_bounces_open(sim);
+    const int32_t carries = carry(sim, attempt);
+    if (carries < 0) return carries;
+    opens |= carries;
     for (int k = 0; k < DMB_RELEASES_MAX && opens && status == DMB_OK; k++) {
         status = step_released(sim, c, attempt);
         opens = dmb_bounces_open(sim);
@@ -184,7 +201,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_atte
 {
     dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
     attempt->released = 0;
-    dmb_bounces_begin(sim);
+    dmb_bounces_begin(sim, dmb_step_end_asked(&attempt->end));
     dmb_prediction_make(sim, c, attempt);
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;
@@ -221,7 +238,7 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
         const int32_t refused = dmb_joints_refuse_edges(sim, 1, attempt->evaluation.time);
         if (refused < 0) status = refused;
     }
-    if (status >= 0 && sim->scene->unilateral_count > 0) {
+    if (status >= 0) {
         const int32_t refused = dmb_bounces_end(&attempt->evaluation, &attempt->bounced);
         if (attempt->bounced) attempt->whole = 0;
         if (refused < 0) status = refused;
@@ -261,12 +278,14 @@ static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
 int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
 {
     double low = 0.0, high = attempt->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
+    const double asked = attempt->end.asked;
     int32_t last_side = 0, status = attempt->status;
     if (!(f_high > DMB_RELEASE_TOLERANCE) || !(f_low < 0.0)) return status;
     double weight_low = f_low, weight_high = f_high;
     for (int i = 0; i < DMB_RELEASE_TRIALS && f_high > DMB_RELEASE_TOLERANCE; i++) {
         const double length = low + (high - low) * fmin(fmax(-weight_low / (weight_high - weight_low), 1e-3), 0.999);
-        const dmb_step_end end = dmb_step_end_after(sim, length);
+        dmb_step_end end = dmb_step_end_after(sim, length);
+        end.asked = asked;
         if (!(end.time > sim->clock->time) || !(length > low) || !(length < high)) break;
         status = dmb_attempt_step(sim, &end, 0, attempt);
         if (status < 0) return status;
@@ -284,7 +303,8 @@ int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
         last_side = side;
     }
     if (last_side > 0) return status;
-    const dmb_step_end end = dmb_step_end_after(sim, high);
+    dmb_step_end end = dmb_step_end_after(sim, high);
+    end.asked = asked;
     return dmb_attempt_step(sim, &end, 0, attempt);
 }
 

@@ -11,9 +11,16 @@ typedef struct dmb_step_end {
     double time, rest; /* [s] of the clock there, and what its rounding leaves for the next sum */
     double breakpoint; /* [s] breakpoint that it ends at, to within rounding or a sliver; 0: none */
     double inside;     /* [s] the one breakpoint inside, of a step that is not divided there; 0: none */
+    double asked;      /* [s] length of the step that the caller asked for, of which this is a part; 0: it is whole */
     int32_t arrives;   /* 1: this is where the call is to end */
     int32_t reserved;
 } dmb_step_end;
+
+/* [s] Length that decides whether a contact is resolved, the same in all parts of a divided step. */
+static inline double dmb_step_end_asked(const dmb_step_end *end)
+{
+    return end->asked > 0.0 ? end->asked : end->step;
+}
 
 /* A step of exactly `step` [s] from the present time. */
 dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step);

@@ -181,6 +181,15 @@ static int32_t correct(course *of)
     return of->lead->room->exact ? correct_once(of) : correct_often(of);
 }
 
+/* Contacts, stops and springs are treated as the leader treats them. */
+static void take_modes(course *of)
+{
+    *of->sim->sites_bounce = *of->lead->sim->sites_bounce;
+    memcpy(of->sim->site_coarse, of->lead->sim->site_coarse, of->sim->scene->site_count * sizeof(uint8_t));
+    memcpy(of->sim->site_mode, of->lead->sim->site_mode, of->sim->scene->site_count * sizeof(uint8_t));
+    memcpy(of->sim->bounce_mode, of->lead->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
+}
+
 /* Corrected to where contacts open, and the accelerations that these forces had there. The matrix of the room is that
  * of the step once more, where a contact may be closed again: it does not belong to these factors. */
 static int32_t open_beside(course *of)
@@ -192,6 +201,7 @@ static int32_t open_beside(course *of)
     if (status >= 0) status = correct_often(of);
     dmb_factors_swap(sim, &room->before);
     if (status < 0) return status;
+    take_modes(of);
     dmb_factors_swap(sim, &room->mass);
     status = dmb_released_beside(&of->attempt.evaluation, room->released, sim->correction, sim->released_part,
                                  room->product);
@@ -204,6 +214,7 @@ static int32_t open_alone(course *of)
     int32_t status = factor(of);
     if (status >= 0) status = correct(of);
     if (status < 0) return status;
+    take_modes(of);
     return dmb_released_acceleration(&of->attempt.evaluation, of->sim->correction, of->sim->released_part);
 }
 
@@ -227,14 +238,7 @@ static int32_t follow_release(course *of)
     go_again(of);
     status = shared ? evaluate(of, 0) : factor(of);
     if (status >= 0) status = correct(of);
-    dmb_release_end(sim);
     return status;
-}
-
-/* Stops and springs are treated as the leader treats them. */
-static void take_modes(course *of)
-{
-    memcpy(of->sim->bounce_mode, of->lead->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
 }
 
 /* Accelerations that mean forces leave behind; the factors that followers share stay. */
@@ -272,6 +276,7 @@ static int32_t prepare_release(course *of)
     int32_t status = factor(of);
     if (status < 0) return status;
     dmb_factors_swap(sim, &room->before);
+    take_modes(of);
     status = dmb_released_acceleration(&of->attempt.evaluation, sim->correction, sim->released_part);
     memcpy(room->released, sim->correction, sim->scene->row_count * sizeof(double));
     dmb_factors_swap(sim, &room->mass);
@@ -279,14 +284,14 @@ static int32_t prepare_release(course *of)
         go_again(of);
         status = factor(of);
     }
-    dmb_release_end(sim);
     return status;
 }
 
 int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
 {
     course of = course_of(follower, lead);
-    take_modes(&of);
+    dmb_bounces_begin(follower, dmb_step_end_asked(&lead->attempt->end));
+    if (!lead->attempt->released) take_modes(&of);
     int32_t status = predict(&of);
     if (status < 0) return status;
     lead->room->exact = is_exact(lead->sim);
@@ -298,7 +303,8 @@ int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
 int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead)
 {
     course of = course_of(follower, lead);
-    take_modes(&of);
+    dmb_bounces_begin(follower, dmb_step_end_asked(&lead->attempt->end));
+    if (!lead->attempt->released) take_modes(&of);
     int32_t status = follow(&of);
     if (status >= 0) status = end_bounces(&of);
     if (status < 0) return status;

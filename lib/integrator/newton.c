@@ -8,6 +8,7 @@
 #include "kernel/kernels.h"
 #include "sim/access.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/bounces.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
@@ -207,9 +208,16 @@ static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton
 static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt, const dmb_newton_course *course)
 {
     dmb_evaluation *evaluation = &attempt->evaluation;
+    evaluation->predicted = course->corrections == 0 && !attempt->released && *sim->sites_bounce;
     evaluation->tangent = attempt->factored == DMB_FACTORS_NONE && !(course->linear && course->corrections == 0);
     const int32_t status = sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
     return status < 0 ? status : dmb_system_evaluate(evaluation);
+}
+
+/* 1: the residual is that of tangents to the mean forces of contacts, which no solution has to be near. */
+static int32_t from_tangent(const dmb_sim *sim, const dmb_attempt *attempt)
+{
+    return attempt->evaluation.predicted && dmb_sites_have_mean(sim);
 }
 
 /* Verdict of the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
@@ -220,16 +228,43 @@ static int32_t judge(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *cour
     attempt->residual = norm.relative;
     attempt->bound = norm.bound;
     course->hidden = norm.converged == DMB_AT_ROUNDING && dmb_factor_reuse_still_pay(sim, attempt, course);
-    if (norm.converged && !course->hidden) return 0;
+    if (norm.converged && !course->hidden && !from_tangent(sim, attempt)) return 0;
     if (is_rounding(attempt, norm.balance, course) || is_unsharp(sim, attempt, course)) return 0;
     const int32_t status = check_course(sim, attempt, course);
     return status != 1 && is_met(sim, attempt, course) ? 0 : status;
 }
 
+/* [-] Work of the residual over the last correction, relative to that before it, below which the correction went too
+ * far. */
+#define DMB_NEWTON_BEYOND -0.5
+
+/* [J] of the residual over the correction at hand, where contacts have mean forces. */
+static double work_along(const dmb_sim *sim)
+{
+    if (!dmb_sites_have_mean(sim)) return 0.0;
+    return sim->scene->kernels->product(sim->scene->row_count, sim->correction, sim->residual);
+}
+
+/* Friction of contacts with mean forces is steep in their slip: from one side of that, Newton comes as far beyond it on
+ * the other, again and again. 1: the last correction went too far, so that half of the next one comes between. */
+static int32_t went_beyond(const dmb_sim *sim, const dmb_newton_course *course)
+{
+    const double before = course->along;
+    return before != 0.0 && work_along(sim) / before < DMB_NEWTON_BEYOND;
+}
+
+static void halve(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->correction[i] *= 0.5;
+}
+
 /* Moves the trial by the correction that the factors at hand give. */
 static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
 {
+    const int32_t beyond = went_beyond(sim, course);
     dmb_solve_correction(sim);
+    if (beyond) halve(sim);
+    course->along = work_along(sim);
     if (follows_error(sim)) {
         course->work = work_of(sim);
         course->most_work = fmax(course->most_work, course->work);

@@ -12,6 +12,7 @@ typedef struct dmb_newton_course {
     double earlier;         /* relative residual before the last correction but one */
     double balance;         /* [N] norm of the terms that balanced at the start */
     double most_work, work; /* [J] |z . residual| of the largest correction z, of the last */
+    double along;           /* [J] z . residual of the last correction z, where contacts have mean forces; else 0 */
     uint32_t corrections;
     int32_t linear; /* 1: it began from a linear prediction, whose correction is the first */
     int32_t hidden; /* 1: all that shows is rounding, but reused factors still find something below it */

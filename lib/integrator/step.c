@@ -203,7 +203,8 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
 {
     dmb_attempt attempt;
     for (;;) {
-        const dmb_step_end end = substep(sim, goal, *cut);
+        dmb_step_end end = substep(sim, goal, *cut);
+        end.asked = goal->step;
         if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", end.step);
         const int last = end.arrives;
         if (!last && !walk->set_aside) {

@@ -98,12 +98,16 @@ typedef struct dmb_site_fields {
     int32_t *sticks;
 } dmb_site_fields;
 
+/* Sites whose touch and release a step does not resolve: they bounce, or, met slower than the step falls under its
+ * weight, stay where they are: what the wall has stored is lost when they open. */
+enum { DMB_SITE_COARSE = 1, DMB_SITE_PLASTIC = 2 };
+
 /* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
 typedef struct dmb_wall_job {
     uint32_t count;   /* sites */
     int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
     int32_t touches;  /* 1: the damping of the wall jumps at touch; else the fields of touch are empty */
-    int32_t reserved;
+    int32_t bounces;  /* 1: rings have mean forces in the step: those with a mode, and coarse ones that meet the wall */
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;
@@ -113,11 +117,17 @@ typedef struct dmb_wall_job {
     const double *displacement, *quaternion, *velocity; /* of the trial */
     const double *now_quaternion, *now_velocity;        /* of the last accepted instant, and: */
     dmb_site_fields now;                                /* read */
-    const double *site_return;                          /* [m/s] a ring that opens in the step left the wall; else 0 */
-    dmb_site_fields trial;                              /* written */
-    double slip[2];                                     /* [m/s, rad/s] in statics */
-    double softer;                                      /* [-] stiffness of sections is divided by it */
-    double step, velocity_factor;                       /* as in dmb_evaluation, as are: */
+    const double *site_history; /* of rings that the history of the step was changed for; else 0. > 0 [m/s]: it opens in
+                                   the step and left the wall so fast; < 0: less the mean force [N] in the history */
+    const uint8_t *mode, *coarse; /* read where rings have mean forces */
+    dmb_site_fields trial;        /* written */
+    uint8_t *presses;             /* written there: 1: with a force > 0 */
+    double slip[2];               /* [m/s, rad/s] in statics */
+    double softer;                /* [-] stiffness of sections is divided by it */
+    double
+        yield; /* [m2/N] depth that rings go back by a mean force of 1 N/m, in the first evaluation of a step; else 0 */
+    double slows;                             /* [m2/(N s)] speed that they lose by it there */
+    double step, velocity_factor, own_factor; /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent;
     double *residual, *scale;                     /* added to */
     double *stiffness, *inertia;                  /* diagonal blocks, added to */
@@ -137,9 +147,13 @@ static inline void dmb_site_fields_skip(const dmb_wall_job *job, uint32_t count,
     fields->bristle += 2 * (size_t)count;
     fields->sticks += count;
 }
-/* The fields of both configurations go on to the site that stands so many behind the first. */
+/* The fields of sites go on to the one that stands so many behind the first. */
 static inline void dmb_wall_job_skip(dmb_wall_job *job, uint32_t count)
 {
+    job->site_history += count;
+    job->mode += count;
+    job->coarse += count;
+    job->presses += count;
     dmb_site_fields_skip(job, count, &job->now);
     dmb_site_fields_skip(job, count, &job->trial);
 }

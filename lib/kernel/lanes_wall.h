@@ -24,7 +24,10 @@ typedef struct wall_group {
     dmb_real x[3];                                 /* [m] their centres, world */
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
     dmb_real penetration, impact_speed;
-    dmb_mask touches;
+    dmb_mask touches, own;         /* own: those that have the mean force of the step */
+    dmb_real pressed;              /* [N] of those in the first evaluation: where they come to rest alone */
+    dmb_real heat;                 /* [W] into the wall, of those */
+    dmb_real turned;               /* [-] cosine of the angle between the normals at the start and now */
     dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
     dmb_real bristle[2];           /* [m] the same */
     dmb_contact_frame frame;
@@ -141,6 +144,7 @@ static inline void locate(const dmb_wall_job *job, wall_group *g)
         project_survey(job, g, point);
     load(job->now.normal, 3, 3, &g->site, 0, last);
     dmb_radial_at(g->x, point, g->tangent, last, &g->frame.distance, g->normal);
+    g->turned = dmb_vec3_dot(last, g->normal);
     store(g->normal, 3, &g->site, job->trial.normal);
 }
 
@@ -162,7 +166,7 @@ static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g
 static inline void take_impact_speed(const dmb_wall_job *job, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    const dmb_real back = load_line(job->site_return, &g->site);
+    const dmb_real back = job->own_factor > 0.0 ? load_line(job->site_history, &g->site) : zero;
     const dmb_real penetration = load_line(job->now.penetration, &g->site);
     const dmb_real impact_speed = load_line(job->now.impact_speed, &g->site);
     const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
@@ -265,12 +269,32 @@ static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, 
     g->sticking = dmb_mask_bits(sticks);
 }
 
+/* In the first evaluation of a step the tangent of rings with a mean force is that under the force N0 to which the
+ * ring comes alone, at the predicted slip or, where friction can stop that within the step, at rest: from the slip that
+ * is predicted Newton would go to and fro across the steep part of the law. */
+DMB_LANES_CALL void rub_at_start(const dmb_wall_job *job, const wall_group *g, dmb_real N, dmb_real F[2],
+                                 dmb_real by_speed[4], dmb_real by_normal[2])
+{
+    const dmb_local_friction *law = g->friction_law;
+    const dmb_real zero = dmb_real_of(0.0), *v = g->frame.speed + 1;
+    const dmb_real N0 = dmb_real_select(g->own, g->pressed, N);
+    const dmb_real per_force = job->slows / (job->own_factor * g->length);
+    const dmb_mask stops =
+        g->own & dmb_mask_less(dmb_friction_norm(v[0], v[1]), per_force * dmb_friction_most(law) * N0);
+    const dmb_real at[2] = {dmb_real_select(stops, zero, v[0]), dmb_real_select(stops, zero, v[1])};
+    dmb_friction_smooth_at(law, N0, at, F, by_speed, by_normal);
+    for (int k = 0; k < 2; k++)
+        F[k] = F[k] + by_normal[k] * (N - N0) + by_speed[2 * k] * (v[0] - at[0]) + by_speed[2 * k + 1] * (v[1] - at[1]);
+}
+
 static inline void add_friction(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
     if (job->friction_law->kind == DMB_FRICTION_BRISTLE && job->dynamic)
         bristles(job, g, -c->F[0], F, by_speed, by_normal);
+    else if (job->yield > 0.0 && dmb_mask_any(g->own))
+        rub_at_start(job, g, -c->F[0], F, by_speed, by_normal);
     else
         dmb_friction_smooth_at(g->friction_law, -c->F[0], g->frame.speed + 1, F,
                                job->tangent && job->dynamic ? by_speed : NULL, by_normal);
@@ -336,6 +360,19 @@ static inline void add_touching(dmb_real x, const wall_group *g, double *to)
     add_each(dmb_real_select(g->touches, x, dmb_real_of(-0.0)), &g->site, to);
 }
 
+/* The powers of a mean force: heat into the wall, friction over the step as the trapezoidal rule counts its end, and
+ * what is left (eq:contact.mean). */
+static inline void take_own_powers(const dmb_wall_job *job, const wall_group *g, const dmb_contact_force *c,
+                                   dmb_real power[3])
+{
+    const dmb_real *v = g->frame.speed;
+    const dmb_real rubs = (2.0 / job->own_factor) * power[2];
+    const dmb_real rest = c->F[0] * v[0] - g->heat + (power[2] - rubs);
+    power[0] = dmb_real_select(g->own, rest, power[0]);
+    power[1] = dmb_real_select(g->own, g->heat, power[1]);
+    power[2] = dmb_real_select(g->own, rubs, power[2]);
+}
+
 static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_contact_force *c,
                               const dmb_real wrench[6])
 {
@@ -349,36 +386,116 @@ static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_
     add_rows(g, magnitude, job->scale);
     add_touching(rounding_of(g, c->by_depth[0]), g, &job->rounding);
     if (!job->dynamic) return;
-    dmb_real stored = c->elastic * v[0]; /* [W] into the wall */
+    dmb_real power[3] = {-(c->elastic * v[0]), (c->F[0] + c->elastic) * v[0], c->F[1] * v[1] + c->F[2] * v[2]};
+    if (dmb_mask_any(g->own)) take_own_powers(job, g, c, power);
     if (has_sections(job))
-        stored = stored + g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
-    add_touching(-stored, g, &job->potential);
-    add_touching((c->F[0] + c->elastic) * v[0], g, &job->impact);
-    add_touching(c->F[1] * v[1] + c->F[2] * v[2], g, &job->friction);
+        power[0] = power[0] - g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
+    add_touching(power[0], g, &job->potential);
+    add_touching(power[1], g, &job->impact);
+    add_touching(power[2], g, &job->friction);
+}
+
+/* ---- Mean force of a step in which rings meet the wall or leave it (system/assemble/bounces.h) --------------------
+ */
+
+/* Rings whose mark is at least that. */
+static inline dmb_mask those_of(const uint8_t *marks, double least, const wall_group *g)
+{
+    dmb_real marked = dmb_real_of(0.0);
+    for (int l = 0; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&marked, l, marks[place_at(&g->site, (uint32_t)l)]);
+    return dmb_mask_at_most(dmb_real_of(least), marked);
+}
+
+/* Rings that meet the wall in the step, or another side of it, and do not resolve that, and those in a mode of their
+ * own. Pinned rings never open. */
+static inline dmb_mask with_mean_force(const dmb_wall_job *job, const wall_group *g)
+{
+    const dmb_real zero = dmb_real_of(0.0), before = load_line(job->now.penetration, &g->site);
+    const dmb_mask meets =
+        dmb_mask_less(zero, g->penetration) & (dmb_mask_at_most(before, zero) | dmb_mask_less(g->turned, zero));
+    const dmb_mask own = (meets & those_of(job->coarse, DMB_SITE_COARSE, g)) | those_of(job->mode, 1.0, g);
+    return own & dmb_mask_less(zero, g->clearance);
+}
+
+/* Of the mean force, with the depth in a hole of sections. */
+static inline dmb_real mean_slope(const dmb_wall_job *job, const wall_group *g)
+{
+    return job->own_factor * dmb_section_mean_slope(&g->section, load_line(job->now.penetration, &g->site),
+                                                    g->penetration, g->impact_speed,
+                                                    those_of(job->coarse, DMB_SITE_PLASTIC, g), job->step);
 }
 
 /* The part along the axis; changes of the laws with the depth. */
 static inline void press_section(const dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, dmb_real wrench[6])
 {
     const int friction = job->friction_law != NULL;
-    const dmb_section_ring ring = {
-        .length = g->length,
-        .at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL},
-        .friction = friction,
-        .memory = job->dynamic && friction && job->friction_law->kind == DMB_FRICTION_BRISTLE};
+    const dmb_real depth = dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION));
+    dmb_real slope = dmb_section_normal_slope(&g->section, depth, g->frame.speed[0], g->impact_speed);
+    if (dmb_mask_any(g->own)) slope = dmb_real_select(g->own, mean_slope(job, g), slope);
+    const dmb_section_ring ring = {.length = g->length,
+                                   .penetration = depth,
+                                   .normal_slope = slope,
+                                   .friction = friction,
+                                   .memory =
+                                       job->dynamic && friction && job->friction_law->kind == DMB_FRICTION_BRISTLE};
     dmb_section_force(&g->frame, c, &ring, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
 }
 
-/* [-] step over c/k, from where on the spring alone governs a contact that the steps do not resolve: weights of its
- * damping would only move its energy about. */
-#define DMB_TOUCH_COARSE 10.0
+/* [-] of the way to where a ring comes to rest: from there on Newton's first steps only halve what is left. */
+#define DMB_MEAN_FAR 3.0
 
-static inline dmb_mask is_resolved(const dmb_wall_job *job, const dmb_local_normal *law)
+DMB_LANES_CALL void mean_of(const dmb_wall_job *job, const wall_group *g, dmb_real depth, dmb_normal_mean *mean)
 {
-    const dmb_real zero = dmb_real_of(0.0);
-    if (law->law->exponent != 1.0) return dmb_mask_at_most(zero, zero);
-    return dmb_mask_not(dmb_mask_less(DMB_TOUCH_COARSE * law->damping, job->step * law->stiffness));
+    dmb_normal_mean_at(g->normal_law, load_line(job->now.penetration, &g->site), depth, g->impact_speed,
+                       those_of(job->coarse, DMB_SITE_PLASTIC, g), job->step, mean);
+}
+
+/* Of rings in free flight, where that is far. */
+static inline void come_to_rest(const dmb_wall_job *job, const wall_group *g, dmb_real *depth)
+{
+    enum { CORRECTIONS = 12 };
+    const dmb_real before = load_line(job->now.penetration, &g->site), predicted = *depth;
+    for (int k = 0; k < CORRECTIONS; k++) {
+        dmb_normal_mean mean;
+        mean_of(job, g, *depth, &mean);
+        dmb_normal_mean_correct(predicted, dmb_real_of(job->yield), &mean, depth);
+    }
+    const dmb_real way = DMB_MEAN_FAR * dmb_real_abs(*depth - before);
+    *depth = dmb_real_select(dmb_mask_less(way, predicted - *depth), *depth, predicted);
+}
+
+/* It stands for the mean force at the end of the step; the wall takes twice its mean power there. Predicted depths are
+ * those of free flight: from there Newton would only halve them again and again, so that the tangent is that in the
+ * depth to which the ring comes alone. */
+static inline void take_mean_force(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
+{
+    dmb_normal_mean mean;
+    const dmb_real scale = job->own_factor * g->length;
+    dmb_real depth = g->penetration;
+    if (job->yield > 0.0) come_to_rest(job, g, &depth);
+    mean_of(job, g, depth, &mean);
+    g->pressed = scale * mean.force;
+    mean.force = mean.force + mean.d_depth * (g->penetration - depth);
+    dmb_contact_take_own(g->own, scale * mean.force, scale * mean.d_depth, c);
+    g->heat = -(2.0 / job->step) * (g->length * mean.taken);
+}
+
+/* Where the history of the step has a mean force G already, the end of the step stands for what is more than that: of
+ * own_factor N it has own_factor (N - G) + G. Friction is that of the whole mean force. */
+static inline void take_off_history(const dmb_wall_job *job, const wall_group *g, dmb_contact_force *c,
+                                    dmb_real wrench[6])
+{
+    const dmb_real zero = dmb_real_of(0.0), carried = dmb_real_max(-load_line(job->site_history, &g->site), zero);
+    const dmb_real off = dmb_real_select(g->own, (job->own_factor - 1.0) * carried, zero);
+    c->F[0] = c->F[0] + off;
+    for (int i = 0; i < 3; i++) wrench[i] = wrench[i] + off * g->frame.n[i];
+}
+
+static inline void keep_presses(const dmb_wall_job *job, const wall_group *g, dmb_real force)
+{
+    const uint32_t bits = dmb_mask_bits(g->touches & dmb_mask_less(dmb_real_of(0.0), force));
+    for (uint32_t l = 0; l < g->site.used; l++) job->presses[g->site.first + l] = (uint8_t)(bits >> l & 1);
 }
 
 /* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
@@ -393,16 +510,13 @@ static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_norma
     touch->weight = one;
     touch->by_depth = zero;
     if (!job->dynamic || !(job->step > 0.0)) return;
-    const dmb_mask resolved = is_resolved(job, g->normal_law);
-    if (!dmb_mask_any(resolved)) return;
     const dmb_mask opens = g->touches & dmb_mask_not(dmb_mask_at_most(g->clearance, zero));
     const dmb_real before = load_line(job->now.penetration, &g->site);
     dmb_normal_touch_at(dmb_real_select(opens, before, one), g->penetration, dmb_real_of(job->step), was, touch, kept);
-    if (!dmb_mask_any(dmb_mask_not(resolved))) return;
-    touch->weight = dmb_real_select(resolved, touch->weight, one);
-    touch->by_depth = dmb_real_select(resolved, touch->by_depth, zero);
-    for (int i = 0; i < DMB_TOUCH_SIZE; i++)
-        kept[i] = dmb_real_select(resolved, kept[i], i == DMB_TOUCH_TIME ? was[i] : zero);
+    if (!dmb_mask_any(g->own)) return;
+    touch->weight = dmb_real_select(g->own, one, touch->weight);
+    touch->by_depth = dmb_real_select(g->own, zero, touch->by_depth);
+    for (int i = 0; i < DMB_TOUCH_SIZE; i++) kept[i] = dmb_real_select(g->own, zero, kept[i]);
 }
 
 /* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
@@ -429,6 +543,7 @@ static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_co
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
     if (!job->touches) {
         dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
+        if (dmb_mask_any(g->own)) take_mean_force(job, g, c);
         return;
     }
     dmb_normal_touch touch;
@@ -437,6 +552,7 @@ static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_co
     dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
     g->kept[DMB_TOUCH_FORCE] = c->whole;
     if (has_sections(job)) g->section.damping_slope = g->section.damping_slope * touch.weight;
+    if (dmb_mask_any(g->own)) take_mean_force(job, g, c);
 }
 
 static inline void press(dmb_wall_job *job, wall_group *g)
@@ -449,8 +565,10 @@ static inline void press(dmb_wall_job *job, wall_group *g)
     c.F[1] = c.F[2] = dmb_real_of(0.0);
     press_normally(job, g, &c);
     if (friction) add_friction(job, g, &c);
+    if (job->bounces) keep_presses(job, g, -c.F[0]);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
     if (has_sections(job)) press_section(job, g, &c, wrench);
+    if (dmb_mask_any(g->own)) take_off_history(job, g, &c, wrench);
     if (job->tangent) add_tangent(job, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
     add_forces(job, g, &c, wrench);
@@ -464,10 +582,15 @@ static void walls(dmb_wall_job *job)
         g.site = group_at(first, job->count);
         place_rings(job, &laws, &g);
         const dmb_real zero = dmb_real_of(0.0);
-        g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
+        g.own = dmb_mask_less(zero, zero);
+        if (job->bounces) g.own = with_mean_force(job, &g);
+        g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero) | g.own;
         g.touching = dmb_mask_bits(g.touches) & lanes_used(&g.site);
         if (job->bristles) begin_bristles(job, &g);
-        if (g.touching) press(job, &g);
+        if (g.touching)
+            press(job, &g);
+        else if (job->bounces)
+            keep_presses(job, &g, zero);
         if (job->bristles) keep_bristles(job, &g);
         if (job->touches) keep_touch(job, &g);
     }

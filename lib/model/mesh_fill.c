@@ -428,6 +428,13 @@ static void fill_lengths(dmb_scene *scene)
         if (!(scene->chains[c].length > DMB_BODY_LENGTH_MIN)) scene->chains[c].length = 1.0;
 }
 
+static void fill_mobility(dmb_scene *scene)
+{
+    scene->site_mobility = 0.0;
+    for (uint32_t s = 0; s < scene->site_count; ++s)
+        scene->site_mobility = fmax(scene->site_mobility, scene->sites[s].length * dmb_site_mobility(scene, s));
+}
+
 int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *storage)
 {
     const int32_t status = fill_layout(mesh, scene, storage);
@@ -442,5 +449,6 @@ int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage
     fill_near_sites(scene);
     fill_flow(mesh, scene);
     fill_lengths(scene);
+    fill_mobility(scene);
     return DMB_OK;
 }

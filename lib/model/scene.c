@@ -179,3 +179,47 @@ void dmb_scene_release_dense(const dmb_scene *dense, const dmb_allocator *alloca
     dmb_block_pattern_release(&whole.pattern, allocator);
     dmb_release(allocator, (void *)(uintptr_t)dense, whole.bytes);
 }
+
+/* ---- Mobility of contact sites ----------------------------------------------------------------------------------- */
+
+/* [kg] */
+static double mass_beside(const dmb_scene *scene, uint32_t node)
+{
+    double mass = 0.0;
+    for (uint32_t k = node == 0 ? 1 : 0; k < 2; ++k) {
+        const uint32_t e = scene->node_element[node - (k == 0)];
+        if (e == DMB_NONE) continue;
+        const dmb_element_type *type = scene->types + scene->element_type[e];
+        mass += 0.5 * type->mass_per_metre * type->length;
+    }
+    return mass;
+}
+
+/* By node, in whose order they stand; NULL: none. */
+static const dmb_rigid_mass *rigid_mass_on(const dmb_scene *scene, uint32_t node)
+{
+    uint32_t low = 0, high = scene->rigid_mass_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (scene->rigid_masses[middle].node < node)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < scene->rigid_mass_count && scene->rigid_masses[low].node == node ? scene->rigid_masses + low : NULL;
+}
+
+/* 1/m, m being half of the elements beside the node and what is rigid on it; inside an element half of that. Bodies
+ * turn, too: a^2/J at the distance a from the node. */
+double dmb_site_mobility(const dmb_scene *scene, uint32_t s)
+{
+    const dmb_site *site = scene->sites + s;
+    const dmb_rigid_mass *rigid = rigid_mass_on(scene, site->node);
+    const double beside = mass_beside(scene, site->node);
+    if (dmb_is_inside(scene, s)) return 1.0 / beside;
+    const double mass = beside + (rigid != NULL ? rigid->mass : 0.0);
+    double mobility = mass > 0.0 ? 1.0 / mass : 0.0;
+    if (beside > 0.0 || rigid == NULL) return mobility;
+    const double inertia = fmin(rigid->inertia[1], rigid->inertia[2]);
+    return inertia > 0.0 ? mobility + site->offset * site->offset / inertia : mobility;
+}

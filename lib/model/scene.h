@@ -311,6 +311,7 @@ typedef struct dmb_scene {
     dmb_normal_law normal_law;
     dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
     dmb_site *sites;
+    double site_mobility; /* [m/kg] largest length times mobility of a site */
     dmb_path_site *path_sites;
     uint32_t *near_contact; /* contact point on a node, or the nearest along its chain and across joints, that its depth
                             is known from; DMB_NONE: none; shape (node), of a curved hole */
@@ -400,6 +401,9 @@ static inline int32_t dmb_scene_has_touch(const dmb_scene *scene)
 {
     return scene->normal_law.kind == DMB_NORMAL_KELVIN_VOIGT;
 }
+
+/* [1/kg] J M^-1 J^T of the normal force of a contact site, by the mass beside it: model/scene. */
+double dmb_site_mobility(const dmb_scene *scene, uint32_t site);
 
 /* Sites on nodes, which come before those inside elements. */
 static inline uint32_t dmb_node_sites(const dmb_scene *scene)

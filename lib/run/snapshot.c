@@ -222,6 +222,13 @@ static int32_t check_frames(const probe *p)
     return status;
 }
 
+static int32_t check_ages(const probe *p)
+{
+    for (size_t i = 0; i < p->field->bytes; i++)
+        if (p->from[i] >= 2 * DMB_SITE_OWN) return refuse(p, i, p->from[i], "below 32");
+    return DMB_OK;
+}
+
 static int32_t check_field(const probe *p)
 {
     const dmb_hole *hole = &p->sim->scene->hole;
@@ -245,7 +252,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_REUSE: return check_factors(p);
     case DMB_CHECK_PREDICTION: return check_prediction(p);
     case DMB_CHECK_FRAMES: return check_frames(p);
-    case DMB_CHECK_AGES: return check_words(p, (uint32_t)DMB_BOUNCE_STEPS + 1, 0);
+    case DMB_CHECK_AGES: return check_ages(p);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
 }

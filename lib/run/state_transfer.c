@@ -51,7 +51,7 @@ static void transfer_counters(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(clock, 1);
     memset(sim->clock->power, 0, sizeof sim->clock->power);
     memset(sim->counters->projection, 0, sizeof sim->counters->projection); /* of this call; see keep_projection */
-    memset(sim->site_return, 0, sim->scene->site_count * sizeof(double));
+    memset(sim->site_history, 0, sim->scene->site_count * sizeof(double));
 }
 
 /* Constraints are sorted by cluster, and clusters may be numbered otherwise. */

@@ -25,7 +25,7 @@ enum {
     DMB_CHECK_EVENT_TIMES = 15, /* doubles that are finite, NaN or infinite and > 0 */
     DMB_CHECK_FRAMES = 16,      /* quaternions of length 1 or 0 */
     DMB_CHECK_PREDICTION = 17,  /* pauses as they are made */
-    DMB_CHECK_AGES = 18         /* steps since touch, at most those of a bounce */
+    DMB_CHECK_AGES = 18         /* steps since touch, with the mark of sites with mean forces */
 };
 
 /* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */

@@ -97,7 +97,8 @@
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
     X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself: system/bounce_end, \
                                          system/assemble/bounces */                                                  \
-    X(uint32_t, site_age, s, AGES)    /* [-] steps since touch: system/bounce_end, system/assemble/bounces */          \
+    X(uint8_t, site_age, s, AGES)     /* [-] steps since touch, DMB_SITE_OWN more: integrated by itself:               \
+                                         system/bounce_end, system/assemble/bounces */                                 \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                 \
@@ -175,7 +176,13 @@
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
-    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/jump */   \
+    X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force  \
+                                  in the history of the step; else 0: system/jump */                                  \
+    X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/follow */  \
+    X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces */   \
+    X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,            \
+                                integrator/follow */                                                                  \
+    X(uint8_t, site_presses, s) /* 1: with a force > 0 in the trial: system/assemble/wall_contact */                   \
     X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/follow */                       \
     X(double, bounce_own, u) /* [N, N m] force of the step's own integration: system/assemble/bounces */              \
     X(double, bounce_warmth, u) /* [W] into its damper: system/assemble/bounces */                                    \

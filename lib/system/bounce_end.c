@@ -1,16 +1,30 @@
-/* Accelerations behind a step in which stops or springs touch or open: without the mean forces that the step had
- * (eq:unilateral.mean, eq:unilateral.resolved). */
+/* Accelerations behind a step in which contacts, stops or springs touch or open: without the mean forces that the step
+ * had (eq:unilateral.mean, eq:unilateral.resolved, eq:contact.mean). */
 #include "system/system.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "math/vec3.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/bounces.h"
 #include "system/assemble/ledger.h"
 #include "system/solve/solve.h"
 
 /* [-] (k h^2 + c h)/m of a contact up to which steps resolve it. */
 #define DMB_BOUNCE_RESOLVED 0.25
+
+/* Accelerations [m/s2, rad/s2], shape (row): M^-1 of the forces of the step's own integration, which go, and of those
+ * of the laws that are followed from here on, which come. Without stops and springs in arrays that nobody needs behind
+ * a trial. */
+static double *taken_of(const dmb_sim *sim)
+{
+    return sim->scene->unilateral_count > 0 ? sim->bounce_taken : sim->scale_row;
+}
+static double *given_of(const dmb_sim *sim)
+{
+    return sim->scene->unilateral_count > 0 ? sim->bounce_given : sim->correction;
+}
 
 /* sim->correction = M^-1 J^T, by the factors at hand; returns J M^-1 J^T [1/kg, 1/(kg m2)]. */
 static double mobility(dmb_evaluation *evaluation, uint32_t u)
@@ -43,8 +57,8 @@ static void exchange(dmb_evaluation *evaluation, uint32_t u, const dmb_unilatera
     sim->bounce_stays[u] = stays(evaluation, u, inverse_mass, a, b);
     const double own = sim->bounce_own[u], law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        sim->bounce_taken[i] += own * sim->correction[i];
-        sim->bounce_given[i] -= law * sim->correction[i];
+        taken_of(sim)[i] += own * sim->correction[i];
+        given_of(sim)[i] -= law * sim->correction[i];
     }
 }
 
@@ -58,37 +72,191 @@ static int32_t factor_mass(const dmb_evaluation *evaluation, dmb_evaluation *mas
     return dmb_factor_mass_in_step(mass);
 }
 
-int32_t dmb_bounces_end(const dmb_evaluation *evaluation, int32_t *found)
+/* ---- Contact sites ----------------------------------------------------------------------------------------------- */
+
+static int site_stays(const dmb_sim *sim, uint32_t s)
+{
+    return (sim->site_mode[s] & DMB_SITE_STAYS) != 0;
+}
+
+/* Force of a site at the end of a step by the law, and the one that stands for the mean force there; mean force [N],
+ * and [J] that the wall takes. */
+typedef struct site_step {
+    dmb_site_force law, own;
+    double mean, taken;
+} site_step;
+
+static void site_step_of(const dmb_evaluation *evaluation, uint32_t s, site_step *to)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const double length = scene->sites[s].length, carried = fmin(sim->site_history[s], 0.0);
+    dmb_normal_mean mean;
+    dmb_site_force_of(scene, &sim->trial, s, &to->law);
+    dmb_site_mean_of(sim, s, evaluation->step, &mean);
+    to->own = to->law;
+    to->own.normal_force = evaluation->own_factor * length * mean.force;
+    to->own.along += to->own.rho * (to->own.normal_force - to->law.normal_force);
+    dmb_site_rub(scene, &sim->trial, s, &to->own);
+    to->own.normal_force += (evaluation->own_factor - 1.0) * carried;
+    to->mean = length * mean.force;
+    to->taken = length * mean.taken;
+}
+
+/* [kg] (k h + c) h of a site that touches, k and c of the law as deep as a step takes it. */
+static double resistance(const dmb_sim *sim, uint32_t s, double h)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, sim->trial.site_depth[s]);
+    const double speed = sim->trial.site_impact_speed[s];
+    double force, by_depth, by_rate;
+    const double depth = fmax(sim->trial.site_penetration[s], h * fabs(speed));
+    dmb_normal_force(&law, depth, 0.0, speed, &force, &by_depth, &by_rate);
+    return scene->sites[s].length * (by_depth * h + by_rate) * h;
+}
+
+/* A unit of normal force. */
+static dmb_site_force unit_force(const dmb_sim *sim, uint32_t s)
+{
+    dmb_site_force f;
+    memset(&f, 0, sizeof f);
+    dmb_vec3_copy(sim->trial.site_normal + 3 * (size_t)s, f.normal);
+    f.normal_force = 1.0;
+    return f;
+}
+
+/* Part of y (row) along a unit of normal force of the site; room (row) is 0 before and after. */
+static double along_site(const dmb_sim *sim, uint32_t s, const double *y, double *room)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t node = scene->sites[s].node, last = node + (dmb_is_inside(scene, s) ? 2 : 1);
+    const dmb_site_force f = unit_force(sim, s);
+    double sum = 0.0;
+    dmb_site_add_force(scene, &sim->trial, s, 1.0, &f, room);
+    for (uint32_t i = scene->layout.row[node]; i < scene->layout.row[last]; i++) {
+        sum += room[i] * y[i];
+        room[i] = 0.0;
+    }
+    return sum;
+}
+
+/* [-] of the mean force, up to which a damper has settled in a contact that steps do not resolve. */
+#define DMB_BOUNCE_SETTLED 0.1
+
+/* By its age, unless the damper still acts: its force at the end of the step would throw the bodies when the law is
+ * followed. */
+static int is_lasting(const dmb_evaluation *evaluation, uint32_t s)
+{
+    const dmb_sim *sim = evaluation->sim;
+    site_step of;
+    if ((sim->site_age[s] & (DMB_SITE_OWN - 1)) + 1 < (int)DMB_BOUNCE_STEPS) return 0;
+    site_step_of(evaluation, s, &of);
+    const double damper = of.law.normal_force - dmb_site_elastic_force(sim->scene, &sim->trial, s, &of.law);
+    return fabs(damper) <= DMB_BOUNCE_SETTLED * of.mean;
+}
+
+static int touches_coarsely(const dmb_sim *sim, uint32_t s)
+{
+    return dmb_site_has_mean(sim, s) && dmb_site_touches(sim, s);
+}
+
+static void mark_stay(dmb_sim *sim, uint32_t s, int stays)
+{
+    sim->site_mode[s] = (uint8_t)((sim->site_mode[s] & DMB_SITE_MODE) | (stays ? DMB_SITE_STAYS : 0));
+}
+
+/* Sites that touch: all at once, J M^-1 sum of J^T (k h + c) h in place of each by itself. */
+static void choose_sites(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    double *y = taken_of(sim), *room = given_of(sim);
+    int touched = 0;
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) {
+        const int own = sim->trial.site_penetration[s] > 0.0 && (sim->site_age[s] & DMB_SITE_OWN) != 0;
+        mark_stay(sim, s, own && !is_lasting(evaluation, s));
+        if (!touches_coarsely(sim, s)) continue;
+        const dmb_site_force f = unit_force(sim, s);
+        dmb_site_add_force(sim->scene, &sim->trial, s, -resistance(sim, s, evaluation->step), &f, y);
+        touched = 1;
+    }
+    if (!touched) return;
+    dmb_solve_for(sim, y, y);
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (touches_coarsely(sim, s)) mark_stay(sim, s, along_site(sim, s, y, room) > DMB_BOUNCE_RESOLVED);
+    memset(y, 0, sim->scene->row_count * sizeof(double));
+}
+
+/* As of stops and springs. */
+static void exchange_sites(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    choose_sites(evaluation);
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) {
+        site_step of;
+        if (!dmb_site_has_mean(sim, s)) continue;
+        site_step_of(evaluation, s, &of);
+        dmb_site_add_force(sim->scene, &sim->trial, s, 1.0, &of.own, taken_of(sim));
+        if (!site_stays(sim, s)) dmb_site_add_force(sim->scene, &sim->trial, s, -1.0, &of.law, given_of(sim));
+    }
+    dmb_solve_for(sim, taken_of(sim), taken_of(sim));
+    dmb_solve_for(sim, given_of(sim), given_of(sim));
+}
+
+/* ---- All --------------------------------------------------------------------------------------------------------- */
+
+static int law_bounces(const dmb_sim *sim, uint32_t u)
+{
+    dmb_unilateral_end a, b;
+    if (!dmb_bounce_can_open(sim->scene, u)) return 0;
+    dmb_bounce_ends(sim, u, &a, &b);
+    return sim->bounce_mode[u] != DMB_BOUNCE_LAW || dmb_unilateral_touches(&a, &b);
+}
+
+static int laws_bounce(const dmb_sim *sim)
+{
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (law_bounces(sim, u)) return 1;
+    return 0;
+}
+
+/* The residual is room. */
+static void exchange_laws(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t n = sim->scene->row_count;
-    dmb_evaluation mass;
-    dmb_unilateral_end a, b;
-    *found = 0;
+    memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
+        dmb_unilateral_end a, b;
         sim->bounce_stays[u] = 0;
-        if (!dmb_bounce_can_open(sim->scene, u)) continue;
+        if (!law_bounces(sim, u)) continue;
         dmb_bounce_ends(sim, u, &a, &b);
-        if (sim->bounce_mode[u] == DMB_BOUNCE_LAW && !dmb_unilateral_touches(&a, &b)) continue;
-        if (!*found) {
-            const int32_t status = factor_mass(evaluation, &mass);
-            if (status < 0) return status;
-            memset(sim->bounce_taken, 0, n * sizeof(double));
-            memset(sim->bounce_given, 0, n * sizeof(double));
-            memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
-            *found = 1;
-        }
-        exchange(&mass, u, &a, &b);
+        exchange(evaluation, u, &a, &b);
     }
-    if (*found) memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));
+    memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));
+}
+
+int32_t dmb_bounces_end(const dmb_evaluation *evaluation, int32_t *found)
+{
+    dmb_sim *sim = evaluation->sim;
+    const int sites = dmb_sites_have_mean(sim), laws = laws_bounce(sim);
+    const uint32_t n = sim->scene->row_count;
+    dmb_evaluation mass;
+    *found = sites || laws;
+    if (!*found) return DMB_OK;
+    const int32_t status = factor_mass(evaluation, &mass);
+    if (status < 0) return status;
+    memset(taken_of(sim), 0, n * sizeof(double));
+    memset(given_of(sim), 0, n * sizeof(double));
+    if (sites) exchange_sites(&mass);
+    if (laws) exchange_laws(&mass);
     return DMB_OK;
 }
 
 static void take_accelerations(dmb_sim *sim, double pseudo_factor)
 {
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        sim->trial.acceleration[i] += sim->bounce_taken[i] + sim->bounce_given[i];
-        sim->trial.pseudo_acceleration[i] += pseudo_factor * sim->bounce_taken[i] + sim->bounce_given[i];
+        sim->trial.acceleration[i] += taken_of(sim)[i] + given_of(sim)[i];
+        sim->trial.pseudo_acceleration[i] += pseudo_factor * taken_of(sim)[i] + given_of(sim)[i];
     }
 }
 
@@ -129,19 +297,71 @@ static double aged(dmb_sim *sim, double age, int touches, int closed)
     return touches ? 1.0 : fmin(age + 1.0, DMB_BOUNCE_STEPS);
 }
 
-static void age_sites(dmb_sim *sim)
+/* [W] into the wall by the law in a configuration, <= 0. */
+static double wall_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
 {
+    return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
+}
+
+static double rubbed(const dmb_site_force *f)
+{
+    return f->friction[0] * f->slip[0] + f->friction[1] * f->slip[1];
+}
+
+/* The heat of the law that opens, at the start of the step, is part of that of the mean force. */
+static void forget_heat(const dmb_evaluation *evaluation, uint32_t s)
+{
+    dmb_sim *sim = evaluation->sim;
+    dmb_site_force f;
+    dmb_site_force_of(sim->scene, &sim->now, s, &f);
+    dmb_ledger_move(sim, DMB_POWER_IMPACT, 0.5 * evaluation->step * wall_heat(sim, &sim->now, s, &f));
+}
+
+/* Powers of the law in the trial where it is followed from here on, less those of the step's own force as the kernel
+ * counts them. */
+static void exchange_site_power(const dmb_evaluation *evaluation, uint32_t s)
+{
+    dmb_sim *sim = evaluation->sim;
+    site_step of;
+    site_step_of(evaluation, s, &of);
+    double impact = 2.0 * of.taken / evaluation->step, friction = -(2.0 / evaluation->own_factor) * rubbed(&of.own);
+    double all = of.own.normal_force * of.law.rate - rubbed(&of.own);
+    if (!site_stays(sim, s)) {
+        impact += wall_heat(sim, &sim->trial, s, &of.law);
+        friction += rubbed(&of.law);
+        all += rubbed(&of.law) - of.law.normal_force * of.law.rate;
+    }
+    sim->clock->power[DMB_POWER_IMPACT] += impact;
+    sim->clock->power[DMB_POWER_FRICTION] += friction;
+    sim->clock->power[DMB_POWER_POTENTIAL] += all - impact - friction;
+    sim->clock->power[DMB_POWER_INERTIA] -= all;
+    if ((sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS) forget_heat(evaluation, s);
+}
+
+/* The memory a - v' = O(h) of a generalized acceleration would ring on, more so in steps of another length; without it
+ * places are off by O(h^3) once. */
+static void forget_memory(dmb_sim *sim)
+{
+    memcpy(sim->trial.pseudo_acceleration, sim->trial.acceleration, sim->scene->row_count * sizeof(double));
+}
+
+static void accept_sites(const dmb_evaluation *evaluation, int32_t found)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (found && dmb_sites_have_mean(sim)) forget_memory(sim);
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
-        const int closed = sim->trial.site_penetration[s] > 0.0, was = sim->site_age[s] > 0;
-        if (closed || was) sim->site_age[s] = (uint32_t)aged(sim, sim->site_age[s], closed && !was, closed);
+        const int closed = sim->trial.site_penetration[s] > 0.0, mean = found && dmb_site_has_mean(sim, s);
+        if (!closed && sim->site_age[s] == 0 && !mean) continue;
+        if (mean) exchange_site_power(evaluation, s);
+        const double was = (double)(sim->site_age[s] & (DMB_SITE_OWN - 1));
+        const int age = (int)aged(sim, was, closed && (was == 0.0 || dmb_site_touches(sim, s)), closed);
+        sim->site_age[s] = (uint8_t)(mean && site_stays(sim, s) ? age | DMB_SITE_OWN : age);
     }
 }
 
-void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found)
+static void accept_laws(const dmb_evaluation *evaluation, int32_t found)
 {
     dmb_sim *sim = evaluation->sim;
-    if (found) take_accelerations(sim, evaluation->pseudo_factor);
-    age_sites(sim);
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end a, b;
         if (!dmb_bounce_can_open(sim->scene, u)) continue;
@@ -153,4 +373,11 @@ void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found)
         const double age = aged(sim, fabs(sim->bounce_age[u]), dmb_unilateral_touches(&a, &b), b.closed);
         sim->bounce_age[u] = found && sim->bounce_stays[u] ? -age : age;
     }
+}
+
+void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found)
+{
+    if (found) take_accelerations(evaluation->sim, evaluation->pseudo_factor);
+    accept_sites(evaluation, found);
+    accept_laws(evaluation, found);
 }

@@ -28,6 +28,7 @@ static double force_of(const dmb_configuration *configuration, uint32_t s)
 /* A wall with damping lets go where its force comes to 0, which is before the ring is off it. */
 static int opens(const dmb_sim *sim, uint32_t s)
 {
+    if (dmb_site_has_mean(sim, s) || sim->site_coarse[s]) return 0;
     if (!(sim->scene->sites[s].clearance > 0.0) || !(sim->now.site_penetration[s] > 0.0)) return 0;
     if (dmb_scene_has_touch(sim->scene)) return force_of(&sim->now, s) > 0.0 && !(force_of(&sim->trial, s) > 0.0);
     return !(sim->trial.site_penetration[s] > 0.0);
@@ -50,11 +51,6 @@ int32_t dmb_contact_opens(const dmb_sim *sim)
     return 0;
 }
 
-void dmb_release_end(dmb_sim *sim)
-{
-    memset(sim->site_return, 0, sim->scene->site_count * sizeof(double));
-}
-
 /* Part of the step after the opening, the penetration going straight from that of now to that of trial, or the force.
  */
 static double open_part(const dmb_sim *sim, uint32_t s)
@@ -65,44 +61,37 @@ static double open_part(const dmb_sim *sim, uint32_t s)
     return d1 / (d1 - d0);
 }
 
-/* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the node. */
-static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
+/* Part of the force at the start of the step goes: after the opening where the step resolves the contact, which was
+ * followed till then; else all of it. Returns that part. */
+static double release(dmb_sim *sim, uint32_t s, double *rows)
 {
-    const dmb_site *site = sim->scene->sites + s;
-    double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
+    const int whole = (sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS;
+    const double part = whole ? 1.0 : open_part(sim, s);
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
     dmb_site_take_weighted(sim, &sim->now, s, &f);
-    sim->site_return[s] = fmax(-f.rate, 0.0);
+    sim->site_history[s] = fmax(-f.rate, 0.0);
     *sim->released_power += part * (f.friction[0] * f.slip[0] + f.friction[1] * f.slip[1]);
-    dmb_vec3_cross(f.tangent, f.normal, b);
-    dmb_vec3_scale(-f.normal_force, f.normal, force);
-    dmb_vec3_axpy(f.friction[0], f.tangent, force);
-    dmb_vec3_axpy(f.friction[1], b, force);
-    dmb_vec3_scale(site->radius, f.normal, arm);
-    dmb_vec3_cross(arm, force, moment);
-    dmb_vec3_axpy(f.along, f.tangent, force);
-    dmb_site_axes(sim->scene, &sim->now, s, R);
-    dmb_mat3_tvec(R, force, wrench);
-    dmb_mat3_tvec(R, moment, wrench + 3);
-    dmb_site_add_wrench(sim->scene, &sim->now, s, -part, wrench, rows);
+    dmb_site_add_force(sim->scene, &sim->now, s, -part, &f, rows);
+    return part;
 }
 
-/* Less the forces that open. */
-static void gather_released(dmb_sim *sim, double *rows, double *part)
+/* Less the forces that open; mean forces that the history is to have. */
+static void gather_released(const dmb_evaluation *evaluation, double *rows, double *part)
 {
+    dmb_sim *sim = evaluation->sim;
     memset(rows, 0, sim->scene->row_count * sizeof(double));
     memset(part, 0, sim->scene->node_count * sizeof(double));
     *sim->released_power = 0.0;
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
         double *of_node = part + sim->scene->sites[s].node;
-        if (!opens(sim, s)) continue;
-        const double open = open_part(sim, s);
-        *of_node = fmax(*of_node, open);
-        if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], open);
-        subtract_force(sim, s, open, rows);
+        if ((sim->site_mode[s] & DMB_SITE_MODE) != DMB_BOUNCE_OPENS && !opens(sim, s)) continue;
+        const double released = release(sim, s, rows);
+        *of_node = fmax(*of_node, released);
+        if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], released);
     }
     dmb_rotors_carry_wrenches(sim, rows);
+    dmb_bounces_add_carried(evaluation, rows);
 }
 
 /* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would
@@ -117,7 +106,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     mass.given = 0;
     const int32_t status = dmb_factor_mass_in_step(&mass);
     if (status < 0) return status;
-    gather_released(sim, acceleration, part);
+    gather_released(evaluation, acceleration, part);
     dmb_bounces_release(&mass, acceleration, part);
     dmb_solve_for(sim, acceleration, acceleration);
     return DMB_OK;
@@ -148,7 +137,7 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
     const int32_t status = minus_mass_times(evaluation, near, product);
     memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
     if (status < 0) return status;
-    gather_released(sim, acceleration, part);
+    gather_released(evaluation, acceleration, part);
     dmb_bounces_release(evaluation, acceleration, part);
     for (uint32_t i = 0; i < n; i++) acceleration[i] -= product[i];
     dmb_solve_for(sim, acceleration, acceleration);

@@ -19,27 +19,26 @@ int32_t dmb_system_restart(dmb_sim *sim);
 
 /* ---- Jumps ------------------------------------------------------------------------------------------------------- */
 
-/* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it
- * into the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was
- * met. The step is therefore taken from accelerations without that force (eq:contact.release). Where the contact is
- * resolved its last force before opening is O(h), so second order is kept. */
+/* Contacts, stops and springs that open within a step. Their force is gone at once, while generalized-alpha would carry
+ * about half of it into the step from the accelerations it keeps: a wall that is stiff for the step would throw back
+ * faster than it was met. The step is therefore taken from accelerations without that force (eq:contact.release), with
+ * the mean force of the step in its place where the step does not resolve the contact. Where it does, the last force
+ * before opening is O(h), so second order is kept. */
 /* 1 if a ring meets or leaves the wall between now and trial, or another side of it. O(number of sites). */
 int32_t dmb_contact_changes(const dmb_sim *sim);
-/* 1 if a ring that touches the wall in now is off it in trial. O(number of sites). */
+/* 1 if a ring whose contact the step resolves touches the wall in now and is off it in trial. O(number of sites). */
 int32_t dmb_contact_opens(const dmb_sim *sim);
-/* No ring opens any more; after the step. */
-void dmb_release_end(dmb_sim *sim);
-/* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in
- * now, times the part of the step after the opening, shape (row); and that part of each node [-], 0 of those where no
- * ring opens, shape (node). Fills site_return. Residual, iteration matrix and factors are overwritten. Errors as
- * dmb_factor_mass_in_step. */
+/* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those have in now,
+ * times the part of the step after the opening where it resolves the contact, shape (row); and that part of each node
+ * [-], 0 of those where nothing opens, shape (node). Fills site_history. Residual, iteration matrix and
+ * factors are overwritten. Errors as dmb_factor_mass_in_step. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part);
 /* The same for a state close to one that has `near`, with the factors of the mass matrix there: off by the square of
  * the distance of both. product: room, shape (row). */
 int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, double *acceleration, double *part,
                             double *product);
 
-/* Stops and springs that touch or open (system/assemble/bounces). */
+/* Contacts, stops and springs that touch or open (system/assemble/bounces). */
 
 /* After a successful trial: the accelerations that mean forces leave behind, for dmb_bounces_accept; *found: there are
  * any. Residual as it was; iteration matrix and factors are overwritten where *found. Errors as

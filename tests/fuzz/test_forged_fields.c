@@ -133,6 +133,18 @@ static void set_words(subject *s, const dmb_field *field, size_t at)
         }
 }
 
+/* Ages of contacts, one byte each, with the mark of those that have mean forces. */
+static void set_bytes(subject *s, const dmb_field *field, size_t at)
+{
+    static const unsigned char values[] = {0, 1, 9, 10, 11, 16, 26, 31, 32, 128, 255};
+    for (int k = 0; k < PLACES; k++)
+        for (size_t i = 0; i < sizeof values; i++) {
+            memcpy(s->forged, s->sound, s->size);
+            s->forged[at + place_of(field->bytes, k)] = values[i];
+            if (try_it(s, field) != (values[i] < 32)) fail_msg("%s: %u", field->name, values[i]);
+        }
+}
+
 /* All numbers of a field at once: orders that searches rely on are gone. */
 static void set_all(subject *s, const dmb_field *field, size_t at, double factor, double offset)
 {
@@ -147,9 +159,10 @@ static void set_all(subject *s, const dmb_field *field, size_t at, double factor
 static void forge_field(subject *s, const dmb_field *field, size_t at)
 {
     const int of_words = (field->check >= DMB_CHECK_FLAGS && field->check <= DMB_CHECK_HISTORY_HEADS) ||
-                         field->check == DMB_CHECK_COUNTERS || field->check == DMB_CHECK_REUSE ||
-                         field->check == DMB_CHECK_AGES;
-    const int of_doubles = field->check < DMB_CHECK_FLAGS || field->check > DMB_CHECK_COLUMN_ORDER;
+                         field->check == DMB_CHECK_COUNTERS || field->check == DMB_CHECK_REUSE;
+    const int of_bytes = field->check == DMB_CHECK_AGES;
+    const int of_doubles = !of_bytes && (field->check < DMB_CHECK_FLAGS || field->check > DMB_CHECK_COLUMN_ORDER);
+    if (of_bytes) set_bytes(s, field, at);
     if (of_words) set_words(s, field, at);
     if (of_doubles) set_numbers(s, field, at);
     if (of_doubles && !of_words) {

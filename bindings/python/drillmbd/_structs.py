@@ -226,7 +226,7 @@ class WallDef(WallPart, Sized):
         "diameter": ("m", "of the hole, > 0; default 0.094"),
         "normal_law": ("", "NORMAL_..., default NORMAL_EXACT"),
         "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
-        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w >= 2 with w^2 = K l/m, may gain energy if the wall damps (that of a ball at h w = 10 and e = 0.4: 8.3 times with EXACT); dmb_statistics.bounces counts them"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7. Bounces that fixed steps h do not resolve, h w > 1.4 with w^2 = K l/m, gain no energy, but their restitution is not that of the law; dmb_statistics.bounces counts them"),
         "exponent": ("-", "n, 1 .. 3; default 1"),
         "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES); default 0.4. EXACT returns this speed ratio, 1e-3 for less; HUNT_CROSSLEY returns 0.768, 0.620, 0.516 for 0.7, 0.4, 0.1"),
         "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),

@@ -72,6 +72,7 @@ typedef struct dmb_site_force {
     double rate;         /* [m/s] of penetration */
     double normal_force; /* [N] >= 0 */
     double along;        /* [N] on the ring along t, where radius or stiffness of the wall change */
+    double rho;          /* [-] part of it that goes with the normal force */
     double friction[2];  /* [N] on the ring along t and b */
     double slip[2];      /* [m/s] along t and b */
     int32_t closed, sticks;
@@ -84,6 +85,14 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
  */
 void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t site,
                             dmb_site_force *force);
+/* Friction of a site under the normal force in `force`, at the slip there; bristles off the wall as in sliding. */
+void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, dmb_site_force *force);
+/* [N] that the wall stores of the normal force of a site in `force`. */
+double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
+                              const dmb_site_force *force);
+/* Adds factor times the force of a site in `force` to generalised forces, shape (row). */
+void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, double factor,
+                        const dmb_site_force *force, double *rows);
 /* The same for a PATH site; normal_force by Johancsik. */
 void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
                             dmb_site_force *out);

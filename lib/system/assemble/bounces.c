@@ -1,9 +1,11 @@
-/* Stops of joints and springs that may open: the steps in which they touch or let go (eq:unilateral.mean). */
+/* Contact sites, stops of joints and springs that may open: the steps in which they touch or let go
+ * (eq:unilateral.mean, eq:contact.mean). */
 #include "system/assemble/bounces.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "math/vec3.h"
 #include "system/assemble/assemble.h"
 
 /* ---- Laws -------------------------------------------------------------------------------------------------------- */
@@ -91,10 +93,168 @@ void dmb_bounce_rest(dmb_sim *sim, uint32_t u)
     sim->trial.bounce_force[u] = sim->trial.bounce_speed[u] = 0.0;
 }
 
+/* ---- Contact sites ----------------------------------------------------------------------------------------------- */
+
+static int turns_over(const dmb_sim *sim, uint32_t s)
+{
+    return dmb_vec3_dot(sim->now.site_normal + 3 * (size_t)s, sim->trial.site_normal + 3 * (size_t)s) < 0.0;
+}
+
+int dmb_site_touches(const dmb_sim *sim, uint32_t s)
+{
+    if (!(sim->trial.site_penetration[s] > 0.0) || !(sim->scene->sites[s].clearance > 0.0)) return 0;
+    return !(sim->now.site_penetration[s] > 0.0) || turns_over(sim, s);
+}
+
+int dmb_site_has_mean(const dmb_sim *sim, uint32_t s)
+{
+    const int marked = (sim->site_mode[s] & (DMB_SITE_MODE | DMB_SITE_CARRIED)) != DMB_BOUNCE_LAW;
+    return marked || (sim->site_coarse[s] && dmb_site_touches(sim, s));
+}
+
+int dmb_sites_have_mean(const dmb_sim *sim)
+{
+    for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++)
+        if (dmb_site_has_mean(sim, s)) return 1;
+    return 0;
+}
+
+/* [-] (k h + c) h/m of a site up to which a step resolves its touch and release, m by the mass next to it; k and c of
+ * the law at the depth of half a step. Half of what a body alone may have: the law followed to the end of the step in
+ * which the contact closes takes energy as long as the body still moves in there (eq:contact.turned), which the force
+ * of a restitution law at rest decides, whatever its damping. */
+#define DMB_SITE_RESOLVED 2.0
+/* [-] up to where a mean force is: beyond, Newton would not find the way of a ring that the wall throws off. */
+#define DMB_SITE_FAR 1e6
+
+/* [kg/m] (k h + c) h of a metre of wall, k = K (v h/2)^(n-1), that is met with v [m/s]. */
+static double coarseness(const dmb_normal_law *law, double speed, double h)
+{
+    const int by_rate = law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT;
+    const double k = law->stiffness * dmb_normal_reduced_power(law->exponent, 0.5 * h * speed);
+    return k * h * h + (by_rate ? law->damping * h : 0.0);
+}
+
+/* Sites whose touch and release the step does not resolve; the speed of the present or coming contact counts. */
+static int mark_coarse(dmb_sim *sim, double h)
+{
+    const dmb_scene *scene = sim->scene;
+    int found = 0;
+    if (scene->hole.pieces == 0 && scene->normal_law.exponent == 1.0 &&
+        coarseness(&scene->normal_law, 0.0, h) * scene->site_mobility <= DMB_SITE_RESOLVED) {
+        memset(sim->site_coarse, 0, scene->site_count);
+        return 0;
+    }
+    const double fallen = h * dmb_vec3_norm(scene->gravity);
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, sim->now.site_depth[s]);
+        const double speed = fabs(sim->now.site_impact_speed[s]), most = coarseness(&law, speed, h);
+        const double ratio = most * scene->sites[s].length * dmb_site_mobility(scene, s);
+        const int coarse = ratio > DMB_SITE_RESOLVED && ratio < DMB_SITE_FAR;
+        sim->site_coarse[s] = (uint8_t)(!coarse ? 0 : speed > fallen ? DMB_SITE_COARSE : DMB_SITE_PLASTIC);
+        found |= coarse;
+    }
+    return found;
+}
+
+static void begin_sites(dmb_sim *sim, double h)
+{
+    const uint32_t sites = sim->scene->site_count;
+    int bounces = sites > 0 && mark_coarse(sim, h);
+    memset(sim->site_history, 0, sites * sizeof(double));
+    for (uint32_t s = 0; s < sites; s++) {
+        sim->site_mode[s] = (sim->site_age[s] & DMB_SITE_OWN) != 0 ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
+        bounces |= sim->site_mode[s];
+    }
+    *sim->sites_bounce = bounces;
+}
+
+/* A wall with damping lets go where its force comes to 0, which is before the ring is off it. */
+static int site_opens(const dmb_sim *sim, uint32_t s)
+{
+    dmb_site_force f;
+    if (!sim->site_coarse[s] || dmb_site_has_mean(sim, s)) return 0;
+    if (!(sim->now.site_penetration[s] > 0.0) || !(sim->scene->sites[s].clearance > 0.0)) return 0;
+    if (sim->site_presses[s] && sim->trial.site_penetration[s] > 0.0 && !turns_over(sim, s)) return 0;
+    dmb_site_force_of(sim->scene, &sim->now, s, &f);
+    return f.normal_force > 0.0;
+}
+
+void dmb_site_mean_of(const dmb_sim *sim, uint32_t s, double step, dmb_normal_mean *mean)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, sim->trial.site_depth[s]);
+    const dmb_local_normal local = dmb_local_normal_of(&law);
+    dmb_normal_mean_at(&local, sim->now.site_penetration[s], sim->trial.site_penetration[s],
+                       sim->trial.site_impact_speed[s], sim->site_coarse[s] == DMB_SITE_PLASTIC, step, mean);
+}
+
+/* ---- Mean forces in the history of a step ------------------------------------------------------------------------
+ *
+ * A force G that the end of a step stands for changes the speed by h G/m and the place by b h^2 G/m, b = beta/gamma,
+ * where a constant force, as weight is, changes it by h^2/2 of its acceleration. Over the step the energy changes by
+ *     (1/2 - b) h sum of G dv
+ * beyond the works of the forces, dv the change of the speed along G. That is a gain where the other forces win against
+ * the wall in the step. G* = 2 b G of such a step, put into the history and into the end of it alike, acts as a
+ * constant force, and leaves (1/2 - b) h sum of (G' - G*) dv of the step that is taken again: G' <= G* since the depth
+ * that it comes to is between that of before and that of b = 1/2.
+ */
+
+/* [J] that the step gains by a site, and that it exchanges with the wall. */
+static void add_gain(const dmb_evaluation *evaluation, uint32_t s, double *gain, double *exchanged)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const double way = sim->trial.site_penetration[s] - sim->now.site_penetration[s];
+    const double more = 1.0 / evaluation->velocity_factor - 0.5 * evaluation->step; /* (b - 1/2) h */
+    dmb_site_force a, b;
+    dmb_normal_mean mean;
+    if (!dmb_site_has_mean(sim, s)) return;
+    dmb_site_mean_of(sim, s, evaluation->step, &mean);
+    dmb_site_force_of(sim->scene, &sim->now, s, &a);
+    dmb_site_force_of(sim->scene, &sim->trial, s, &b);
+    const double force = sim->scene->sites[s].length * mean.force;
+    *gain += more * force * (b.rate - a.rate);
+    *exchanged += force * fabs(way);
+}
+
+double dmb_bounces_gain(const dmb_evaluation *evaluation)
+{
+    const dmb_sim *sim = evaluation->sim;
+    double gain = 0.0, exchanged = 0.0;
+    for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++)
+        add_gain(evaluation, s, &gain, &exchanged);
+    return gain > 0.0 ? gain / exchanged : 0.0;
+}
+
+void dmb_bounces_carry(dmb_sim *sim)
+{
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (dmb_site_has_mean(sim, s)) sim->site_mode[s] |= DMB_SITE_CARRIED;
+}
+
+void dmb_bounces_add_carried(const dmb_evaluation *evaluation, double *rows)
+{
+    dmb_sim *sim = evaluation->sim;
+    const double b = 1.0 / (evaluation->step * evaluation->velocity_factor);
+    for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++) {
+        dmb_site_force f;
+        dmb_normal_mean mean;
+        if (!(sim->site_mode[s] & DMB_SITE_CARRIED) || (sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS)
+            continue;
+        dmb_site_mean_of(sim, s, evaluation->step, &mean);
+        memset(&f, 0, sizeof f);
+        dmb_vec3_copy(sim->trial.site_normal + 3 * (size_t)s, f.normal);
+        f.normal_force = 2.0 * b * sim->scene->sites[s].length * mean.force;
+        dmb_site_add_force(sim->scene, &sim->trial, s, 1.0, &f, rows);
+        sim->site_history[s] = -f.normal_force;
+    }
+}
+
 /* ---- Course of a step -------------------------------------------------------------------------------------------- */
 
-void dmb_bounces_begin(dmb_sim *sim)
+void dmb_bounces_begin(dmb_sim *sim, double step)
 {
+    begin_sites(sim, step);
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
         sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
 }
@@ -112,6 +272,11 @@ static int opens(const dmb_sim *sim, uint32_t u)
 int32_t dmb_bounces_open(dmb_sim *sim)
 {
     int32_t found = 0;
+    for (uint32_t s = 0; *sim->sites_bounce && s < sim->scene->site_count; s++) {
+        if (!site_opens(sim, s)) continue;
+        sim->site_mode[s] = DMB_BOUNCE_OPENS;
+        found = 1;
+    }
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         if (!opens(sim, u)) continue;
         sim->bounce_mode[u] = DMB_BOUNCE_OPENS;
@@ -174,6 +339,7 @@ void dmb_bounces_release(dmb_evaluation *evaluation, double *rows, double *part)
 
 void dmb_bounces_jump(dmb_sim *sim)
 {
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) sim->site_age[s] &= DMB_SITE_OWN - 1;
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         sim->bounce_age[u] = fabs(sim->bounce_age[u]);
         sim->now.bounce_place[u] = sim->trial.bounce_place[u];
@@ -185,7 +351,7 @@ void dmb_bounces_jump(dmb_sim *sim)
 void dmb_bounces_start(dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
-        sim->site_age[s] = sim->now.site_penetration[s] > 0.0 ? (uint32_t)DMB_BOUNCE_STEPS : 0;
+        sim->site_age[s] = sim->now.site_penetration[s] > 0.0 ? (uint8_t)DMB_BOUNCE_STEPS : 0;
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
         dmb_unilateral_end end;
         end_at(sim->scene, u, sim->now.bounce_place[u], &end);

@@ -128,6 +128,7 @@ double dmb_ledger_wall_excess(const dmb_sim *sim, const dmb_ledger_parts *parts,
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
         dmb_site_force a, b;
         if (!(sim->trial.site_penetration[s] > 0.0) || (double)sim->site_age[s] >= DMB_BOUNCE_STEPS) continue;
+        if (dmb_site_has_mean(sim, s)) continue; /* the work of a mean force is that of the step */
         friction_of(sim, &sim->now, s, &a);
         friction_of(sim, &sim->trial, s, &b);
         for (int i = 0; i < 2; i++) sum += dmb_ledger_excess(parts, a.friction[i], a.slip[i], b.friction[i], b.slip[i]);

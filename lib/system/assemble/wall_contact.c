@@ -10,6 +10,7 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/node.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/evaluation.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
@@ -142,8 +143,11 @@ static dmb_wall_job job_of(const dmb_sim *sim)
         .now_quaternion = sim->now.quaternion,
         .now_velocity = sim->now.velocity,
         .now = fields_of(&sim->now),
-        .site_return = sim->site_return,
+        .site_history = sim->site_history,
+        .mode = sim->site_mode,
+        .coarse = sim->site_coarse,
         .trial = fields_of(&sim->trial),
+        .presses = sim->site_presses,
         .residual = sim->residual,
         .scale = sim->scale_row,
         .stiffness = sim->stiffness_diagonal,
@@ -201,6 +205,12 @@ static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
     job.slip[0] = evaluation->slip[0];
     job.slip[1] = evaluation->slip[1];
     job.step = evaluation->step;
+    job.own_factor = evaluation->dynamic && evaluation->step > 0.0 ? evaluation->own_factor : 0.0;
+    if (evaluation->predicted && job.own_factor > 0.0) { /* beta/gamma h^2 and h of the acceleration */
+        job.yield = evaluation->step / evaluation->velocity_factor * scene->site_mobility;
+        job.slows = evaluation->step * scene->site_mobility;
+    }
+    job.bounces = job.own_factor > 0.0 && *evaluation->sim->sites_bounce;
     job.velocity_factor = evaluation->velocity_factor;
     job.dynamic = evaluation->dynamic;
     job.tangent = evaluation->tangent;
@@ -316,6 +326,7 @@ static void local_force(const dmb_scene *scene, const dmb_site *site, double dep
     dmb_local_wall_at(&scene->hole, &scene->normal_law, &scene->friction_law, depth, 1.0, &wall);
     dmb_hole_frame(&scene->hole, depth, point, NULL, k);
     const double advance = dmb_hole_advance(f->distance, out->normal, k), rho = wall.radius_slope * advance;
+    out->rho = rho;
     out->penetration = f->distance - (wall.radius - site->radius);
     out->rate = f->speed[0] - rho * dmb_vec3_dot(f->t, f->V);
     *friction = wall.friction;
@@ -356,6 +367,46 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     const int32_t bristles = dmb_scene_has_bristles(scene);
     dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
                           bristles ? configuration->site_sticks[s] : 0, out);
+}
+
+void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, dmb_site_force *f)
+{
+    dmb_friction_law local;
+    const dmb_friction_law *law = dmb_contact_friction_law(scene, configuration, s, &local);
+    const int bristles = law->kind == DMB_FRICTION_BRISTLE;
+    const dmb_friction_law sliding = dmb_sliding_law(law);
+    if (bristles && !f->closed)
+        dmb_finished_friction(&sliding, NULL, 0, f);
+    else
+        dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
+                              bristles ? configuration->site_sticks[s] : 0, f);
+}
+
+double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s,
+                              const dmb_site_force *f)
+{
+    const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, configuration->site_depth[s]);
+    double force, by_depth, by_rate;
+    dmb_normal_force(&law, f->penetration, 0.0, 1.0, &force, &by_depth, &by_rate);
+    return scene->sites[s].length * force;
+}
+
+/* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the ring. */
+void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double factor,
+                        const dmb_site_force *f, double *rows)
+{
+    double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
+    dmb_vec3_cross(f->tangent, f->normal, b);
+    dmb_vec3_scale(-f->normal_force, f->normal, force);
+    dmb_vec3_axpy(f->friction[0], f->tangent, force);
+    dmb_vec3_axpy(f->friction[1], b, force);
+    dmb_vec3_scale(scene->sites[s].radius, f->normal, arm);
+    dmb_vec3_cross(arm, force, moment);
+    dmb_vec3_axpy(f->along, f->tangent, force);
+    dmb_site_axes(scene, configuration, s, R);
+    dmb_mat3_tvec(R, force, wrench);
+    dmb_mat3_tvec(R, moment, wrench + 3);
+    dmb_site_add_wrench(scene, configuration, s, factor, wrench, rows);
 }
 
 /* ---- What a configuration remembers of its contacts -------------------------------------------------------------- */

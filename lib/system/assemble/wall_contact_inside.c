@@ -14,6 +14,7 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "sim/node.h"
+#include "system/assemble/bounces.h"
 
 /* The element that rings are in: seen once for all of them. */
 typedef struct host {
@@ -149,7 +150,7 @@ static void add_tangent(const dmb_evaluation *evaluation, const host *of, const 
 
 static int touches(const dmb_sim *sim, uint32_t s, const section_node *at)
 {
-    return sim->trial.site_penetration[s] > 0.0 || at->site.clearance <= 0.0;
+    return sim->trial.site_penetration[s] > 0.0 || at->site.clearance <= 0.0 || sim->site_mode[s] != 0;
 }
 
 /* The wall of one ring: sums go on from those given. */
@@ -168,7 +169,6 @@ static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at
     job->velocity = at->velocity;
     job->now_quaternion = at->now_quaternion;
     job->now_velocity = at->now_velocity;
-    job->site_return += s;
     job->velocity_factor = 1.0;
     job->residual = at->residual;
     job->scale = at->scale;

@@ -36,19 +36,22 @@ static double tension_at(const dmb_sim *sim, uint32_t node)
     return count ? sum / count : 0.0;
 }
 
-/* Side force [N], its outward unit direction (world) and its derivative by tension [-]. */
-static double side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_path_site *site, double tension,
-                         double load_factor, double direction[3], double tangent[3], double *by_tension)
+/* Side force [N], its outward unit direction and the tangent of the hole (world), its derivative by tension [-]. */
+typedef struct side {
+    double N, direction[3], tangent[3], by_tension;
+} side;
+
+static void side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_path_site *site, double tension,
+                       double load_factor, side *out)
 {
-    double point[3], curvature[3], u[3];
+    double point[3], curvature[3], u[3], *tangent = out->tangent;
     dmb_hole_frame(&scene->hole, dmb_path_depth(scene, c, site->node), point, tangent, curvature);
     dmb_vec3_scale(load_factor * scene->weight_mass[site->node], scene->gravity, u);
     dmb_vec3_axpy(-dmb_vec3_dot(u, tangent), tangent, u);
     dmb_vec3_axpy(tension * site->length, curvature, u);
-    const double N = dmb_vec3_norm(u);
-    dmb_vec3_scale(N > 0.0 ? 1.0 / N : 0.0, u, direction);
-    *by_tension = site->length * dmb_vec3_dot(direction, curvature);
-    return N;
+    out->N = dmb_vec3_norm(u);
+    dmb_vec3_scale(out->N > 0.0 ? 1.0 / out->N : 0.0, u, out->direction);
+    out->by_tension = site->length * dmb_vec3_dot(out->direction, curvature);
 }
 
 /* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. */
@@ -73,8 +76,12 @@ static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[
     }
 }
 
-static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, const double v[2], double F[2],
-                     double dv[4], double dN[2])
+/* Friction [N] and its derivatives by speed and side force. */
+typedef struct path_friction {
+    double F[2], dv[4], dN[2];
+} path_friction;
+
+static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, const double v[2], path_friction *out)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -82,14 +89,14 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
     const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->trial, scene->site_count + p, &local);
     if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
         const dmb_friction_law sliding = dmb_sliding_law(law);
-        dmb_friction_smooth(&sliding, N, v, F, dv, dN);
+        dmb_friction_smooth(&sliding, N, v, out->F, out->dv, out->dN);
     } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
         const dmb_local_friction with = dmb_local_friction_of(law);
-        sim->trial.path_sticks[p] =
-            dmb_friction_bristle(&with, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
-                                 sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN);
+        sim->trial.path_sticks[p] = dmb_friction_bristle(
+            &with, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p, sim->now.path_sticks[p],
+            evaluation->step, sim->trial.path_bristle + 2 * p, out->F, out->dv, out->dN);
     } else {
-        dmb_friction_smooth(law, N, v, F, dv, dN);
+        dmb_friction_smooth(law, N, v, out->F, out->dv, out->dN);
     }
 }
 
@@ -101,15 +108,15 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     const double *row = sim->trial.velocity + scene->layout.row[site->node];
     const double spin = evaluation->dynamic ? row[1] : evaluation->slip[1];
     const double v[2] = {evaluation->dynamic ? row[0] : evaluation->slip[0], site->radius * spin};
-    double direction[3], tangent[3], by_tension, F[2], dv[4], dN[2];
-    const double tension = tension_at(sim, site->node);
-    const double N =
-        side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
+    side press;
+    path_friction rub;
+    side_force(scene, &sim->trial, site, tension_at(sim, site->node), evaluation->load_factor, &press);
     memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
     memset(sim->trial.path_friction + 2 * p, 0, 2 * sizeof(double));
     if (!evaluation->dynamic && !evaluation->slipping) return;
-    friction(evaluation, p, N, v, F, dv, dN);
-    if (evaluation->dynamic) memcpy(sim->trial.path_friction + 2 * p, F, sizeof F);
+    friction(evaluation, p, press.N, v, &rub);
+    const double by_tension = press.by_tension, *F = rub.F, *dv = rub.dv, *dN = rub.dN;
+    if (evaluation->dynamic) memcpy(sim->trial.path_friction + 2 * p, F, sizeof rub.F);
     const double wrench[6] = {F[0], 0.0, 0.0, site->radius * F[1], 0.0, 0.0};
     dmb_apply_wrench(sim, site->node, wrench);
     evaluation->power[DMB_POWER_FRICTION] += evaluation->dynamic ? F[0] * v[0] + F[1] * v[1] : 0.0;
@@ -134,7 +141,8 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
                             dmb_site_force *out)
 {
     const dmb_path_site *site = scene->path_sites + p;
-    double by_tension, tension = 0.0;
+    side press;
+    double tension = 0.0;
     uint32_t count = 0;
     memset(out, 0, sizeof *out);
     for (uint32_t e = 0; e < 2; e++) {
@@ -146,7 +154,10 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
         count++;
     }
     if (count) tension /= count;
-    out->normal_force = side_force(scene, configuration, site, tension, 1.0, out->normal, out->tangent, &by_tension);
+    side_force(scene, configuration, site, tension, 1.0, &press);
+    out->normal_force = press.N;
+    dmb_vec3_copy(press.direction, out->normal);
+    dmb_vec3_copy(press.tangent, out->tangent);
     out->closed = out->normal_force > 0.0;
     memcpy(out->slip, configuration->path_slip + 2 * p, sizeof out->slip);
     const int32_t bristles = dmb_scene_has_bristles(scene);

@@ -24,7 +24,6 @@ static dmb_wall_job part_of(const dmb_wall_job *all, uint32_t first, uint32_t en
     dmb_wall_job job = *all;
     job.count = end - first;
     job.sites += first;
-    job.site_return += first;
     dmb_wall_job_skip(&job, first);
     job.rounding = job.potential = job.impact = job.friction = 0.0;
     return job;

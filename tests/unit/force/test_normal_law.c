@@ -373,6 +373,82 @@ static void energy_is_the_work(void **state)
     }
 }
 
+/* ---- Mean force of a step ---------------------------------------------------------------------------------------- */
+
+static const int32_t kinds[] = {DMB_NORMAL_KELVIN_VOIGT, DMB_NORMAL_HUNT_CROSSLEY, DMB_NORMAL_EXACT, DMB_NORMAL_IMPACT};
+static const double places[] = {-3e-4, -1e-5,  0.0, 2e-5,
+                                9e-5,  1.1e-4, 4e-4}; /* [m] from and to, on both sides of touch */
+enum { KINDS = sizeof kinds / sizeof kinds[0], PLACES = sizeof places / sizeof places[0] };
+
+static dmb_normal_law mean_law(int32_t kind, double exponent, double damping)
+{
+    const dmb_normal_law law = {.kind = kind,
+                                .stiffness = 1e7,
+                                .exponent = exponent,
+                                .damping = damping,
+                                .impact_depth = 1e-4,
+                                .impact_floor = 1e-3};
+    return dmb_normal_law_of(law, 0.4);
+}
+
+static dmb_normal_mean mean_of(const dmb_normal_law *law, double from, double to, double h)
+{
+    dmb_normal_mean mean;
+    const dmb_local_normal local = dmb_local_normal_of(law);
+    dmb_normal_mean_at(&local, from, to, 0.5, 0, h, &mean);
+    return mean;
+}
+
+/* Without damping it takes from the bodies what the wall stores; with damping never less. It never pulls. */
+static void mean_force_is_that_of_the_energy(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 3; n++)
+        for (int a = 0; a < PLACES; a++)
+            for (int b = 0; b < PLACES; b++) {
+                const dmb_normal_law bare = mean_law(DMB_NORMAL_KELVIN_VOIGT, 1.0 + 0.5 * n, 0.0);
+                const double rise = dmb_normal_energy(&bare, places[b]) - dmb_normal_energy(&bare, places[a]);
+                const dmb_normal_mean elastic = mean_of(&bare, places[a], places[b], 1e-3);
+                CHECK_CLOSE(elastic.force * (places[b] - places[a]), rise, 1e-12 * (fabs(rise) + 1e-12));
+                for (int k = 0; k < KINDS; k++) {
+                    const dmb_normal_law law = mean_law(kinds[k], 1.0 + 0.5 * n, 200.0);
+                    const dmb_normal_mean mean = mean_of(&law, places[a], places[b], 1e-3);
+                    assert_true(mean.force >= 0.0);
+                    assert_true(mean.taken >= -1e-12 * fabs(rise));
+                    CHECK_CLOSE(mean.taken, mean.force * (places[b] - places[a]) - rise, 1e-12 * fabs(rise) + 1e-20);
+                }
+            }
+}
+
+/* Over a way that is slow for the step it is the force of the law in the middle: to the square of the way. */
+static void mean_force_of_a_short_way(void **state)
+{
+    const double d = 2e-4, h = 1e-3;
+    (void)state;
+    for (int k = 0; k < KINDS; k++)
+        for (double way = 1e-6; way > 1e-15; way *= 1e-3) {
+            const dmb_normal_law law = mean_law(kinds[k], 1.5, 200.0);
+            const double middle = force_at(&law, d + 0.5 * way, way / h, 0.5);
+            CHECK_CLOSE(mean_of(&law, d, d + way, h).force, middle, middle * (way / d * way / d + 1e-6));
+        }
+}
+
+static void mean_force_derivative(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KINDS; k++)
+        for (int n = 0; n < 3; n++)
+            for (int a = 0; a < PLACES; a++)
+                for (int b = 0; b < PLACES; b++) {
+                    const double to = places[b] + 3e-6, e = 1e-9;
+                    const dmb_normal_law law = mean_law(kinds[k], 1.0 + 0.5 * n, 200.0);
+                    const dmb_normal_mean at = mean_of(&law, places[a], to, 1e-3);
+                    const double low = mean_of(&law, places[a], to - e, 1e-3).force;
+                    const double slope = (mean_of(&law, places[a], to + e, 1e-3).force - low) / (2.0 * e);
+                    CHECK_CLOSE(at.d_depth, slope, 1e-5 * fabs(slope) + 1e-3);
+                }
+}
+
 static void no_contact_and_nonsense(void **state)
 {
     (void)state;
@@ -449,6 +525,9 @@ int main(void)
         cmocka_unit_test(touch_does_not_jump),
         cmocka_unit_test(touch_before_short_steps),
         cmocka_unit_test(touch_derivative),
+        cmocka_unit_test(mean_force_is_that_of_the_energy),
+        cmocka_unit_test(mean_force_of_a_short_way),
+        cmocka_unit_test(mean_force_derivative),
         cmocka_unit_test(bouncing_ball),
         cmocka_unit_test(derivatives),
         cmocka_unit_test(energy_is_the_work),

@@ -18,11 +18,12 @@ typedef struct wall_input {
     dmb_friction_law friction_law;
     uint32_t row[NODES], diagonal[NODES];
     double reference[3 * NODES], displacement[3 * NODES], quaternion[4 * NODES], velocity[ROWS];
-    double now_quaternion[4 * NODES], now_velocity[ROWS], site_return[SITES];
+    double now_quaternion[4 * NODES], now_velocity[ROWS], site_history[SITES];
     double normal[3 * SITES], depth[SITES], penetration[SITES], impact_speed[SITES], slip[2 * SITES],
         bristle[2 * SITES], touch[DMB_TOUCH_SIZE * SITES];
     uint32_t segment[SITES];
     int32_t sticks[SITES];
+    uint8_t mode[SITES], coarse[SITES];
 } wall_input;
 
 typedef struct wall_output {
@@ -32,6 +33,7 @@ typedef struct wall_output {
     double sums[4];
     uint32_t segment[SITES];
     int32_t sticks[SITES], reserved;
+    uint8_t presses[SITES + 3];
 } wall_output;
 
 /* One way of asking. */
@@ -39,6 +41,7 @@ typedef struct wall_case {
     int32_t normal_law, friction_law, curved, dynamic, tangent;
     int32_t sections; /* 1: a hole of sections, and rings that keep their touch */
     double exponent;
+    int32_t bounces; /* 0: rings have no mean forces; 1: they have; 2: in the first evaluation of a step */
 } wall_case;
 
 /* ---- Random configurations --------------------------------------------------------------------------------------- */
@@ -90,7 +93,7 @@ static void draw_sites(uint64_t *seed, int arms, wall_input *in)
         site->clearance = s % 5 == 4 ? 0.0 : draw_between(seed, 0.0, 0.03);
         site->length = draw_between(seed, 0.5, 2.0);
         if (site->node >= 7) site->clearance = 3.0;
-        in->site_return[s] = s % 4 == 1 ? draw_between(seed, 0.0, 1.0) : 0.0;
+        in->site_history[s] = s % 4 == 1 ? draw_between(seed, 0.0, 1.0) : 0.0;
         in->sticks[s] = s % 2;
         in->segment[s] = s % STATIONS;
     }
@@ -150,7 +153,7 @@ static void draw_pieces(uint64_t *seed, wall_input *in)
             piece->bend[k] = usual[k] * draw_between(seed, -5e-4, 5e-4);
         }
     }
-    in->piece[3].value[DMB_WALL_STIFFNESS] = 3e8; /* too stiff for the step: damping there is not weighted */
+    in->piece[3].value[DMB_WALL_STIFFNESS] = 3e8; /* 30 times stiffer */
     in->piece[3].value[DMB_WALL_MU_STATIC] = in->piece[3].value[DMB_WALL_MU_DYNAMIC];
     for (uint32_t k = 0; k < SITES; k++) {
         in->sites[k].clearance = 1.0; /* not read: a section's radius is */
@@ -162,6 +165,16 @@ static void draw_pieces(uint64_t *seed, wall_input *in)
     draw_all(seed, -0.5, 0.5, DMB_TOUCH_SIZE * SITES, in->touch);
 }
 
+/* Rings of all modes, some with a mean force in the history of the step; nodes 7 and 8 have none that touches. */
+static void draw_bounces(wall_input *in)
+{
+    for (uint32_t s = 0; s < SITES; s++) {
+        in->mode[s] = (uint8_t)(in->sites[s].node < 7 && s % 7 < 3 ? s % 7 : 0);
+        in->coarse[s] = (uint8_t)(s / 2 % 3);
+        if (s % 8 == 2) in->site_history[s] = -500.0;
+    }
+}
+
 static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
 {
     memset(in, 0, sizeof *in);
@@ -170,6 +183,7 @@ static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
     draw_nodes(seed, in);
     draw_sites(seed, *seed % 2 == 0, in);
     if (c->sections) draw_pieces(seed, in);
+    if (c->bounces) draw_bounces(in);
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
@@ -196,7 +210,14 @@ static dmb_wall_job run_of(const wall_case *c, wall_input *in, wall_output *out,
         .now = {in->normal + 3 * first, in->depth + first, in->penetration + first, in->impact_speed + first,
                 in->slip + 2 * first, in->bristle + 2 * first, in->touch + DMB_TOUCH_SIZE * first, in->segment + first,
                 in->sticks + first},
-        .site_return = in->site_return + first,
+        .site_history = in->site_history + first,
+        .bounces = c->bounces != 0,
+        .mode = in->mode + first,
+        .coarse = in->coarse + first,
+        .presses = out->presses + first,
+        .own_factor = c->dynamic ? 1.96 : 0.0,
+        .yield = c->bounces == 2 ? 5e-7 / 20.0 : 0.0,
+        .slows = c->bounces == 2 ? 1e-3 / 20.0 : 0.0,
         .trial = {out->normal + 3 * first, out->depth + first, out->penetration + first, out->impact_speed + first,
                   out->slip + 2 * first, out->bristle + 2 * first, out->touch + DMB_TOUCH_SIZE * first,
                   out->segment + first, out->sticks + first},
@@ -285,7 +306,7 @@ static void all_widths_give_the_same_bits(void **state)
     (void)state;
     for (int32_t i = 0; i < 6 * 5 * 16 * SEEDS; i++) {
         const int32_t k = i / 30;
-        const wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, k / 2 % 2, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3]};
+        const wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, k / 2 % 2, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 0};
         draw_input(&seed, &c, &in);
         closed += compare_widths(&c, &in);
         cases++;
@@ -297,6 +318,30 @@ static void all_widths_give_the_same_bits(void **state)
     assert_true(closed > cases * SITES / 5 && closed < cases * SITES * 4 / 5);
 }
 
+/* The same of mean forces in the first evaluation of a step and later ones, which are other forces than those of the
+ * law. */
+static void mean_forces_have_the_same_bits(void **state)
+{
+    static const double exponents[3] = {1.0, 1.5, 1.3};
+    uint64_t seed = 60;
+    wall_input in;
+    wall_output mean, law;
+    (void)state;
+    for (int32_t i = 0; i < 6 * 5 * 16 * SEEDS; i++) {
+        const int32_t k = i / 30;
+        wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, 1, k / 4 % 2, k / 8 % 2, exponents[(i + k) % 3], 1 + k / 2 % 2};
+        draw_input(&seed, &c, &in);
+        (void)compare_widths(&c, &in);
+        clear(&mean);
+        clear(&law);
+        run_part(dmb_kernels_widest(), &c, &in, &mean, 0, SITES);
+        c.bounces = 0;
+        run_part(dmb_kernels_widest(), &c, &in, &law, 0, SITES);
+        assert_true(memcmp(mean.residual, law.residual, sizeof law.residual) != 0);
+        assert_memory_equal(mean.penetration, law.penetration, sizeof law.penetration);
+    }
+}
+
 /* The residual is the same whether blocks are wanted or not. */
 static void forces_do_not_depend_on_the_tangent(void **state)
 {
@@ -305,7 +350,7 @@ static void forces_do_not_depend_on_the_tangent(void **state)
     wall_output with, without;
     (void)state;
     for (int32_t i = 0; i < 60; i++) {
-        wall_case c = {i % 6, i % 5 - 1, 0, i / 30, 1, i % 2, 1.0};
+        wall_case c = {i % 6, i % 5 - 1, 0, i / 30, 1, i % 2, 1.0, i / 30 * (i % 3)};
         draw_input(&seed, &c, &in);
         clear(&with);
         clear(&without);
@@ -323,6 +368,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_widths_give_the_same_bits),
+        cmocka_unit_test(mean_forces_have_the_same_bits),
         cmocka_unit_test(forces_do_not_depend_on_the_tangent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
