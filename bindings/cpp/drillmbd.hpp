@@ -286,11 +286,11 @@ public:
     model() : handle_(nullptr) { check(dmb_model_create(nullptr, &handle_)); }
     explicit model(const dmb_model_options &options) : handle_(nullptr) { check(dmb_model_create(&options, &handle_)); }
 
-    void set_environment(const dmb_environment_def &def) { done(dmb_model_set_environment(handle_, &def)); }
+    void set_environment(const dmb_environment_def &def) { described(dmb_model_set_environment(handle_, &def)); }
     dmb_id add_time_function(const dmb_segment *terms, std::uint32_t count)
     {
         dmb_id id = {0, 0};
-        done(dmb_model_add_time_function(handle_, terms, count, &id));
+        described(dmb_model_add_time_function(handle_, terms, count, &id));
         return id;
     }
     dmb_id add_time_function(const dmb_segment &term) { return add_time_function(&term, 1); }
@@ -301,13 +301,13 @@ public:
     dmb_id add_pipes(const dmb_pipe_def &def, std::uint32_t count)
     {
         dmb_id id = {0, 0};
-        done(dmb_model_add_pipes(handle_, &def, count, &id));
+        described(dmb_model_add_pipes(handle_, &def, count, &id));
         return id;
     }
     dmb_id add_wall(const dmb_wall_def &def) { return add(dmb_model_add_wall, def); }
     void add_hole_sections(const dmb_hole_section *sections, std::uint32_t count)
     {
-        done(dmb_model_add_hole_sections(handle_, sections, count));
+        described(dmb_model_add_hole_sections(handle_, sections, count));
     }
     dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
     dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
@@ -333,12 +333,12 @@ public:
     dmb_sub add_sub(const dmb_sub_def &def)
     {
         dmb_sub made = dmb_sub_default();
-        done(dmb_model_add_sub(handle_, &def, &made));
+        described(dmb_model_add_sub(handle_, &def, &made));
         return made;
     }
     void place_at_end(dmb_id string, double length, dmb_body_def *body, dmb_string_def *section = nullptr)
     {
-        done(dmb_model_place_at_end(handle_, string, length, body, section));
+        described(dmb_model_place_at_end(handle_, string, length, body, section));
     }
     void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
     // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.
@@ -400,11 +400,19 @@ public:
 
 private:
     std::int32_t done(std::int32_t status) const { return check(status, message()); }
+    // Of a call that describes: its refusal is an exception, which compile need not repeat.
+    void described(std::int32_t status)
+    {
+        if (status >= 0) return;
+        const error thrown(status, message());
+        clear_refused();
+        throw thrown;
+    }
     template <typename Def>
     dmb_id add(std::int32_t (*function)(dmb_model *, const Def *, dmb_id *), const Def &def)
     {
         dmb_id id = {0, 0};
-        done(function(handle_, &def, &id));
+        described(function(handle_, &def, &id));
         return id;
     }
 #endif

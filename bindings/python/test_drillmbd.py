@@ -727,19 +727,15 @@ class ErrorTest(unittest.TestCase):
             self.assert_error(mbd.ERR_VALUE, model.add_bit, inertia=(0.3, 0.1))
             model.add_body(inertia=(0.002, 0.001, 0.001, 0, 0, 0))
 
-    def test_refused_part_is_remembered(self):
+    def test_handled_refusal_does_not_stop_compile(self):
         with mbd.Model() as model:
-            model.add_pipes(1)
-            self.assert_error(mbd.ERR_VALUE, model.add_body, mass=-1.0)
-            error = self.assert_error(mbd.ERR_VALUE, model.compile)
-            self.assertIn("1 refused part missing", error.message)
-            self.assertIn("body 0: mass = -1", error.message)
-            model.add_body(mass=1.0)  # after all
-            model.compile()
-        with mbd.Model() as model:
-            model.add_pipes(1)
-            self.assert_error(mbd.ERR_VALUE, model.add_body, mass=-1.0)
-            model.clear_refused()
+            for fields in ({"inner_diameter": 0.08}, {"inner_diameter": 0.09, "length": 2.0}):
+                self.assert_error(mbd.ERR_VALUE, model.add_pipes, 3, outer_diameter=0.07, **fields)
+            model.add_pipes(3, outer_diameter=0.07, inner_diameter=0.06)
+            for diameter in (-1.0, 0.0):
+                error = self.assert_error(mbd.ERR_VALUE, model.add_wall, diameter=diameter)
+            self.assertEqual(model.message, error.message)
+            model.add_wall(diameter=0.1)
             model.compile()
 
     def test_reason_of_a_failed_create(self):

@@ -35,9 +35,10 @@ DMB_API void dmb_model_destroy(dmb_model **model);
 /* Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of
  * a compiled model, and of questions, each thread reads the failure of its own calls. */
 DMB_API const char *dmb_model_message(const dmb_model *model);
-/* Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it
- * was added after all: a later one of its kind with the same name, or with at most one other field where one of them
- * has none (environment, wall: any). This forgets them all. */
+/* dmb_model_compile fails with the first refusal of a part, unless a later part of its kind was added with the same
+ * name, or, without names, with at most one other field; a wall or environment clears all refusals of its kind before
+ * it. This clears all refusals, as the wrappers of C++ and Python do where they throw: an exception is never
+ * overlooked. */
 DMB_API int32_t dmb_model_clear_refused(dmb_model *model);
 
 /* ---- Components of motion ----------------------------------------------------------------------------------------

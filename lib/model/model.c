@@ -245,10 +245,12 @@ int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string)
 
 int32_t dmb_model_clear_refused(dmb_model *model)
 {
-    const int32_t status = dmb_describe_open(model, "model", model);
-    if (status < 0) return status;
-    model->refused.kept = model->refused.further = 0;
-    return dmb_describe_close(model, "model", DMB_OK);
+    if (model == NULL) return dmb_model_fail(model, DMB_ERR_NULL, "model", NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_fail(model, DMB_ERR_HANDLE, "model", NULL);
+    if (model->scene != NULL) return refuse_compiled(model, "model");
+    if (model->busy) return dmb_model_fail(model, DMB_ERR_ORDER, "model", model->message.text);
+    model->refused.kept = model->refused.further = 0; /* the message stays: the refusal is why this is called */
+    return DMB_OK;
 }
 
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,

@@ -50,7 +50,8 @@ typedef struct dmb_described {
 void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int32_t status,
                           const dmb_message *message);
 /* The part was added: the oldest refusal of the same part is forgotten. It is the same part if both definitions have
- * the same name; without names, if they differ in no more than one field. */
+ * the same name; without names, if they differ in no more than one field. Of a part that a model has once (wall,
+ * environment) all refusals are forgotten. */
 void dmb_refused_added(dmb_refusals *refused, const dmb_described *given);
 /* DMB_OK, or the status and the message of the oldest refusal. */
 int32_t dmb_refused_check(const dmb_refusals *refused, dmb_message *message);

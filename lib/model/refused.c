@@ -165,8 +165,21 @@ void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int
     if (refusal->size > 0) memcpy(refusal->definition, given->definition, refusal->size);
 }
 
+/* A model has one such part: all refusals of its kind are of it. */
+static void forget_kind(dmb_refusals *refused, const dmb_described *given)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < refused->kept; ++i)
+        if (!is_same_kind(&refused->first[i], given)) refused->first[kept++] = refused->first[i];
+    refused->kept = kept;
+}
+
 void dmb_refused_added(dmb_refusals *refused, const dmb_described *given)
 {
+    if (given->size == 0) {
+        forget_kind(refused, given);
+        return;
+    }
     for (uint32_t i = 0; i < refused->kept; ++i) {
         const dmb_refusal *refusal = &refused->first[i];
         if (!is_same_kind(refusal, given)) continue;

@@ -112,7 +112,9 @@ static void one_of_a_kind(void **state)
     environment.gravity[2] = (double)NAN;
     assert_int_equal(dmb_model_add_wall(model, &wall, NULL), DMB_ERR_VALUE);
     assert_int_equal(dmb_model_set_environment(model, &environment), DMB_ERR_NOT_FINITE);
-    expect_refused(model, DMB_ERR_VALUE, "2 refused parts missing", "wall: diameter = -1");
+    wall.diameter = 0.0;
+    assert_int_equal(dmb_model_add_wall(model, &wall, NULL), DMB_ERR_VALUE);
+    expect_refused(model, DMB_ERR_VALUE, "3 refused parts missing", "wall: diameter = -1");
     wall = dmb_wall_def_default();
     wall.diameter = 0.2, wall.stiffness = 1e6;
     must(dmb_model_add_wall(model, &wall, NULL));

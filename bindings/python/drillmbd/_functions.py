@@ -345,7 +345,7 @@ FUNCTION_DOCS = {
     "dmb_model_add_wall":
         "Adds the hole. One hole a model; wall may be NULL.",
     "dmb_model_clear_refused":
-        "Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was added after all: a later one of its kind with the same name, or with at most one other field where one of them has none (environment, wall: any). This forgets them all.",
+        "dmb_model_compile fails with the first refusal of a part, unless a later part of its kind was added with the same name, or, without names, with at most one other field; a wall or environment clears all refusals of its kind before it. This clears all refusals, as the wrappers of C++ and Python do where they throw: an exception is never overlooked.",
     "dmb_model_compile":
         "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Warns (log, dmb_model_message, dmb_analysis_check) of contact rings of bodies and bits that a support keeps off the wall. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(elements).",
     "dmb_model_create":

@@ -80,7 +80,9 @@ class Model(Handle):
         if self._compiled:  # its message is that of the compilation
             raise Error(status, "model: state = compiled, must be one that is still described; add parts before compile()"
                         if status == ERR_ORDER else status_text(status))
-        return self._keep.check(status, _lib.dmb_model_message(self._handle))
+        message = _lib.dmb_model_message(self._handle)
+        _lib.dmb_model_clear_refused(self._handle)  # the exception says it; compile need not repeat it
+        return self._keep.check(status, message)
 
     def _given(self, part: Id, pipes: int = 0) -> Id:
         self.ids.append(part)
