@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Makes three modules of the package from the public headers, which own these facts: enums.py (constants), _structs.py
-(structs with unit and meaning of every field, types of callbacks) and _functions.py (prototypes, comments of functions).
+"""Makes four modules of the package from the public headers, which own these facts: enums.py (constants), _structs.py
+(structs with unit and meaning of every field, types of callbacks), _functions.py (prototypes, comments of functions) and
+_typed.py (methods that take the fields of a struct as keywords, as type checkers and editors see them).
 
 usage: generate.py            writes them
        generate.py --check    tells whether they are up to date; exit status 1 if not
@@ -203,6 +204,66 @@ def enum_class(first, members):
     return ENUM_NAMES.get(first) or prefix.capitalize()
 
 
+# ---- Methods that take the fields of a struct ------------------------------------------------------------------------
+# Kinds of parts that have a type of id of their own for type checkers; when a program runs each is Id.
+ID_KINDS = ("TimeFunction", "Wall", "String", "Body", "Bit", "Stabiliser", "Joint", "Coupling", "Constraint", "Drive", "Load", "Spring",
+            "Stuck", "Force", "Input", "Event")
+PLACES = "excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput]"
+# class: {method: (struct, parameters before and after that of the struct, result)}
+TYPED = {
+    "ModelCalls": {
+        "set_environment": ("EnvironmentDef", "", "", "None"),
+        **{f"add_{kind}": (f"{kind.capitalize()}Def", "", "", f"{kind.capitalize()}Id") for kind in (
+            "wall", "string", "body", "bit", "stabiliser", "joint", "coupling", "constraint", "drive", "load", "input", "spring", "stuck",
+            "event", "force")},
+        "add_pipes": ("PipeDef", "count: int = 1, ", "", "StringId"),
+        "compile": ("CompileOptions", "", "", "int"),
+        "sim_memory_size": ("SimOptions", "", "", "int"),
+        "sim": ("SimOptions", "", "log: Callable[[int, str], None] | None = None, ", "Sim")},
+    "AnalysisCalls": {
+        "static": ("StaticOptions", "", "", "StaticReport"),
+        "buckling": ("BucklingOptions", "", "", "Buckling"),
+        "path": ("PathOptions", "visit: Callable[[Sim, PathPoint], Any] | None = None, ", "", "PathReport"),
+        "response": ("ResponseOptions", PLACES + ", ", "frequencies: Any = None, ", "Response"),
+        "stepped_sine": ("SteppedSineOptions", "frequency: float, outputs: Sequence[ResponseOutput], ", "", "tuple[Any, Any]"),
+        "modes": ("ModesOptions", "", "", "Modes"),
+        "speeds": ("SpeedsOptions", "orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64, ", "",
+                   "tuple[SpeedBands, list[float]]"),
+        "torque_drag": ("TorqueDragOptions", "operations: Any = None, depths: Sequence[float] | None = None, ", "", "TorqueDrag"),
+        "torque_drag_profile": ("TorqueDragOptions", "operation: Operation | int, stations: int = 101, ", "", "Columns"),
+        "friction_factor": ("TorqueDragOptions", "operation: Operation | int, hook_load: float | None = None, torque: float | None = None, ", "",
+                            "float")}}
+
+
+def typed_lines(reader, name, calls):
+    """The class with the signatures of the methods. Keywords are the fields of the struct, and of its class in _record.py."""
+    structs = {class_name(c_name): fields for c_name, fields, _ in reader.structs()}
+    yield f"class {name}:"
+    yield '    """Signatures only: the methods themselves stand in the class that has this as its base for type checkers."""'
+    for method, (struct, before, after, result) in calls.items():
+        word = "options" if struct.endswith("Options") else "definition"
+        own = before + after
+        keys = [f"{key}: Any = ..." for key in MORE_KEYS.get(struct, ())]
+        keys += [f"{field}: {given_type(kind)} = ..." for field, kind, _, _ in structs[struct]
+                 if field != "struct_size" and not re.search(r"reserved\d*$", field) and f"{field}:" not in own]
+        given = f"{before}{word}: {struct} | None = None, {after}*, {', '.join(keys)}"
+        yield f"    def {method}(self, {given}) -> {result}: ..."
+    yield ""
+    yield ""
+
+
+def typed_text(reader):
+    """The module of signatures. It is read by type checkers alone."""
+    lines = MADE.format("Methods that take the fields of a struct as keywords, as type checkers see them.").splitlines()
+    lines += ["# mypy: disable-error-code=\"empty-body\"", "from __future__ import annotations", "",
+              "from collections.abc import Callable, Iterable, Sequence", "from typing import Any, SupportsFloat", "",
+              "from ._structs import *  # noqa: F401,F403", "from .analysis import Buckling, Modes, Response, TorqueDrag",
+              "from .frames import Columns, SpeedBands", "from .sim import Sim", "", ""]
+    for name, calls in TYPED.items():
+        lines += typed_lines(reader, name, calls)
+    return lines[:-2]
+
+
 # ---- Writing ---------------------------------------------------------------------------------------------------------
 def quoted(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
@@ -232,7 +293,7 @@ def enum_lines(name, members):
 def python_type(kind):
     array = re.match(r"(\w+) \* (\d+)$", kind)
     if array:
-        return "bytes" if array.group(1) == "c_char" else f"'Array[{array.group(1)}]'"
+        return "bytes" if array.group(1) == "c_char" else "Any" if array.group(1) == "c_double" else f"'Array[{array.group(1)}]'"
     if kind in PYTHON:
         return PYTHON[kind]
     if kind.startswith(("c_int", "c_uint", "c_size")):
@@ -251,6 +312,8 @@ def given_type(kind):
         return "str | bytes"
     if re.match(r"c_double \*", kind):
         return "Iterable[float]"
+    if re.match(r"\w+ \*", kind):
+        return "Iterable[Any]"
     return {"Place": "Place | Id | None", "Id": "Id | None", "Output": "Output | tuple[Any, Any]",
             "c_double": "SupportsFloat"}.get(kind, python_type(kind).replace("'", ""))
 
@@ -297,7 +360,8 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart
+from ._record import (ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart,
+                      read_as_numpy)
 
 '''
 FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations
@@ -351,13 +415,18 @@ def structs_text(reader):
     for kind, _, content, _ in order_items(reader):
         if kind == "struct":
             lines += struct_lines(reader, *content)
+            if content[0] == "dmb_id":
+                lines += ["if TYPE_CHECKING:  # ids of different kinds are different types for a type checker",
+                          *(f"    class {one}Id(Id): ..." for one in ID_KINDS), "else:",
+                          *(f"    {one}Id = Id" for one in ID_KINDS), "", ""]
         else:
             name, place = function_type(content[1]), re.search(rf"^typedef \w+ \(\*{content[1]}\)", reader.text, re.M).start()
             lines += [f"{name} = CFUNCTYPE({reader.signature(content[0], content[2])})",
                       f"{name}.__doc__ = {quoted(reader.comment_before(place) or f'The function {content[1]} of the headers.')}",
                       "", ""]
     lines.append("STRUCTS: dict[str, Any] = {}  # name in C -> class")
-    return lines + [f"STRUCTS[{quoted(name)}] = {class_name(name)}" for name, _, _ in reader.structs()]
+    lines += [f"STRUCTS[{quoted(name)}] = {class_name(name)}" for name, _, _ in reader.structs()]
+    return lines + ["", "for _cls in STRUCTS.values():", "    read_as_numpy(_cls)", "del _cls"]
 
 
 def functions_text(reader):
@@ -376,7 +445,7 @@ def functions_text(reader):
 def generated():
     """{path: text}"""
     reader = Reader(header_text())
-    made = {"enums.py": enums_text, "_structs.py": structs_text, "_functions.py": functions_text}
+    made = {"enums.py": enums_text, "_structs.py": structs_text, "_functions.py": functions_text, "_typed.py": typed_text}
     return {PACKAGE / name: re.sub(r"\n{4,}", "\n\n\n", "\n".join(lines(reader)) + "\n")
             for name, lines in made.items()}
 

@@ -144,10 +144,15 @@ class NamesTest(unittest.TestCase):
         right += ('definition = mbd.PipeDef(length=3, name="rods", kind=mbd.PIPE_FLEXIBLE, curvature=(0.0, 0.0, 0.01))\n'
                   "frame, force = sim.profile(string, 30).frame(), sim.drive(table).force + 1.0\n"
                   "done = sim.run(2.1, step=1e-3, progress=lambda at: at.fraction > 0.5)\n")
-        wrong = 'mbd.PipeDef(lenght=3.0)\nmbd.PipeDef(length="3")\nsim.step("1")\nmbd.DriveDef(part="rods")\n'
+        right += ('sim.set_drive(table, 1.0)\nsim.set_drive("table", 1.0)\nspeed = sim.drive(model["table"]).speed\n'
+                  "again = mbd.Model()\nagain.add_pipes(3, mbd.PipeDef(length=3))\nagain.compile(pipe_kind=mbd.PIPE_RIGID)\n"
+                  "found = again.sim(newton_tolerance=1e-8).modes(count=3)\n")
+        wrong = ('mbd.PipeDef(lenght=3.0)\nmbd.PipeDef(length="3")\nsim.step("1")\nmbd.DriveDef(part="rods")\n'
+                 "again.add_pipes(3, outer_diamter=0.07)\nagain.sim(newton_tolerence=1e-8)\nsim.static(load_step=3)\n"
+                 "sim.set_drive(string, 1.0)\nagain.add_drive(part=string, time_functoin=string)\n")
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "program.py")
-            for text, errors in ((right, 0), (right + wrong, 4)):
+            for text, errors in ((right, 0), (right + wrong, 9)):
                 path.write_text(text, encoding="utf-8")
                 done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", folder, path],
                                       capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})

@@ -137,7 +137,7 @@ class QuestionTest(Refusals):
 
     def test_places(self):
         sim, string = self.sim, self.string
-        self.assertEqual(sim.pose(string).position[:], sim.pose(mbd.station(string)).position[:])
+        self.assertEqual(list(sim.pose(string).position), list(sim.pose(mbd.station(string)).position))
         self.tells(("pose at string 0", "pipe", 5.0), sim.pose, mbd.station(string, 5))
         self.tells(("section at string 0", "fraction", 1.5), sim.section, mbd.station(string, 1, 1.5))
         self.tells(("pose", "part", "drive 0"), sim.pose, self.feed)
@@ -214,7 +214,7 @@ class QuestionTest(Refusals):
 
     def test_outputs(self):
         self.assertEqual(self.refused(self.sim.output, "hookload").advice, "'hook_load'?")
-        for outputs in (["hook_load"], [("position_x", self.string)], [(self.string, "position_x", 3)]):
+        for outputs in ([3.0], [("position_x", self.string)], [(self.string, "position_x", 3)]):
             self.assertEqual(self.refused(self.sim.recorder, outputs, 5).part, "recorder output 0")
         error = self.refused(self.sim.recorder, [(self.string, "drive_force")], 5)
         self.assertIn("place.part must be a drive", error.message)  # at once, not at the first row

@@ -32,7 +32,7 @@ def load_tip(model, string, force):
 
 def angle(pose):
     """Rotation about z of a pose that turns about z only."""
-    return math.atan2(pose.rotation[3], pose.rotation[0])
+    return math.atan2(pose.rotation[1, 0], pose.rotation[0, 0])
 
 
 # ---- Elastica --------------------------------------------------------------------------------------------------------
@@ -292,7 +292,7 @@ def princeton_tip(load, theta, elements):
         with model.sim() as sim:
             sim.static()
             tip = sim.pose(mbd.station(string, 0, 1.0))
-            return tip.position[1], tip.position[2], math.atan2(tip.rotation[7], tip.rotation[8])
+            return tip.position[1], tip.position[2], math.atan2(tip.rotation[2, 1], tip.rotation[2, 2])
 
 
 def princeton_rod(load, theta):

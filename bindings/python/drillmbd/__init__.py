@@ -8,11 +8,11 @@ matplotlib for pictures where they are there.
     string = model.add_pipes(100, outer_diameter=0.073, inner_diameter=0.061)
     model.add_bit(mass=5.0)
     feed = model.add_time_function(mbd.Segment(kind=mbd.SEGMENT_STEP, x1=1.0, h1=0.01))
-    model.add_drive(time function=feed)
+    model.add_drive(time_function=feed)
     model.compile()
     with model.sim() as sim:
         sim.run(40.0, step=1e-3)
-        print(sim.pose(mbd.station(string, 99, 1.0)).position[:])
+        print(sim.pose(mbd.station(string, 99, 1.0)).position)
 
 Structs carry the names of the C interface without dmb_ and in capitals (dmb_pipe_def is PipeDef), with the same fields,
 units and defaults: help(drillmbd.PipeDef) shows them. Functions that take one also take its fields as keywords. A call

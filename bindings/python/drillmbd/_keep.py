@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from ._functions import FUNCTION_DOCS
-from ._parts import closed, is_closed
+from ._parts import Parts, closed, is_closed
 from ._record import Record
 from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, TIME_FN, Id, Place
 from ._values import flat, real, reals, refuse_type, shown
@@ -24,19 +24,23 @@ def station(part: Id, pipe: int = 0, fraction: float = 0.0) -> Place:
     return Place(part, pipe, 0, fraction)
 
 
-def as_id(part: Id | None) -> Id:
-    """The id, or the id of nothing for None."""
+def as_id(part: Id | str | None, parts: Parts | None = None, word: str = "") -> Id:
+    """The id, or the id of nothing for None; of a name where the parts of the model are given."""
     if part is None:
         return Id()
+    if isinstance(part, str) and parts is not None:
+        return parts.find(part, word)
     return part if isinstance(part, Id) else refuse_type("call", "part", part, "be the id of a part")
 
 
-def as_place(place: Place | Id | None) -> Place:
-    """The place; a part stands for its reference point, None for no place."""
+def as_place(place: Place | Id | str | None, parts: Parts | None = None) -> Place:
+    """The place; a part, or its name where the parts of the model are given, stands for its reference point, None for no place."""
     if isinstance(place, Place):
         return place
-    if place is not None and not isinstance(place, Id):
+    if place is not None and not isinstance(place, (Id, str) if parts is not None else Id):
         refuse_type("call", "place", place, "be a place, station(string, pipe, fraction), or a part")
+    if isinstance(place, str) and parts is not None:
+        return station(parts.find(place, field="place"))
     return station(as_id(place))
 
 

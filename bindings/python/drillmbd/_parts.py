@@ -1,12 +1,13 @@
 """The parts of a model as messages need them: C queries answer a wrong part or place with a status alone."""
 from __future__ import annotations
 
+import difflib
 import math
 from typing import Any
 
 from ._structs import Id, Place
 from ._values import shown
-from .enums import ERR_HANDLE, ERR_NULL, PartKind
+from .enums import ERR_HANDLE, ERR_NULL, ERR_VALUE, PartKind
 from .errors import Error, WrongValue, status_text
 
 WHOLE_STRING = 0xFFFFFFFF
@@ -19,12 +20,34 @@ class Parts:
         self.stamp = 0
         self.pipes: dict[int, int] = {}
         self.sites = 0
+        self.names: dict[str, list[Id]] = {}
 
     def add(self, part: Id, pipes: int = 0) -> None:
         """A part of the model, with as many further pipes."""
         self.stamp = part.generation
         if part.index >> 24 == PartKind.STRING:
             self.pipes[part.index] = self.pipes.get(part.index, 0) + pipes
+
+    def find(self, name: str, word: str = "", field: str = "part") -> Id:
+        """The part of that name; of a kind by `word`, as "drive", where parts of several kinds have it."""
+        found = list(dict.fromkeys(self.names.get(name, [])))
+        if len(found) > 1 and word:
+            found = [one for one in found if named(one).split()[0] == word] or found
+        if len(found) == 1:
+            return found[0]
+        known = ", ".join(f"'{one}'" for one in self.names) or "none"
+        close = difflib.get_close_matches(name, self.names, 1)
+        bound = (f"be the name of a part of the model: {known if len(known) < 200 else known[:200] + ' ...'}" if not found else
+                 f"name one part: {' and '.join(named(one) for one in found)} have this name; give the id")
+        raise WrongValue(ERR_VALUE, f"{word or 'call'}: {field} = {shown(name)}, must {bound}" + (f"; '{close[0]}'?" if close else ""))
+
+    def first_string(self) -> Id:
+        """The first string of the model; of nothing where it has none."""
+        return Id(min(self.pipes), self.stamp) if self.pipes else Id()
+
+    def name_of(self, part: Id) -> str:
+        """The name of a part, "" if it has none."""
+        return next((name for name, ids in self.names.items() if part in ids), "")
 
     def why_part(self, word: str, part: Id, wanted: str) -> str:
         """The message of a part where one of the kinds `wanted` is needed; "" where nothing is wrong."""

@@ -10,15 +10,18 @@ from collections.abc import Callable, Sequence
 from ctypes import c_double
 from typing import Any, ClassVar
 
-from ._values import ERR_VALUE, points, real, reals, refuse_type, refuse_value, text, whole
+from ._values import ERR_VALUE, flat, points, real, reals, refuse_type, refuse_value, text, whole
 
 _FUNCTION: Any = ctypes.CFUNCTYPE(None).__mro__[1]
+_DOUBLES = ctypes.POINTER(c_double)
 _WHOLE = {ctypes.c_int32: (-2 ** 31, 2 ** 31 - 1), ctypes.c_uint32: (0, 2 ** 32 - 1), ctypes.c_int64: (-2 ** 63, 2 ** 63 - 1),
           ctypes.c_uint64: (0, 2 ** 64 - 1), ctypes.c_size_t: (0, 2 ** 64 - 1)}
 
 
 def _plain(value: Any) -> Any:
     """A field as plain Python: arrays as lists, texts as str."""
+    if hasattr(value, "ravel"):
+        return value.ravel().tolist()  # numpy's
     if isinstance(value, ctypes.Array):
         return [_plain(one) for one in value]
     return value.decode(errors="replace") if isinstance(value, bytes) else value
@@ -29,9 +32,39 @@ def _is_pointer(kind: Any) -> bool:
                                        or kind is ctypes.c_void_p)
 
 
+class Numbers:
+    """A field of several numbers: read as a numpy array that shares the struct's memory, of the shape that the field's text gives; where
+    numpy is not installed as an array of ctypes."""
+
+    def __init__(self, field: Any, count: int, about: str) -> None:
+        self.field, self.count = field, count
+        self.offset, self.size = field.offset, field.size
+        shape = re.search(r"\bshape \((\d+(?:, \d+)+)\)", about)
+        self.shape = tuple(int(one) for one in shape[1].split(", ")) if shape else (count,)
+
+    def __get__(self, struct: Any, owner: Any = None) -> Any:
+        if struct is None:
+            return self
+        from ._optional import numpy
+        if numpy is None:
+            return self.field.__get__(struct, owner)
+        return numpy.frombuffer(struct, "float64", self.count, self.offset).reshape(self.shape)
+
+    def __set__(self, struct: Any, value: Any) -> None:
+        self.field.__set__(struct, value)
+
+
+def read_as_numpy(cls: type[Record]) -> None:
+    """Fields of several numbers are read as numpy arrays from now on. ctypes makes its fields after a class is made, so this cannot be done
+    while it is."""
+    for name, kind in cls._kinds.items():
+        if isinstance(kind, type) and issubclass(kind, ctypes.Array) and kind.__name__.startswith("c_double"):
+            setattr(cls, name, Numbers(cls.__dict__[name], ctypes.sizeof(kind) // 8, cls.field_docs.get(name, ("", ""))[1]))
+
+
 class Record(ctypes.Structure):
-    """A struct that knows its fields: a misspelt one is an error, a sequence fills an array, a part stands for its
-    reference point where a place is needed and None for no part."""
+    """A struct that checks its fields: a misspelt one is an error, a sequence fills an array, a part stands for its
+    reference point where a place is needed and None for no part. dict(struct) and struct["field"] read it as a mapping."""
     c_name: ClassVar[str] = ""
     about: ClassVar[str] = ""
     field_docs: ClassVar[dict[str, tuple[str, str]]] = {}  # field -> (unit, meaning)
@@ -76,14 +109,23 @@ class Record(ctypes.Structure):
             return self._fit_array(name, kind, value)
         if isinstance(kind, type) and issubclass(kind, Record):
             return _fit_record(part, name, kind, value)
+        if kind is _DOUBLES and value is not None and not isinstance(value, (ctypes.Array, ctypes._Pointer)):
+            return self._fit_pointer(name, value)
         return value
+
+    def _fit_pointer(self, name: str, value: Any) -> Any:
+        """Numbers, or rows of numbers, behind a pointer; ctypes keeps their memory with the struct. The field that counts them is set."""
+        numbers = reals(flat(value), type(self).__name__, name)
+        if f"{name.removesuffix('s')}_count" in self._kinds:
+            setattr(self, f"{name.removesuffix('s')}_count", len(value))
+        return (c_double * len(numbers))(*numbers)
 
     def _fit_array(self, name: str, kind: Any, value: Any) -> Any:
         part = type(self).__name__
         if kind._type_ is ctypes.c_char:
             return text(value, part, name, kind._length_)
         if kind._type_ is c_double:
-            return kind(*reals(value, part, name, kind._length_))
+            return kind(*reals(value.ravel() if hasattr(value, "ravel") else value, part, name, kind._length_))
         values = list(value)
         if len(values) != kind._length_:
             refuse_value(part, name, value, f"be {kind._length_} values: {len(values)} are given")
@@ -116,6 +158,21 @@ class Record(ctypes.Structure):
                 found[name] = value
         return found
 
+    def keys(self) -> list[str]:
+        """Names of the fields, without those that are reserved."""
+        return [name for name in self._kinds if name != "struct_size" and not name.rstrip("0123456789").endswith("reserved")]
+
+    def __getitem__(self, name: str) -> Any:
+        if not isinstance(name, str):
+            raise TypeError(f"{type(self).__name__}[{name!r}]: give the name of a field")
+        if name not in self._kinds:
+            raise KeyError(name)
+        return getattr(self, name)
+
+    def _asdict(self) -> dict[str, Any]:
+        """The fields by name."""
+        return {name: self[name] for name in self.keys()}
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Record) or type(other) is not type(self):
             return NotImplemented
@@ -144,7 +201,7 @@ def _fit_record(part: str, name: str, kind: Any, value: Any) -> Any:
     word = kind.__name__
     if value is None and word in ("Place", "Id"):
         return kind()
-    if word == "Place" and type(value).__name__ == "Id":
+    if word == "Place" and isinstance(value, IdPart):
         return kind(value)
     if word == "Output" and isinstance(value, tuple) and len(value) == 2:
         from .outputs import output_quantity
@@ -268,6 +325,11 @@ class WallPart(PairsPart):
     friction_table_mu: Any
 
     def __init__(self, stations: Any = None, **fields: Any) -> None:
+        survey = fields.get("survey")
+        if survey is not None and not isinstance(survey, (ctypes.Array, ctypes._Pointer)):  # the name in C of the same triples
+            if stations is not None:
+                raise TypeError("give stations or survey, not both")
+            stations = fields.pop("survey")
         super().__init__(**fields)
         if self.friction_table_count and not {"mu_static", "mu_dynamic"} & set(fields):
             self.mu_static, self.mu_dynamic = self.friction_table_mu[0], self.friction_table_mu[self.friction_table_count - 1]

@@ -7,7 +7,8 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart
+from ._record import (ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, SegmentPart, WallPart,
+                      read_as_numpy)
 
 
 class Id(IdPart, Record):
@@ -22,6 +23,42 @@ class Id(IdPart, Record):
         "index": ("-", "kind in the upper 8 bits, number of the part within its kind in the lower 24"),
         "generation": ("-", "stamp of the model that gave it out; 0 only in the id that names nothing"),
     }
+
+
+if TYPE_CHECKING:  # ids of different kinds are different types for a type checker
+    class TimeFunctionId(Id): ...
+    class WallId(Id): ...
+    class StringId(Id): ...
+    class BodyId(Id): ...
+    class BitId(Id): ...
+    class StabiliserId(Id): ...
+    class JointId(Id): ...
+    class CouplingId(Id): ...
+    class ConstraintId(Id): ...
+    class DriveId(Id): ...
+    class LoadId(Id): ...
+    class SpringId(Id): ...
+    class StuckId(Id): ...
+    class ForceId(Id): ...
+    class InputId(Id): ...
+    class EventId(Id): ...
+else:
+    TimeFunctionId = Id
+    WallId = Id
+    StringId = Id
+    BodyId = Id
+    BitId = Id
+    StabiliserId = Id
+    JointId = Id
+    CouplingId = Id
+    ConstraintId = Id
+    DriveId = Id
+    LoadId = Id
+    SpringId = Id
+    StuckId = Id
+    ForceId = Id
+    InputId = Id
+    EventId = Id
 
 
 class Allocator(Sized):
@@ -105,7 +142,7 @@ class EnvironmentDef(Sized):
     c_name, about = "dmb_environment_def", "For dmb_model_set_environment."
     struct_size: int
     reserved: int
-    gravity: 'Array[c_double]'
+    gravity: Any
     fluid_density: float
     lateral_damping: float
     axial_damping: float
@@ -159,8 +196,8 @@ class WallDef(WallPart, Sized):
     struct_size: int
     survey_count: int
     survey: Any
-    origin: 'Array[c_double]'
-    direction: 'Array[c_double]'
+    origin: Any
+    direction: Any
     diameter: float
     normal_law: int
     friction_law: int
@@ -183,8 +220,8 @@ class WallDef(WallPart, Sized):
     cut_end: float
     friction_table_count: int
     reserved: int
-    friction_table_speed: 'Array[c_double]'
-    friction_table_mu: 'Array[c_double]'
+    friction_table_speed: Any
+    friction_table_mu: Any
     if TYPE_CHECKING:
         def __init__(self, stations: Any = ..., friction_table: Any = ..., *, survey_count: int = ..., survey: Any = ..., origin: Iterable[float] = ..., direction: Iterable[float] = ..., diameter: SupportsFloat = ..., normal_law: int = ..., friction_law: int = ..., stiffness: SupportsFloat = ..., exponent: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., impact_depth: SupportsFloat = ..., approach_speed: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., stribeck_speed: SupportsFloat = ..., smoothing_speed: SupportsFloat = ..., full_speed: SupportsFloat = ..., bristle_stiffness: SupportsFloat = ..., bristle_damping: SupportsFloat = ..., name: str | bytes = ..., cut_spacing: SupportsFloat = ..., cut_start: SupportsFloat = ..., cut_end: SupportsFloat = ..., friction_table_count: int = ..., friction_table_speed: Iterable[float] = ..., friction_table_mu: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -254,10 +291,10 @@ class StringDef(Sized):
     struct_size: int
     follows_hole: int
     start_depth: float
-    offset: 'Array[c_double]'
-    position: 'Array[c_double]'
-    rotation: 'Array[c_double]'
-    velocity: 'Array[c_double]'
+    offset: Any
+    position: Any
+    rotation: Any
+    velocity: Any
     start_free: int
     end_free: int
     name: bytes
@@ -410,9 +447,9 @@ class Pose(Sized):
     c_name, about = "dmb_pose", "For dmb_query_pose, dmb_query_pose_at."
     struct_size: int
     reserved: int
-    position: 'Array[c_double]'
-    rotation: 'Array[c_double]'
-    displacement: 'Array[c_double]'
+    position: Any
+    rotation: Any
+    displacement: Any
     depth: float
     if TYPE_CHECKING:
         def __init__(self, *, position: Iterable[float] = ..., rotation: Iterable[float] = ..., displacement: Iterable[float] = ..., depth: SupportsFloat = ...) -> None: ...
@@ -436,8 +473,8 @@ class Motion(Sized):
     c_name, about = "dmb_motion", "For dmb_query_motion, dmb_query_motion_at."
     struct_size: int
     frame: int
-    velocity: 'Array[c_double]'
-    acceleration: 'Array[c_double]'
+    velocity: Any
+    acceleration: Any
     if TYPE_CHECKING:
         def __init__(self, *, frame: int = ..., velocity: Iterable[float] = ..., acceleration: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -457,8 +494,8 @@ class Section(Sized):
     c_name, about = "dmb_section", "For dmb_query_section."
     struct_size: int
     reserved: int
-    force: 'Array[c_double]'
-    strain: 'Array[c_double]'
+    force: Any
+    strain: Any
     if TYPE_CHECKING:
         def __init__(self, *, force: Iterable[float] = ..., strain: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -478,7 +515,7 @@ class ContactTotal(Sized):
     struct_size: int
     closed: int
     normal_force: float
-    friction: 'Array[c_double]'
+    friction: Any
     deepest: float
     if TYPE_CHECKING:
         def __init__(self, *, closed: int = ..., normal_force: SupportsFloat = ..., friction: Iterable[float] = ..., deepest: SupportsFloat = ...) -> None: ...
@@ -566,10 +603,10 @@ class Momentum(Sized):
     c_name, about = "dmb_momentum", "For dmb_query_momentum."
     struct_size: int
     reserved: int
-    linear: 'Array[c_double]'
-    angular: 'Array[c_double]'
+    linear: Any
+    angular: Any
     mass: float
-    centre: 'Array[c_double]'
+    centre: Any
     if TYPE_CHECKING:
         def __init__(self, *, linear: Iterable[float] = ..., angular: Iterable[float] = ..., mass: SupportsFloat = ..., centre: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -634,11 +671,11 @@ class JointState(Sized):
     constraint_rows: int
     redundant: int
     reserved: int
-    position: 'Array[c_double]'
-    speed: 'Array[c_double]'
-    acceleration: 'Array[c_double]'
-    reaction: 'Array[c_double]'
-    action: 'Array[c_double]'
+    position: Any
+    speed: Any
+    acceleration: Any
+    reaction: Any
+    action: Any
     violation: float
     if TYPE_CHECKING:
         def __init__(self, *, frame: int = ..., state: int = ..., constraint_rows: int = ..., redundant: int = ..., position: Iterable[float] = ..., speed: Iterable[float] = ..., acceleration: Iterable[float] = ..., reaction: Iterable[float] = ..., action: Iterable[float] = ..., violation: SupportsFloat = ...) -> None: ...
@@ -680,7 +717,7 @@ class BitState(Sized):
     weight: float
     torque: float
     load: float
-    side_force: 'Array[c_double]'
+    side_force: Any
     side_speed: float
     if TYPE_CHECKING:
         def __init__(self, *, on_bottom: int = ..., advance: SupportsFloat = ..., bottom: SupportsFloat = ..., depth_of_cut: SupportsFloat = ..., weight: SupportsFloat = ..., torque: SupportsFloat = ..., load: SupportsFloat = ..., side_force: Iterable[float] = ..., side_speed: SupportsFloat = ...) -> None: ...
@@ -719,8 +756,8 @@ class Statistics(Sized):
     limited_steps: int
     bytes: int
     largest_residual: float
-    projection: 'Array[c_double]'
-    assembly: 'Array[c_double]'
+    projection: Any
+    assembly: Any
     switches: int
     dependent: int
     redundant: int
@@ -767,9 +804,9 @@ class HolePoint(Sized):
     c_name, about = "dmb_hole_point", "For dmb_query_hole, dmb_query_hole_now."
     struct_size: int
     beyond: int
-    position: 'Array[c_double]'
-    tangent: 'Array[c_double]'
-    normal: 'Array[c_double]'
+    position: Any
+    tangent: Any
+    normal: Any
     curvature: float
     dogleg_severity: float
     inclination: float
@@ -983,7 +1020,7 @@ class BucklingInfo(Sized):
     linearised_at: float
     reached: float
     flutter_factor: float
-    flutter_root: 'Array[c_double]'
+    flutter_root: Any
     dip: float
     sinusoidal_share: float
     if TYPE_CHECKING:
@@ -1134,7 +1171,7 @@ class CheckReport(Sized):
     largest_violation: float
     condition: float
     if TYPE_CHECKING:
-        def __init__(self, *, rigid_parts: int = ..., flexible_parts: int = ..., elements: int = ..., structural_joints: int = ..., joints: Array[c_uint32] = ..., open_joints: int = ..., locked_joints: int = ..., couplings: int = ..., constraints: int = ..., motion_drives: int = ..., other_drives: int = ..., loads: int = ..., coordinates: int = ..., held: int = ..., prescribed: int = ..., constraint_rows: int = ..., rank: int = ..., degrees_of_freedom: int = ..., redundant: int = ..., tridiagonal_nodes: int = ..., sparse_nodes: int = ..., blocks: int = ..., fill: int = ..., clusters: int = ..., largest_cluster: int = ..., warnings: int = ..., gruebler: int = ..., largest_violation: SupportsFloat = ..., condition: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, rigid_parts: int = ..., flexible_parts: int = ..., elements: int = ..., structural_joints: int = ..., joints: Iterable[Any] = ..., open_joints: int = ..., locked_joints: int = ..., couplings: int = ..., constraints: int = ..., motion_drives: int = ..., other_drives: int = ..., loads: int = ..., coordinates: int = ..., held: int = ..., prescribed: int = ..., constraint_rows: int = ..., rank: int = ..., degrees_of_freedom: int = ..., redundant: int = ..., tridiagonal_nodes: int = ..., sparse_nodes: int = ..., blocks: int = ..., fill: int = ..., clusters: int = ..., largest_cluster: int = ..., warnings: int = ..., gruebler: int = ..., largest_violation: SupportsFloat = ..., condition: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rigid_parts", c_uint32),
@@ -1334,8 +1371,8 @@ class StuckState(Sized):
     c_name, about = "dmb_stuck_state", "For dmb_query_stuck."
     struct_size: int
     stuck: int
-    offset: 'Array[c_double]'
-    force: 'Array[c_double]'
+    offset: Any
+    force: Any
     share: float
     energy: float
     if TYPE_CHECKING:
@@ -1370,8 +1407,8 @@ class Motor(MotorPart, Sized):
     table_pressure: float
     table_count: int
     reserved: int
-    table_speed: 'Array[c_double]'
-    table_torque: 'Array[c_double]'
+    table_speed: Any
+    table_torque: Any
     if TYPE_CHECKING:
         def __init__(self, table: Any = ..., *, brakes: int = ..., stall_torque: SupportsFloat = ..., displacement: SupportsFloat = ..., flow: SupportsFloat = ..., pressure: SupportsFloat = ..., efficiency: SupportsFloat = ..., table_flow: SupportsFloat = ..., table_pressure: SupportsFloat = ..., table_count: int = ..., table_speed: Iterable[float] = ..., table_torque: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -1631,9 +1668,9 @@ class SpringState(Sized):
     elastic: float
     damper: float
     energy: float
-    direction: 'Array[c_double]'
-    point_a: 'Array[c_double]'
-    point_b: 'Array[c_double]'
+    direction: Any
+    point_a: Any
+    point_b: Any
     if TYPE_CHECKING:
         def __init__(self, *, length: SupportsFloat = ..., elongation: SupportsFloat = ..., speed: SupportsFloat = ..., force: SupportsFloat = ..., elastic: SupportsFloat = ..., damper: SupportsFloat = ..., energy: SupportsFloat = ..., direction: Iterable[float] = ..., point_a: Iterable[float] = ..., point_b: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -1715,7 +1752,7 @@ class ModesOptions(Sized):
     kind: int
     select: int
     count: int
-    band: 'Array[c_double]'
+    band: Any
     contact: int
     friction: int
     contact_gap: float
@@ -1800,14 +1837,14 @@ class Mode(Sized):
     rigid: int
     frequency: float
     damping: float
-    eigenvalue: 'Array[c_double]'
+    eigenvalue: Any
     kinetic: float
     strain: float
-    share: 'Array[c_double]'
-    participation: 'Array[c_double]'
-    effective_mass: 'Array[c_double]'
+    share: Any
+    participation: Any
+    effective_mass: Any
     whirl: float
-    strain_share: 'Array[c_double]'
+    strain_share: Any
     if TYPE_CHECKING:
         def __init__(self, *, rigid: int = ..., frequency: SupportsFloat = ..., damping: SupportsFloat = ..., eigenvalue: Iterable[float] = ..., kinetic: SupportsFloat = ..., strain: SupportsFloat = ..., share: Iterable[float] = ..., participation: Iterable[float] = ..., effective_mass: Iterable[float] = ..., whirl: SupportsFloat = ..., strain_share: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -1843,8 +1880,8 @@ class ModeShape(Sized):
     c_name, about = "dmb_mode_shape", "For dmb_modes_shape."
     struct_size: int
     frame: int
-    re: 'Array[c_double]'
-    im: 'Array[c_double]'
+    re: Any
+    im: Any
     if TYPE_CHECKING:
         def __init__(self, *, frame: int = ..., re: Iterable[float] = ..., im: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -2276,15 +2313,15 @@ class PipeDef(Sized):
     joint_outer_diameter: float
     joint_inner_diameter: float
     joint_mass: float
-    joint_inertia: 'Array[c_double]'
+    joint_inertia: Any
     eccentricity: float
     eccentricity_angle: float
     eccentricity_spread: float
     angle_spread: float
-    curvature: 'Array[c_double]'
-    section_stiffness: 'Array[c_double]'
+    curvature: Any
+    section_stiffness: Any
     section_mass: float
-    section_inertia: 'Array[c_double]'
+    section_inertia: Any
     yield_strength: float
     name: bytes
     contact_points: int
@@ -2361,18 +2398,18 @@ class BodyDef(Sized):
     attach: int
     string: Id
     mass: float
-    centre: 'Array[c_double]'
-    inertia: 'Array[c_double]'
-    position: 'Array[c_double]'
-    rotation: 'Array[c_double]'
-    velocity: 'Array[c_double]'
+    centre: Any
+    inertia: Any
+    position: Any
+    rotation: Any
+    velocity: Any
     free_mask: int
     reserved: int
     contact_diameter: float
     contact_length: float
     name: bytes
     displaced_volume: float
-    added_mass: 'Array[c_double]'
+    added_mass: Any
     if TYPE_CHECKING:
         def __init__(self, *, attach: int = ..., string: Id | None = ..., mass: SupportsFloat = ..., centre: Iterable[float] = ..., inertia: Iterable[float] = ..., position: Iterable[float] = ..., rotation: Iterable[float] = ..., velocity: Iterable[float] = ..., free_mask: int = ..., contact_diameter: SupportsFloat = ..., contact_length: SupportsFloat = ..., name: str | bytes = ..., displaced_volume: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -2418,7 +2455,7 @@ class BitDef(Sized):
     string: Id
     load: Id
     mass: float
-    inertia: 'Array[c_double]'
+    inertia: Any
     diameter: float
     length: float
     radius: float
@@ -2437,7 +2474,7 @@ class BitDef(Sized):
     displaced_volume: float
     stabiliser: Id
     inner_radius: float
-    added_mass: 'Array[c_double]'
+    added_mass: Any
     if TYPE_CHECKING:
         def __init__(self, *, rock_law: int = ..., string: Id | None = ..., load: Id | None = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., diameter: SupportsFloat = ..., length: SupportsFloat = ..., radius: SupportsFloat = ..., intrinsic_energy: SupportsFloat = ..., cutting_ratio: SupportsFloat = ..., contact_strength: SupportsFloat = ..., wear_length: SupportsFloat = ..., contact_friction: SupportsFloat = ..., intrusion_depth: SupportsFloat = ..., bottom: SupportsFloat = ..., blades: int = ..., history: int = ..., name: str | bytes = ..., side_cutting: SupportsFloat = ..., walk_angle: SupportsFloat = ..., displaced_volume: SupportsFloat = ..., stabiliser: Id | None = ..., inner_radius: SupportsFloat = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -2517,12 +2554,12 @@ class DriveDef(DrivePart, Sized):
     inertia: float
     curve_count: int
     reserved2: int
-    curve_speed: 'Array[c_double]'
-    curve_force: 'Array[c_double]'
+    curve_speed: Any
+    curve_force: Any
     gain_count: int
     reserved3: int
-    gain_error: 'Array[c_double]'
-    gain_force: 'Array[c_double]'
+    gain_error: Any
+    gain_force: Any
     mud_pressure: float
     if TYPE_CHECKING:
         def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., time_function: Id | None = ..., excitation: Id | None = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
@@ -2593,11 +2630,11 @@ class Contact(Sized):
     reserved: int
     length: float
     gap: float
-    normal: 'Array[c_double]'
+    normal: Any
     normal_force: float
     approach: float
-    friction: 'Array[c_double]'
-    slip: 'Array[c_double]'
+    friction: Any
+    slip: Any
     along: float
     if TYPE_CHECKING:
         def __init__(self, *, closed: int = ..., sticks: int = ..., number: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
@@ -2807,7 +2844,7 @@ class CouplingDef(Sized):
     third_ratio: float
     fourth_ratio: float
     if TYPE_CHECKING:
-        def __init__(self, *, name: str | bytes = ..., joint: Array[Id] = ..., component: Array[c_int32] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, name: str | bytes = ..., joint: Iterable[Any] = ..., component: Iterable[Any] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_int32),
@@ -2931,10 +2968,10 @@ class StabiliserDef(Sized):
     outer_diameter: float
     length: float
     mass: float
-    inertia: 'Array[c_double]'
+    inertia: Any
     density: float
     name: bytes
-    added_mass: 'Array[c_double]'
+    added_mass: Any
     if TYPE_CHECKING:
         def __init__(self, *, pipe: int = ..., string: Id | None = ..., fraction: SupportsFloat = ..., outer_diameter: SupportsFloat = ..., length: SupportsFloat = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., density: SupportsFloat = ..., name: str | bytes = ..., added_mass: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -3039,11 +3076,11 @@ class LoadDef(Sized):
     struct_size: int
     frame: int
     place: Place
-    force: 'Array[c_double]'
-    moment: 'Array[c_double]'
+    force: Any
+    moment: Any
     time_function: Id
     name: bytes
-    offset: 'Array[c_double]'
+    offset: Any
     if TYPE_CHECKING:
         def __init__(self, *, frame: int = ..., place: Place | Id | None = ..., force: Iterable[float] = ..., moment: Iterable[float] = ..., time_function: Id | None = ..., name: str | bytes = ..., offset: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -3256,28 +3293,28 @@ class JointDef(Sized):
     name: bytes
     place_a: Place
     place_b: Place
-    origin_a: 'Array[c_double]'
-    axis_a: 'Array[c_double]'
-    normal_a: 'Array[c_double]'
-    origin_b: 'Array[c_double]'
-    axis_b: 'Array[c_double]'
-    normal_b: 'Array[c_double]'
+    origin_a: Any
+    axis_a: Any
+    normal_a: Any
+    origin_b: Any
+    axis_b: Any
+    normal_b: Any
     match: int
     state: int
     length: float
-    stiffness: 'Array[c_double]'
-    damping: 'Array[c_double]'
-    rest: 'Array[c_double]'
-    friction: 'Array[c_double]'
+    stiffness: Any
+    damping: Any
+    rest: Any
+    friction: Any
     friction_speed: float
-    stop_low: 'Array[c_double]'
-    stop_high: 'Array[c_double]'
+    stop_low: Any
+    stop_high: Any
     stop_stiffness: float
     stop_damping: float
     initial_mask: int
     reserved: int
-    initial_position: 'Array[c_double]'
-    initial_speed: 'Array[c_double]'
+    initial_position: Any
+    initial_speed: Any
     if TYPE_CHECKING:
         def __init__(self, *, kind: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., origin_a: Iterable[float] = ..., axis_a: Iterable[float] = ..., normal_a: Iterable[float] = ..., origin_b: Iterable[float] = ..., axis_b: Iterable[float] = ..., normal_b: Iterable[float] = ..., match: int = ..., state: int = ..., length: SupportsFloat = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., rest: Iterable[float] = ..., friction: Iterable[float] = ..., friction_speed: SupportsFloat = ..., stop_low: Iterable[float] = ..., stop_high: Iterable[float] = ..., stop_stiffness: SupportsFloat = ..., stop_damping: SupportsFloat = ..., initial_mask: int = ..., initial_position: Iterable[float] = ..., initial_speed: Iterable[float] = ...) -> None: ...
     _fields_: ClassVar[Any] = [
@@ -3351,7 +3388,7 @@ class ConstraintDef(ConstraintPart, Sized):
     callback: Any
     callback_context: Any
     if TYPE_CHECKING:
-        def __init__(self, places: Any = ..., function: Any = ..., *, kind: int = ..., name: str | bytes = ..., row_count: int = ..., place_count: int = ..., place: Array[Place] = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+        def __init__(self, places: Any = ..., function: Any = ..., *, kind: int = ..., name: str | bytes = ..., row_count: int = ..., place_count: int = ..., place: Iterable[Any] = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -3384,8 +3421,8 @@ class StuckDef(Sized):
     place: Place
     stuck: int
     reserved: int
-    stiffness: 'Array[c_double]'
-    damping: 'Array[c_double]'
+    stiffness: Any
+    damping: Any
     overpull: float
     overtorque: float
     if TYPE_CHECKING:
@@ -3450,8 +3487,8 @@ class SpringDef(SpringPart, Sized):
     name: bytes
     place_a: Place
     place_b: Place
-    offset_a: 'Array[c_double]'
-    offset_b: 'Array[c_double]'
+    offset_a: Any
+    offset_b: Any
     free_length: float
     stiffness: float
     damping: float
@@ -3505,14 +3542,14 @@ class ForceDef(ForcePart, Sized):
     place_count: int
     provides: int
     place: 'Array[Place]'
-    offset: 'Array[c_double]'
+    offset: Any
     component: 'Array[c_int32]'
     pose_step: float
     speed_step: float
     callback: Any
     callback_context: Any
     if TYPE_CHECKING:
-        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Array[Place] = ..., offset: Iterable[float] = ..., component: Array[c_int32] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Iterable[Any] = ..., offset: Iterable[float] = ..., component: Iterable[Any] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -3799,3 +3836,7 @@ STRUCTS["dmb_parameter"] = Parameter
 STRUCTS["dmb_state_space_options"] = StateSpaceOptions
 STRUCTS["dmb_state_space_info"] = StateSpaceInfo
 STRUCTS["dmb_row"] = Row
+
+for _cls in STRUCTS.values():
+    read_as_numpy(_cls)
+del _cls

@@ -23,10 +23,13 @@ from .errors import Error, check
 from .frames import Columns, SpeedBands
 
 if TYPE_CHECKING:
+    from ._typed import AnalysisCalls
     from .sim import Sim
+else:
+    AnalysisCalls = object
 
 
-class Analyses:
+class Analyses(AnalysisCalls):
     """The analyses of a Sim."""
     _handle: c_void_p
     _scene: Keep
@@ -38,45 +41,46 @@ class Analyses:
     def _long(self, function: Any, *arguments: Any) -> int:
         return self._teller.long_call(self._handle, function, *arguments)
 
-    @mirrors("dmb_analysis_static")
-    def static(self, options: StaticOptions | None = None, **fields: Any) -> StaticReport:
-        """Puts the sim at rest in equilibrium; returns the report."""
-        options, report = struct(StaticOptions, options, fields), StaticReport()
-        report.status = self._check(self._long(_lib.dmb_analysis_static, byref(options), byref(report)))
-        return report
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_analysis_static")
+        def static(self, options: StaticOptions | None = None, **fields: Any) -> StaticReport:
+            """Puts the sim at rest in equilibrium; returns the report."""
+            options, report = struct(StaticOptions, options, fields), StaticReport()
+            report.status = self._check(self._long(_lib.dmb_analysis_static, byref(options), byref(report)))
+            return report
 
-    @mirrors("dmb_analysis_buckling")
-    def buckling(self, options: BucklingOptions | None = None, **fields: Any) -> Buckling:
-        """Critical factors and shapes about the present static state."""
-        return Buckling(self, struct(BucklingOptions, options, fields))
+        @mirrors("dmb_analysis_buckling")
+        def buckling(self, options: BucklingOptions | None = None, **fields: Any) -> Buckling:
+            """Critical factors and shapes about the present static state."""
+            return Buckling(self, struct(BucklingOptions, options, fields))
 
-    @mirrors("dmb_analysis_path")
-    def path(self, visit: Callable[[Sim, PathPoint], Any] | None = None, options: PathOptions | None = None,
-             **fields: Any) -> PathReport:
-        """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
-        sim that stands there and may be asked until it returns; what is true stops the path."""
-        from .sim import SimAt
-        options, report = struct(PathOptions, options, fields), PathReport()
-        raised: list[BaseException] = []
+        @mirrors("dmb_analysis_path")
+        def path(self, visit: Callable[[Sim, PathPoint], Any] | None = None, options: PathOptions | None = None,
+                 **fields: Any) -> PathReport:
+            """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
+            sim that stands there and may be asked until it returns; what is true stops the path."""
+            from .sim import SimAt
+            options, report = struct(PathOptions, options, fields), PathReport()
+            raised: list[BaseException] = []
 
-        def call(_context: Any, handle: Any, point: Any) -> int:
-            at = SimAt(self, handle)  # type: ignore[arg-type]
-            try:
-                assert visit is not None
-                return 1 if visit(at, PathPoint.from_buffer_copy(point.contents)) else 0
-            except BaseException as error:  # must not unwind through C
-                raised.append(error)
-                return 1
-            finally:
-                at.close()
+            def call(_context: Any, handle: Any, point: Any) -> int:
+                at = SimAt(self, handle)
+                try:
+                    assert visit is not None
+                    return 1 if visit(at, PathPoint.from_buffer_copy(point.contents)) else 0
+                except BaseException as error:  # must not unwind through C
+                    raised.append(error)
+                    return 1
+                finally:
+                    at.close()
 
-        if visit is not None:
-            options.callback = PATH_FN(call)
-        status = self._long(_lib.dmb_analysis_path, byref(options), byref(report))
-        if raised:
-            raise raised[0]
-        report.status = self._check(status)
-        return report
+            if visit is not None:
+                options.callback = PATH_FN(call)
+            status = self._long(_lib.dmb_analysis_path, byref(options), byref(report))
+            if raised:
+                raise raised[0]
+            report.status = self._check(status)
+            return report
 
     @mirrors("dmb_analysis_check")
     def check(self) -> CheckReport:
@@ -95,98 +99,99 @@ class Analyses:
         self._check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None))
         return text.value.decode()
 
-    @mirrors("dmb_analysis_response")
-    def response(self, excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput], options: ResponseOptions | None = None,
-                 frequencies: Any = None, **fields: Any) -> Response:
-        """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
-        grid that the ResponseOptions describe."""
-        options = struct(ResponseOptions, options, fields)
-        if frequencies is not None:
-            frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
-            options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
-        given, asked, handle = row_of(Excitation, excitations, "excitations"), row_of(ResponseOutput, outputs, "outputs"), c_void_p()
-        self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked, len(outputs),
-                                               byref(handle)))
-        return Response(handle, [one.amplitude for one in given])
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_analysis_response")
+        def response(self, excitations: Sequence[Excitation], outputs: Sequence[ResponseOutput], options: ResponseOptions | None = None,
+                     frequencies: Any = None, **fields: Any) -> Response:
+            """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
+            grid that the ResponseOptions describe."""
+            options = struct(ResponseOptions, options, fields)
+            if frequencies is not None:
+                frequencies = reals(frequencies, "response", "frequencies", unit="Hz")
+                options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
+            given, asked, handle = row_of(Excitation, excitations, "excitations"), row_of(ResponseOutput, outputs, "outputs"), c_void_p()
+            self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(excitations), asked, len(outputs),
+                                                   byref(handle)))
+            return Response(handle, [one.amplitude for one in given])
 
-    @mirrors("dmb_analysis_stepped_sine")
-    def stepped_sine(self, frequency: float, outputs: Sequence[ResponseOutput], options: Any = None,
-                     **fields: Any) -> tuple[Any, Any]:
-        """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
-        then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
-        options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
-        report: Any = STRUCTS["dmb_stepped_sine_report"]()
-        asked, width = row_of(ResponseOutput, outputs, "outputs"), 1 + options.harmonics
-        frequency = real(frequency, "stepped sine", "frequency", "Hz")
-        values = (c_double * (2 * width * len(outputs)))()
-        report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
-                                               len(outputs), values, byref(report)))
-        found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
-        return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
+        @mirrors("dmb_analysis_stepped_sine")
+        def stepped_sine(self, frequency: float, outputs: Sequence[ResponseOutput], options: Any = None,
+                         **fields: Any) -> tuple[Any, Any]:
+            """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
+            then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
+            options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
+            report: Any = STRUCTS["dmb_stepped_sine_report"]()
+            asked, width = row_of(ResponseOutput, outputs, "outputs"), 1 + options.harmonics
+            frequency = real(frequency, "stepped sine", "frequency", "Hz")
+            values = (c_double * (2 * width * len(outputs)))()
+            report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
+                                                   len(outputs), values, byref(report)))
+            found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
+            return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
 
-    sine = stepped_sine  # its name before
+        sine = stepped_sine  # its name before
 
-    @mirrors("dmb_analysis_modes")
-    def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:
-        """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
-        options, handle = struct(ModesOptions, options, fields), c_void_p()
-        self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
-        return Modes(handle, self)
+        @mirrors("dmb_analysis_modes")
+        def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:
+            """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
+            options, handle = struct(ModesOptions, options, fields), c_void_p()
+            self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
+            return Modes(handle, self)
 
-    @mirrors("dmb_analysis_speeds")
-    def speeds(self, orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64,
-               options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
-        """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
-        Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
-        answer lacks excitation, damping or range (NOTE_INCOMPLETE)."""
-        options = struct(SpeedsOptions, options, fields)
-        room = whole(room, "speeds", "room", 1, 2 ** 20)
-        allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
-        shakes, asked = row_of(Order, orders, "orders"), row_of(ResponseOutput, outputs, "outputs")
-        bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
-        severity = (c_double * options.points)()
-        found = SpeedBands()
-        options.report = pointer(found.report)
-        found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
-                                             len(outputs), bands, byref(count), severity))
-        options.report = None
-        found.extend(list(bands)[:count.value])
-        width = (options.speed_high - options.speed_low) / max(options.points - 1, 1)
-        found.speeds, found.severity = [options.speed_low + i * width for i in range(options.points)], list(severity)
-        return found, found.severity
+        @mirrors("dmb_analysis_speeds")
+        def speeds(self, orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64,
+                   options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
+            """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
+            Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
+            answer lacks excitation, damping or range (NOTE_INCOMPLETE)."""
+            options = struct(SpeedsOptions, options, fields)
+            room = whole(room, "speeds", "room", 1, 2 ** 20)
+            allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
+            shakes, asked = row_of(Order, orders, "orders"), row_of(ResponseOutput, outputs, "outputs")
+            bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
+            severity = (c_double * options.points)()
+            found = SpeedBands()
+            options.report = pointer(found.report)
+            found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
+                                                 len(outputs), bands, byref(count), severity))
+            options.report = None
+            found.extend(list(bands)[:count.value])
+            width = (options.speed_high - options.speed_low) / max(options.points - 1, 1)
+            found.speeds, found.severity = [options.speed_low + i * width for i in range(options.points)], list(severity)
+            return found, found.severity
 
-    @mirrors("dmb_analysis_torque_drag")
-    def torque_drag(self, operations: Any = None, depths: Sequence[float] | None = None,
-                    options: TorqueDragOptions | None = None, **fields: Any) -> TorqueDrag:
-        """Hook load and torque of the rig by depth [m] and operation: Operation structs, or OPERATION_... for usual
-        ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
-        options = struct(TorqueDragOptions, options, fields)
-        asked = [as_operation(one) for one in (OPERATIONS if operations is None else operations)]
-        if not asked:
-            refuse_value("torque and drag", "operations", operations, "be one at least")
-        if depths is not None:
-            below = reals(depths, "torque and drag", "depths", unit="m")
-            options.depth_count = len(below)
-            options.depths = (c_double * len(below))(*below)
-        count = max(1, options.depth_count) * len(asked)
-        rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
-        status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options), (Operation * len(asked))(*asked),
-                                        len(asked), rows))
-        options.depths = None
-        return TorqueDrag(asked, [list(rows[i:i + len(asked)]) for i in range(0, count, len(asked))], status)
+        @mirrors("dmb_analysis_torque_drag")
+        def torque_drag(self, operations: Any = None, depths: Sequence[float] | None = None,
+                        options: TorqueDragOptions | None = None, **fields: Any) -> TorqueDrag:
+            """Hook load and torque of the rig by depth [m] and operation: Operation structs, or OPERATION_... for usual
+            ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
+            options = struct(TorqueDragOptions, options, fields)
+            asked = [as_operation(one) for one in (OPERATIONS if operations is None else operations)]
+            if not asked:
+                refuse_value("torque and drag", "operations", operations, "be one at least")
+            if depths is not None:
+                below = reals(depths, "torque and drag", "depths", unit="m")
+                options.depth_count = len(below)
+                options.depths = (c_double * len(below))(*below)
+            count = max(1, options.depth_count) * len(asked)
+            rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
+            status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options), (Operation * len(asked))(*asked),
+                                            len(asked), rows))
+            options.depths = None
+            return TorqueDrag(asked, [list(rows[i:i + len(asked)]) for i in range(0, count, len(asked))], status)
 
-    @mirrors("dmb_analysis_torque_drag_profile")
-    def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
-                            options: TorqueDragOptions | None = None, **fields: Any) -> Columns:
-        """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
-        torque [N m], wall force per metre [N/m], as lists by name."""
-        options = struct(TorqueDragOptions, options, fields)
-        given, stations = as_operation(operation), whole(stations, "torque and drag profile", "stations", 2, 2 ** 20)
-        values = [(c_double * stations)() for _ in range(4)]
-        self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
-        found = Columns(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
-        found.units = dict(zip(found, ("m", "N", "N m", "N/m")))
-        return found
+        @mirrors("dmb_analysis_torque_drag_profile")
+        def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
+                                options: TorqueDragOptions | None = None, **fields: Any) -> Columns:
+            """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
+            torque [N m], wall force per metre [N/m], as lists by name."""
+            options = struct(TorqueDragOptions, options, fields)
+            given, stations = as_operation(operation), whole(stations, "torque and drag profile", "stations", 2, 2 ** 20)
+            values = [(c_double * stations)() for _ in range(4)]
+            self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
+            found = Columns(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
+            found.units = dict(zip(found, ("m", "N", "N m", "N/m")))
+            return found
 
     @mirrors("dmb_analysis_hydraulics")
     def hydraulics(self, depth: float, trip_speed: float = 0.0) -> Hydraulics:
@@ -197,19 +202,20 @@ class Analyses:
                                                  real(trip_speed, "hydraulics", "trip_speed", unit="m/s"), byref(found)))
         return found
 
-    @mirrors("dmb_analysis_friction_factor")
-    def friction_factor(self, operation: Operation | int, hook_load: float | None = None, torque: float | None = None,
-                        options: TorqueDragOptions | None = None, **fields: Any) -> float:
-        """The friction coefficient [-] that explains a hook load [N] or a torque [N m] measured at the rig."""
-        if (hook_load is None) == (torque is None):
-            raise ValueError("give hook_load or torque, one of them")
-        options = struct(TorqueDragOptions, options, fields)
-        given, found = as_operation(operation), c_double()
-        measured = MEASURED_HOOK_LOAD if torque is None else MEASURED_TORQUE
-        self._check(_lib.dmb_analysis_friction_factor(self._handle, byref(options), byref(given), measured,
-                                                      real(hook_load if torque is None else torque, "friction factor",
-                                                           "measured value", "N or N m"), byref(found)))
-        return found.value
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_analysis_friction_factor")
+        def friction_factor(self, operation: Operation | int, hook_load: float | None = None, torque: float | None = None,
+                            options: TorqueDragOptions | None = None, **fields: Any) -> float:
+            """The friction coefficient [-] that explains a hook load [N] or a torque [N m] measured at the rig."""
+            if (hook_load is None) == (torque is None):
+                raise ValueError("give hook_load or torque, one of them")
+            options = struct(TorqueDragOptions, options, fields)
+            given, found = as_operation(operation), c_double()
+            measured = MEASURED_HOOK_LOAD if torque is None else MEASURED_TORQUE
+            self._check(_lib.dmb_analysis_friction_factor(self._handle, byref(options), byref(given), measured,
+                                                          real(hook_load if torque is None else torque, "friction factor",
+                                                               "measured value", "N or N m"), byref(found)))
+            return found.value
 
 
 def row_of(cls: Any, given: Any, field: str) -> Any:
@@ -348,7 +354,7 @@ class Buckling(Shaped):
     @mirrors("dmb_buckling_shape")
     def shape(self, mode: int, place: Place | Id) -> list[float]:
         """[m, rad] displacement and rotation of a section, world frame; six numbers"""
-        values, place = (c_double * 6)(), as_place(place)
+        values, place = (c_double * 6)(), as_place(place, self._parts)
         mode = index_of("buckling", "mode", mode, len(self.factors))
         self._answered(place, _lib.dmb_buckling_shape(self._handle, mode, place, values))
         return list(values)
@@ -390,7 +396,7 @@ class Modes(Shaped):
     @mirrors("dmb_modes_shape")
     def shape(self, index: int, place: Place | Id, frame: int = FRAME_WORLD) -> ModeShape:
         """Displacement and rotation at a place [m, rad], real and imaginary part: re, im"""
-        shape, place = ModeShape(frame=frame), as_place(place)
+        shape, place = ModeShape(frame=frame), as_place(place, self._parts)
         index = index_of("modes", "index", index, len(self))
         self._answered(place, _lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
         return shape
@@ -405,7 +411,7 @@ class Modes(Shaped):
         """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
         kinetic, strain = c_double(), c_double()
         index = index_of("modes", "index", index, len(self))
-        self._sure(_lib.dmb_modes_part(self._handle, index, as_id(part), pipe, byref(kinetic), byref(strain)))
+        self._sure(_lib.dmb_modes_part(self._handle, index, as_id(part, self._parts), pipe, byref(kinetic), byref(strain)))
         return kinetic.value, strain.value
 
     def frame(self) -> Any:

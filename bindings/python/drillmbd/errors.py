@@ -43,14 +43,16 @@ class Error(Exception):
             self.status: int = Status(status)
         except ValueError:
             self.status = status  # of a newer library
-        self.name, self.message = status_name(status), message or status_text(status)
+        self.message = message or status_text(status)
         found = _MESSAGE.match(self.message)
         self.part: str | None = found["part"] if found else None
         self.field: str | None = found["field"] if found else None
         self.value: float | str | None = _number(found["value"]) if found else None
         self.bound: str | None = found["bound"] if found else None
         self.advice: str | None = found["advice"] if found else None
-        super().__init__(f"{self.name}: {self.message}")
+        name = status_name(status)
+        super().__init__(f"{name}: {self.message}")
+        self.name = name  # after AttributeError, whose constructor clears it
 
     def __reduce__(self) -> Any:
         return type(self), (int(self.status), self.message), dict(vars(self))

@@ -33,7 +33,7 @@ class Fatigue(Handle):
     def __init__(self, sim: Sim, places: Sequence[Any], options: FatigueOptions) -> None:
         self.sim, self._handle, self._options = sim, c_void_p(), options
         self._count = len(places)
-        asked = (Place * len(places))(*[as_place(place) for place in places])
+        asked = (Place * len(places))(*[as_place(place, sim._parts) for place in places])
         sim._check(_lib.dmb_fatigue_create(sim._handle, byref(options), asked, len(places), byref(self._handle)))
 
     @mirrors("dmb_fatigue_take")

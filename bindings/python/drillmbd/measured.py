@@ -117,7 +117,7 @@ class Model:
         for depth, value in zip(self.series.depths, self.series.values):
             options = TorqueDragOptions(string=self.string, depth_count=1)
             options.depths = (c_double * 1)(depth)
-            given = {"torque": value} if self.series.word == "torque" else {"hook_load": value - self.block_weight}
+            given: dict[str, Any] = {"torque": value} if self.series.word == "torque" else {"hook_load": value - self.block_weight}
             try:
                 found.append(self.sim.friction_factor(self.operation, **given, options=options))
             except Error:

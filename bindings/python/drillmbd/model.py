@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, create_string_buffer, pointer
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ._handle import Handle
 from ._keep import Keep, as_id, mirrors, path_of, struct, written
@@ -13,16 +13,19 @@ from ._record import Record
 from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, Motor, PipeDef, Place, StabiliserDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
-                       SubDef, Segment, WallDef)
+                       SubDef, Segment, TimeFunctionId, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
 from .enums import ERR_ORDER, NAME_SIZE, PartKind, Status
 from .errors import Error, check, status_text
 
 if TYPE_CHECKING:
+    from ._typed import ModelCalls
     from .sim import Sim
+else:
+    ModelCalls = object
 
 
-class Model(Handle):
+class Model(Handle, ModelCalls):
     """A scene. Describe it with the add_ functions, compile it once, then make any number of sims of it.
 
     `calls` is the description: pairs of the method's name and its arguments. copy.copy and pickle make a model by the
@@ -99,21 +102,22 @@ class Model(Handle):
         self._note("add_" + kind, definition)
         return self._given(part)
 
-    @mirrors("dmb_model_set_environment")
-    def set_environment(self, definition: EnvironmentDef | None = None, **fields: Any) -> None:
-        """Sets gravity [m/s2], fluid and damping, by an EnvironmentDef or its fields."""
-        definition = struct(EnvironmentDef, definition, fields)
-        self._check(_lib.dmb_model_set_environment(self._handle, byref(definition)))
-        self._note("set_environment", definition)
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_model_set_environment")
+        def set_environment(self, definition: EnvironmentDef | None = None, **fields: Any) -> None:
+            """Sets gravity [m/s2], fluid and damping, by an EnvironmentDef or its fields."""
+            definition = struct(EnvironmentDef, definition, fields)
+            self._check(_lib.dmb_model_set_environment(self._handle, byref(definition)))
+            self._note("set_environment", definition)
 
     @mirrors("dmb_model_add_time_function")
-    def add_time_function(self, *segments: Any) -> Id:
+    def add_time_function(self, *segments: Any) -> TimeFunctionId:
         """A time function of one or more segments. A number stands for a constant segment, a function of time for a callback."""
         made = [self._segment(number, segment) for number, segment in enumerate(segments)]
         array, part = (Segment * len(segments))(*made), Id()
         self._check(_lib.dmb_model_add_time_function(self._handle, array, len(segments), byref(part)))
         self._note("add_time_function", *made)
-        return self._given(part)
+        return cast(TimeFunctionId, self._given(part))
 
     def _segment(self, number: int, segment: Any) -> Any:
         if callable(segment):
@@ -124,9 +128,10 @@ class Model(Handle):
             segment.callback = self._keep.time_function(segment._function, segment.provides)
         return segment
 
-    def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
-        """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
-        return self._add("wall", WallDef, definition, fields)
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
+            """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
+            return self._add("wall", WallDef, definition, fields)
 
     @mirrors("dmb_model_add_hole_sections")
     def add_hole_sections(self, *sections: Any) -> None:
@@ -136,23 +141,24 @@ class Model(Handle):
         self._check(_lib.dmb_model_add_hole_sections(self._handle, array, len(made)))
         self._note("add_hole_sections", *made)
 
-    @mirrors("dmb_model_add_string")
-    def add_string(self, definition: StringDef | None = None, **fields: Any) -> Id:
-        """Adds a string without pipes, by a StringDef or its fields; returns its id."""
-        return self._add("string", StringDef, definition, fields)
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_model_add_string")
+        def add_string(self, definition: StringDef | None = None, **fields: Any) -> Id:
+            """Adds a string without pipes, by a StringDef or its fields; returns its id."""
+            return self._add("string", StringDef, definition, fields)
 
-    @mirrors("dmb_model_add_pipes")
-    def add_pipes(self, count: int = 1, definition: PipeDef | None = None, **fields: Any) -> Id:
-        """Appends `count` equal pipes, by a PipeDef or its fields; returns the string they belong to."""
-        string, definition = Id(), struct(PipeDef, definition, fields)
-        count = whole(count, "pipes", "count")
-        self._check(_lib.dmb_model_add_pipes(self._handle, byref(definition), count, byref(string)))
-        self._note("add_pipes", count, definition)
-        return self._given(string, count)
+        @mirrors("dmb_model_add_pipes")
+        def add_pipes(self, count: int = 1, definition: PipeDef | None = None, **fields: Any) -> Id:
+            """Appends `count` equal pipes, by a PipeDef or its fields; returns the string they belong to."""
+            string, definition = Id(), struct(PipeDef, definition, fields)
+            count = whole(count, "pipes", "count")
+            self._check(_lib.dmb_model_add_pipes(self._handle, byref(definition), count, byref(string)))
+            self._note("add_pipes", count, definition)
+            return self._given(string, count)
 
-    def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
-        """Adds a rigid body, by a BodyDef or its fields; returns its id."""
-        return self._add("body", BodyDef, definition, fields)
+        def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
+            """Adds a rigid body, by a BodyDef or its fields; returns its id."""
+            return self._add("body", BodyDef, definition, fields)
 
     @mirrors("dmb_model_place_at_end")
     def place_at_end(self, string: Id | None = None, length: float = 0.0, body: BodyDef | None = None,
@@ -186,64 +192,65 @@ class Model(Handle):
             self._given(part)
         return made
 
-    def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
-        """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""
-        return self._add("bit", BitDef, definition, fields)
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
+            """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""
+            return self._add("bit", BitDef, definition, fields)
 
-    @mirrors("dmb_model_add_stabiliser")
-    def add_stabiliser(self, definition: StabiliserDef | None = None, **fields: Any) -> Id:
-        """Adds a ring at any place of a string, by a StabiliserDef or its fields; returns its id."""
-        return self._add("stabiliser", StabiliserDef, definition, fields)
+        @mirrors("dmb_model_add_stabiliser")
+        def add_stabiliser(self, definition: StabiliserDef | None = None, **fields: Any) -> Id:
+            """Adds a ring at any place of a string, by a StabiliserDef or its fields; returns its id."""
+            return self._add("stabiliser", StabiliserDef, definition, fields)
 
-    @mirrors("dmb_model_add_joint")
-    def add_joint(self, definition: JointDef | None = None, **fields: Any) -> Id:
-        """Adds a joint between place_a (None: the ground) and place_b, by a JointDef or its fields; returns its id."""
-        return self._add("joint", JointDef, definition, fields)
+        @mirrors("dmb_model_add_joint")
+        def add_joint(self, definition: JointDef | None = None, **fields: Any) -> Id:
+            """Adds a joint between place_a (None: the ground) and place_b, by a JointDef or its fields; returns its id."""
+            return self._add("joint", JointDef, definition, fields)
 
-    def add_coupling(self, definition: CouplingDef | None = None, **fields: Any) -> Id:
-        """Adds a gear or screw between two joint coordinates, by a CouplingDef or its fields; returns its id."""
-        return self._add("coupling", CouplingDef, definition, fields)
+        def add_coupling(self, definition: CouplingDef | None = None, **fields: Any) -> Id:
+            """Adds a gear or screw between two joint coordinates, by a CouplingDef or its fields; returns its id."""
+            return self._add("coupling", CouplingDef, definition, fields)
 
-    def add_constraint(self, definition: ConstraintDef | None = None, **fields: Any) -> Id:
-        """Adds a constraint on poses that a Python function says, by a ConstraintDef or its fields; returns its id."""
-        definition = struct(ConstraintDef, definition, fields)
-        if definition._function is not None:
-            definition.callback = self._keep.constraint(definition._function, definition.row_count, definition.provides)
-        return self._add("constraint", ConstraintDef, definition, {})
+        def add_constraint(self, definition: ConstraintDef | None = None, **fields: Any) -> Id:
+            """Adds a constraint on poses that a Python function says, by a ConstraintDef or its fields; returns its id."""
+            definition = struct(ConstraintDef, definition, fields)
+            if definition._function is not None:
+                definition.callback = self._keep.constraint(definition._function, definition.row_count, definition.provides)
+            return self._add("constraint", ConstraintDef, definition, {})
 
-    def add_drive(self, definition: DriveDef | None = None, **fields: Any) -> Id:
-        """Adds a drive of a component of motion, by a DriveDef or its fields; returns its id."""
-        return self._add("drive", DriveDef, definition, fields)
+        def add_drive(self, definition: DriveDef | None = None, **fields: Any) -> Id:
+            """Adds a drive of a component of motion, by a DriveDef or its fields; returns its id."""
+            return self._add("drive", DriveDef, definition, fields)
 
-    def add_load(self, definition: LoadDef | None = None, **fields: Any) -> Id:
-        """Adds a force [N] and moment [N m] at a place, by a LoadDef or its fields; returns its id."""
-        return self._add("load", LoadDef, definition, fields)
+        def add_load(self, definition: LoadDef | None = None, **fields: Any) -> Id:
+            """Adds a force [N] and moment [N m] at a place, by a LoadDef or its fields; returns its id."""
+            return self._add("load", LoadDef, definition, fields)
 
-    @mirrors("dmb_model_add_input")
-    def add_input(self, definition: InputDef | None = None, **fields: Any) -> Id:
-        """Adds an input that sims set by Sim.inputs[name], by an InputDef or its fields; returns its id."""
-        return self._add("input", InputDef, definition, fields)
+        @mirrors("dmb_model_add_input")
+        def add_input(self, definition: InputDef | None = None, **fields: Any) -> Id:
+            """Adds an input that sims set by Sim.inputs[name], by an InputDef or its fields; returns its id."""
+            return self._add("input", InputDef, definition, fields)
 
-    def add_spring(self, definition: SpringDef | None = None, **fields: Any) -> Id:
-        """Adds a spring and damper between two points, by a SpringDef or its fields; `table` takes pairs (elongation [m],
-        force [N]). Returns its id."""
-        return self._add("spring", SpringDef, definition, fields)
+        def add_spring(self, definition: SpringDef | None = None, **fields: Any) -> Id:
+            """Adds a spring and damper between two points, by a SpringDef or its fields; `table` takes pairs (elongation [m],
+            force [N]). Returns its id."""
+            return self._add("spring", SpringDef, definition, fields)
 
-    def add_stuck(self, definition: StuckDef | None = None, **fields: Any) -> Id:
-        """Adds a place that can be stuck, by a StuckDef or its fields; returns its id."""
-        return self._add("stuck", StuckDef, definition, fields)
+        def add_stuck(self, definition: StuckDef | None = None, **fields: Any) -> Id:
+            """Adds a place that can be stuck, by a StuckDef or its fields; returns its id."""
+            return self._add("stuck", StuckDef, definition, fields)
 
-    @mirrors("dmb_model_add_event")
-    def add_event(self, definition: EventDef | None = None, **fields: Any) -> Id:
-        """Adds an event that Sim.advance_to_event stops at, by an EventDef or its fields; returns its id."""
-        return self._add("event", EventDef, definition, fields)
+        @mirrors("dmb_model_add_event")
+        def add_event(self, definition: EventDef | None = None, **fields: Any) -> Id:
+            """Adds an event that Sim.advance_to_event stops at, by an EventDef or its fields; returns its id."""
+            return self._add("event", EventDef, definition, fields)
 
-    def add_force(self, definition: ForceDef | None = None, **fields: Any) -> Id:
-        """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields."""
-        definition = struct(ForceDef, definition, fields)
-        if definition._function is not None:
-            definition.callback = self._keep.force(definition._function, definition.provides)
-        return self._add("force", ForceDef, definition, {})
+        def add_force(self, definition: ForceDef | None = None, **fields: Any) -> Id:
+            """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields."""
+            definition = struct(ForceDef, definition, fields)
+            if definition._function is not None:
+                definition.callback = self._keep.force(definition._function, definition.provides)
+            return self._add("force", ForceDef, definition, {})
 
     @mirrors("dmb_model_set_name")
     def set_name(self, part: Id, name: str) -> None:
@@ -251,14 +258,19 @@ class Model(Handle):
         self._check(_lib.dmb_model_set_name(self._handle, part, name.encode()))
         self._note("set_name", part, name)
 
-    @mirrors("dmb_model_compile")
-    def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
-        """Checks and freezes the scene; returns the status."""
-        options = struct(CompileOptions, options, fields)
-        status = self._check(_lib.dmb_model_compile(self._handle, byref(options)))
-        self._parts.sites, self._compiled = self.info().contact_points, True
-        self._note("compile", options)
-        return status
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_model_compile")
+        def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
+            """Checks and freezes the scene; returns the status."""
+            options = struct(CompileOptions, options, fields)
+            status = self._check(_lib.dmb_model_compile(self._handle, byref(options)))
+            self._parts.sites, self._compiled = self.info().contact_points, True
+            for part in dict.fromkeys(self.ids):
+                name = self.name_of(part)
+                if name:
+                    self._parts.names.setdefault(name, []).append(part)
+            self._note("compile", options)
+            return status
 
     @mirrors("dmb_model_clear_refused")
     def clear_refused(self) -> None:
@@ -282,7 +294,7 @@ class Model(Handle):
         return list(errors)
 
     @mirrors("dmb_model_find")
-    def find(self, name: str, kind: int = PartKind.ANY) -> Id:
+    def find(self, name: str, kind: int = PartKind.ANY) -> Any:
         """The part of that name, of a kind or of all; model["rotary head"] is the same. Raises KeyError where there is
         none, and where parts of several kinds have it and no kind is given."""
         part = Id()
@@ -294,7 +306,7 @@ class Model(Handle):
         self._check(status)
         return part
 
-    def __getitem__(self, name: str) -> Id:
+    def __getitem__(self, name: str) -> Any:
         return self.find(name)
 
     def _find(self, name: str, kind: int, part: Id) -> int:
@@ -351,17 +363,18 @@ class Model(Handle):
         self._check(_lib.dmb_query_hole(self._handle, depth, byref(point)))
         return point
 
-    @mirrors("dmb_sim_memory_size")
-    def sim_memory_size(self, options: SimOptions | None = None, **fields: Any) -> int:
-        """[byte] that one sim takes."""
-        size, options = c_size_t(), struct(SimOptions, options, fields)
-        self._check(_lib.dmb_sim_memory_size(self._handle, byref(options), byref(size)))
-        return size.value
+    if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
+        @mirrors("dmb_sim_memory_size")
+        def sim_memory_size(self, options: SimOptions | None = None, **fields: Any) -> int:
+            """[byte] that one sim takes."""
+            size, options = c_size_t(), struct(SimOptions, options, fields)
+            self._check(_lib.dmb_sim_memory_size(self._handle, byref(options), byref(size)))
+            return size.value
 
-    def sim(self, options: SimOptions | None = None, log: Callable[[int, str], None] | None = None, **fields: Any) -> Sim:
-        """A sim of the compiled scene at time 0, with the given SimOptions or fields of it."""
-        from .sim import Sim
-        return Sim(self, options, log, **fields)
+        def sim(self, options: SimOptions | None = None, log: Callable[[int, str], None] | None = None, **fields: Any) -> Sim:
+            """A sim of the compiled scene at time 0, with the given SimOptions or fields of it."""
+            from .sim import Sim
+            return Sim(self, options, log, **fields)
 
     @mirrors("dmb_write_vtk_hole")
     def write_vtk_hole(self, path: Any, depth0: float, depth1: float, spacing: float = 1.0, around: int = 24) -> None:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 from ._keep import as_id, as_place, mirrors, path_of, station, written
 from ._library import lib as _lib
 from ._optional import need, numpy
+from ._parts import named
 from ._structs import Output, Id, Place, ProfileRecorderStruct, ProfileStruct, RecorderStruct
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .outputs import output_name, output_quantity, output_unit
-from .enums import OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
+from .enums import PartKind, OUTPUT_PROFILE, PROFILE_COUNT, PROFILE_DISTANCE
 
 from .profile import unit_of, values_of
 from .running import sample_due
@@ -25,10 +26,12 @@ if TYPE_CHECKING:
 def _output(number: int, given: Any) -> tuple[Any, ...]:
     """(place, number of the quantity, perhaps a name) of a pair or triple."""
     part = f"recorder output {number}"
+    if isinstance(given, str):
+        given = (None, given)
     if not isinstance(given, (tuple, list)) or len(given) not in (2, 3):
         refuse_type(part, "output", given, 'be a pair (place, "bit_speed") or a triple with a name')
     place, quantity, *name = given
-    if isinstance(place, str) or isinstance(quantity, (Place, Id)):
+    if isinstance(quantity, (Place, Id)):
         refuse_type(part, "output", given, 'have the place first: (place, "bit_speed")')
     if name and not isinstance(name[0], str):
         refuse_type(part, "name", name[0], "be a text")
@@ -44,7 +47,8 @@ def _interval(value: Any) -> float:
 
 class Recorder:
     """A table of rows (time, outputs...). outputs are pairs (place, "bit_speed") or (place, OUTPUT_...), or triples
-    with a name for the column; a part stands for its reference point, None for a output without a place. Of a window
+    with a name for the column; a part, or its name, stands for its reference point, None (or "bit_speed" alone) for an output without a
+    place. Of a window
     place is the number of the watched output. Call take() after every step."""
 
     def __init__(self, sim: Sim, outputs: Sequence[Any], capacity: int, interval: float = 0.0,
@@ -52,6 +56,7 @@ class Recorder:
         self.sim, self._window = sim, window
         capacity, interval = whole(capacity, "recorder", "capacity", 1, 2 ** 40), _interval(interval)
         outputs = [_output(number, one) for number, one in enumerate(outputs)]
+        outputs = [(place if place is None else as_place(place, sim._parts), *more) for place, *more in outputs]
         self._names = [self._name(*output) for output in outputs]
         self._outputs = (Output * len(outputs))(*[Output(as_place(place), quantity, 0)
                                                      for place, quantity, *_ in outputs])
@@ -69,12 +74,13 @@ class Recorder:
         self._struct.table = table
         self._struct.window = None if window is None else window._handle
 
-    @staticmethod
-    def _name(place: Any, quantity: int, name: str | None = None) -> str:
+    def _name(self, place: Any, quantity: int, name: str | None = None) -> str:
         if name is not None:
             return name
         at = as_place(place)
-        where = f" part {at.part.index & 0xFFFFFF} pipe {at.pipe} at {at.fraction:g}" if at.part else ""
+        part = self.sim._parts.name_of(at.part) if at.part else ""
+        string = at.part.index >> 24 == PartKind.STRING
+        where = f" {part or named(at.part)}" + (f" pipe {at.pipe} at {at.fraction:g}" if string else "") if at.part else ""
         if not at.part and at.pipe:
             where = f" {at.pipe}"
         return f"{output_name(quantity)}{where} [{output_unit(quantity)}]"
@@ -131,7 +137,8 @@ class ProfileRecorder:
     distances [m]. Call take() after every step."""
 
     def __init__(self, sim: Sim, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
-                 interval: float = 0.0, string: Id | None = None) -> None:
+                 interval: float = 0.0, string: Id | str | None = None) -> None:
+        string = as_id(string, sim._parts, "string")
         self.sim, self._quantities = sim, [whole(one, "profile recorder", "quantity", 0, PROFILE_COUNT - 1) for one in quantities]
         capacity, interval = whole(capacity, "profile recorder", "capacity", 1, 2 ** 40), _interval(interval)
         if not isinstance(stations, int):

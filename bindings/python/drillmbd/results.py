@@ -144,7 +144,7 @@ def note_steps(notes: dict[Status, str], out: CommandOutput) -> None:
     """A note for each reason for which steps of a run are less accurate than the tolerances."""
     for status in INACCURATE:
         if status in notes:
-            out.note_text(out.units.sentence(phrase("run: {text}", text=Foreign(notes[status]))))
+            out.note_text(out.units.sentence(phrase("{analysis}: {reason}", analysis="run", reason=Foreign(notes[status]))))
 
 
 def key_of(name: str, unit: str) -> str:

@@ -2,9 +2,10 @@
 takes from it (eq:sliding.state), whatever the time function of the drive says."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from . import enums
+from ._structs import DriveId
 from .errors import Error
 from .remade import Calls, number_of, with_calls, with_time_functions
 from .scene import Scene
@@ -46,7 +47,7 @@ def needed(scene: Scene, drive: int, static: dict[str, Any]) -> float:
                               {number_of(_fields(scene, drive)["time_function"]): [{"h0": 0.0}]})
     with holding.new_sim() as sim:
         sim.static(**static)
-        return float(sim.drive(next(one for one in holding.model.ids if _is_part(one, enums.PART_DRIVE) and number_of(one) == drive)).force)
+        return float(sim.drive(next(cast(DriveId, one) for one in holding.model.ids if _is_part(one, enums.PART_DRIVE) and number_of(one) == drive)).force)
 
 
 def _fields(scene: Scene, drive: int) -> Any:

@@ -49,7 +49,7 @@ class Sensitivity(Handle):
     def outputs(self, outputs: Sequence[Any]) -> tuple[list[float], list[list[float]]]:
         """Values of outputs, pairs (place, "bit_speed"), and of each its derivatives by the parameters in their order
         [unit of the output over that of the parameter]."""
-        asked = (Output * len(outputs))(*[Output(as_place(place), output_quantity(quantity), 0)
+        asked = (Output * len(outputs))(*[Output(as_place(place, self.sim._parts), output_quantity(quantity), 0)
                                             for place, quantity in outputs])
         count = len(self.names)
         values, derivatives = (c_double * len(outputs))(), (c_double * (len(outputs) * count))()

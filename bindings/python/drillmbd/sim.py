@@ -16,7 +16,7 @@ from ._progress import INTERRUPTS, Teller
 from ._structs import (STRUCTS, BitState, Output, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Excitation, JointState,
                        Momentum, Motion, ResponseOutput, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
-from ._structs import EventReport
+from ._structs import BitId, DriveId, EventReport, JointId, SpringId, StringId, StuckId
 from ._values import real, reals, refuse_type, refuse_value, whole
 from .outputs import output_quantity
 from .enums import FRAME_WORLD, OK
@@ -68,6 +68,11 @@ class Sim(Handle, analysis.Analyses):
         message = _lib.dmb_model_message(model._handle)
         self._keep.check(OK, b"")
         self.status = self._scene.check(status, message)
+
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<Sim, closed>"
+        return f"<Sim of {sum(self._parts.pipes.values())} pipes at {self.time:g} s, {self.statistics().steps} steps>"
 
     def __reduce__(self) -> Any:
         raise TypeError("a Sim does not pickle: pickle its model and sim.snapshot(), which a sim of that model restores")
@@ -181,12 +186,12 @@ class Sim(Handle, analysis.Analyses):
                 bar.close()
 
     @mirrors("dmb_sim_set_drive")
-    def set_drive(self, drive: Id, value: float | None) -> None:
+    def set_drive(self, drive: DriveId | str, value: float | None) -> None:
         """The drive's time function is the constant value [its unit] from now on; None: its time function again."""
         setting = float("nan") if value is None else real(value, "drive", "value")
         if value is not None and not math.isfinite(setting):
             refuse_value("drive", "value", setting, "be finite, or None for its time function")
-        self._check(_lib.dmb_sim_set_drive(self._handle, as_id(drive), setting))
+        self._check(_lib.dmb_sim_set_drive(self._handle, as_id(drive, self._parts, "drive"), setting))
 
     @property
     def inputs(self) -> Inputs:
@@ -194,10 +199,10 @@ class Sim(Handle, analysis.Analyses):
         return Inputs(self)
 
     @mirrors("dmb_sim_set_joint")
-    def set_joint(self, joint: Id, state: int) -> int:
+    def set_joint(self, joint: JointId | str, state: int) -> int:
         """The joint is JOINT_ACTIVE, JOINT_LOCKED or JOINT_OPEN from now on; returns the status, NOTE_PROJECTED if
         speeds changed."""
-        return self._check(_lib.dmb_sim_set_joint(self._handle, as_id(joint), whole(state, "joint", "state", 0, 2)))
+        return self._check(_lib.dmb_sim_set_joint(self._handle, as_id(joint, self._parts, "joint"), whole(state, "joint", "state", 0, 2)))
 
     @mirrors("dmb_sim_transfer_state")
     def transfer_state(self, other: Sim) -> int:
@@ -253,34 +258,34 @@ class Sim(Handle, analysis.Analyses):
         self._told(function(self._handle, *arguments, byref(value)), function, *arguments)
         return value.value
 
-    def pose(self, place: Place | Id) -> Pose:
+    def pose(self, place: Place | Id | str) -> Pose:
         """Position [m], rotation matrix, displacement [m] and measured depth [m] of a place."""
-        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), as_place(place))
+        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), as_place(place, self._parts))
         return answer
 
-    def motion(self, place: Place | Id, frame: int = FRAME_WORLD) -> Motion:
+    def motion(self, place: Place | Id | str, frame: int = FRAME_WORLD) -> Motion:
         """Velocity [m/s, rad/s] and acceleration [m/s2, rad/s2] of a place, each six numbers, in `frame`."""
-        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), as_place(place))
+        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), as_place(place, self._parts))
         return answer
 
-    def pose_at(self, place: Place | Id, offset: Sequence[float]) -> Pose:
+    def pose_at(self, place: Place | Id | str, offset: Sequence[float]) -> Pose:
         """The pose of a point `offset` [m] away from a place, in its axes."""
-        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), as_place(place), _offset(offset))
+        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), as_place(place, self._parts), _offset(offset))
         return answer
 
-    def motion_at(self, place: Place | Id, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
+    def motion_at(self, place: Place | Id | str, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
         """The motion of a point `offset` [m] away from a place, in its axes."""
-        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place), _offset(offset))
+        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), as_place(place, self._parts), _offset(offset))
         return answer
 
-    def rotation(self, place: Place | Id) -> float:
+    def rotation(self, place: Place | Id | str) -> float:
         """[rad] about the pipe's own axis since time 0, revolutions counted"""
-        return self._ask_number(_lib.dmb_query_rotation, as_place(place))
+        return self._ask_number(_lib.dmb_query_rotation, as_place(place, self._parts))
 
     @mirrors("dmb_query_section")
-    def section(self, place: Place | Id) -> Section:
+    def section(self, place: Place | Id | str) -> Section:
         """Forces [N, N m] and strains of a section, six numbers each."""
-        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), as_place(place))
+        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), as_place(place, self._parts))
         return answer
 
     def contact(self, number: int) -> Contact:
@@ -305,9 +310,9 @@ class Sim(Handle, analysis.Analyses):
         self._check(_lib.dmb_query_hole_now(self._handle, depth, byref(point)))
         return point
 
-    def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
+    def kinetic_energy(self, part: Id | str, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""
-        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part), whole(pipe, "kinetic energy", "pipe"))
+        return self._ask_number(_lib.dmb_query_kinetic_energy, as_id(part, self._parts), whole(pipe, "kinetic energy", "pipe"))
 
     @mirrors("dmb_query_energy")
     def energy(self) -> Energy:
@@ -320,37 +325,36 @@ class Sim(Handle, analysis.Analyses):
         answer: Momentum = self._ask(_lib.dmb_query_momentum, Momentum.blank())
         return answer
 
-    def drive(self, drive: Id) -> DriveState:
+    def drive(self, drive: DriveId | str) -> DriveState:
         """Target, position, speed, force, power [W] and work [J] of a drive."""
-        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), as_id(drive))
+        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), as_id(drive, self._parts, "drive"))
         return answer
 
-    def reaction(self, part: Id) -> list[float]:
+    def reaction(self, part: Id | str) -> list[float]:
         """[N, N m] of support and motion drives on the rig end of a string or a body, body frame, six numbers"""
-        values = (c_double * 6)()
-        self._told(_lib.dmb_query_reaction(self._handle, as_id(part), values), _lib.dmb_query_reaction, part)
+        values, part = (c_double * 6)(), as_id(part, self._parts)
+        self._told(_lib.dmb_query_reaction(self._handle, part, values), _lib.dmb_query_reaction, part)
         return list(values)
 
-    def joint(self, joint: Id, frame: int = FRAME_WORLD) -> JointState:
+    def joint(self, joint: JointId | str, frame: int = FRAME_WORLD) -> JointState:
         """Coordinates, rates, reaction [N, N m] and action of a joint, six numbers each."""
-        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), as_id(joint))
+        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), as_id(joint, self._parts, "joint"))
         return answer
 
-    def multipliers(self, part: Id) -> list[float]:
+    def multipliers(self, part: Id | str) -> list[float]:
         """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
-        values, count = (c_double * 6)(), c_uint32()
-        self._told(_lib.dmb_query_multipliers(self._handle, as_id(part), values, byref(count)), _lib.dmb_query_multipliers,
-                   part)
+        values, count, part = (c_double * 6)(), c_uint32(), as_id(part, self._parts)
+        self._told(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)), _lib.dmb_query_multipliers, part)
         return list(values)[:count.value]
 
-    def spring(self, spring: Id) -> SpringState:
+    def spring(self, spring: SpringId | str) -> SpringState:
         """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
-        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), as_id(spring))
+        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), as_id(spring, self._parts, "spring"))
         return answer
 
-    def stuck(self, stuck: Id) -> StuckState:
+    def stuck(self, stuck: StuckId | str) -> StuckState:
         """Whether a place is stuck; offset, force that holds it, share of what frees it."""
-        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck))
+        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck, self._parts, "stuck"))
         return answer
 
     def flow(self) -> FlowState:
@@ -358,9 +362,9 @@ class Sim(Handle, analysis.Analyses):
         answer: FlowState = self._ask(_lib.dmb_query_flow, FlowState.blank())
         return answer
 
-    def bit(self, bit: Id) -> BitState:
+    def bit(self, bit: BitId | str) -> BitState:
         """Advance [m], depth of cut [m], weight [N] and torque [N m] of a bit."""
-        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), as_id(bit))
+        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), as_id(bit, self._parts, "bit"))
         return answer
 
     def statistics(self) -> Statistics:
@@ -375,9 +379,12 @@ class Sim(Handle, analysis.Analyses):
         return Recorder(self, outputs, capacity, interval, window)
 
     @mirrors("dmb_query_output")
-    def output(self, quantity: str | int, place: Any = None) -> float:
-        """The value of a output by its name or number at a place, or of a part; None: the first string, or none."""
-        asked, value = Output(as_place(place), output_quantity(quantity), 0), c_double()
+    def output(self, quantity: Any, place: Any = None) -> float:
+        """The value of an output by its name or number at a place, or of a part; None: the first string, or none. Place and quantity may
+        stand in the order of a recorder's pair too: output(place, "bit_speed")."""
+        if isinstance(quantity, (Place, Id)):
+            quantity, place = place, quantity
+        asked, value = Output(as_place(place, self._parts), output_quantity(quantity), 0), c_double()
         self._check(_lib.dmb_output_check(self._handle, byref(asked), 1))
         self._told(_lib.dmb_query_output(self._handle, byref(asked), byref(value)), _lib.dmb_query_output)
         return value.value
@@ -395,15 +402,16 @@ class Sim(Handle, analysis.Analyses):
         return Sensitivity(self, parameters, one_sided)
 
     def profile_recorder(self, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
-                         interval: float = 0.0, string: Id | None = None) -> ProfileRecorder:
+                         interval: float = 0.0, string: StringId | str | None = None) -> ProfileRecorder:
         """A ProfileRecorder of `capacity` rows of quantities PROFILE_... at stations of a string."""
         return ProfileRecorder(self, quantities, stations, capacity, interval, string)
 
-    def profile(self, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
-        """The string from end to end as arrays: poses, forces and contact at `per_pipe` stations of each of its `pipes`
-        pipes and at its rig end."""
+    def profile(self, string: StringId | str | None = None, pipes: int | None = None, per_pipe: int = 2) -> Profile:
+        """A string (None: the first) from end to end as arrays: poses, forces and contact at `per_pipe` stations of each of its pipes and
+        at its rig end. pipes: their number; left out: as described."""
         from .profile import profile
-        return profile(self, string, pipes, per_pipe)
+        asked = self._parts.first_string() if string is None else as_id(string, self._parts, "string")
+        return profile(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, per_pipe)
 
     @mirrors("dmb_analysis_state_space")
     def state_space(self, inputs: Sequence[Excitation] = (), outputs: Sequence[ResponseOutput] = (),
@@ -426,10 +434,11 @@ class Sim(Handle, analysis.Analyses):
         from .fatigue import Fatigue
         return Fatigue(self, places, struct(FatigueOptions, options, fields))
 
-    def string_fatigue(self, string: Id, pipes: int, **fields: Any) -> StringFatigue:
-        """A StringFatigue of the `pipes` pipes of a string; fields as of fatigue."""
+    def string_fatigue(self, string: StringId | str, pipes: int | None = None, **fields: Any) -> StringFatigue:
+        """A StringFatigue of the pipes of a string; fields as of fatigue."""
         from .fatigue import StringFatigue
-        return StringFatigue(self, string, pipes, **fields)
+        asked = as_id(string, self._parts, "string")
+        return StringFatigue(self, asked, self._parts.pipes.get(asked.index, 0) if pipes is None else pipes, **fields)
 
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:

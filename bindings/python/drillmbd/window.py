@@ -27,7 +27,7 @@ class Window(Handle):
         for number, one in enumerate(outputs):
             if not isinstance(one, (tuple, list)) or len(one) != 2:
                 refuse_type(f"window output {number}", "output", one, 'be a pair (place, "bit_speed")')
-        asked = (Output * len(outputs))(*[Output(as_place(place), output_quantity(quantity), 0)
+        asked = (Output * len(outputs))(*[Output(as_place(place, sim._parts), output_quantity(quantity), 0)
                                             for place, quantity in outputs])
         if levels is not None:
             self._levels = (c_double * self._count)(*reals(levels, "window", "levels", self._count))

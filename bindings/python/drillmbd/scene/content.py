@@ -29,7 +29,7 @@ class Scene:
     """The content of a scene file."""
     title: str
     model: Model                    #: compiled
-    names: dict[str, Id]            #: of parts and time functions
+    names: dict[str, Any]           #: ids of parts and time functions
     pipes: dict[str, int]           #: number of pipes of each string
     time_function_units: dict[str, str] = field(default_factory=dict)
     sim: dict[str, Any] = field(default_factory=dict)      #: fields of SimOptions
