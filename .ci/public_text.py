@@ -39,8 +39,8 @@ def python(text: str) -> Iterator[Piece]:
         if token.type == tokenize.STRING:
             literal = re.sub(r"^[rRbBuUfF]*", "", token.string)
             quote = literal[:3] if literal[:3] in ('"""', "'''") else literal[:1]
-            inside = re.sub(r"`[^`]*`", "`", literal[len(quote):-len(quote)])
-            if re.search(r"\w\W*\s\W*\w", inside):
+            inside = re.sub(r"`[^`]*`|\{[^{}\n]*\}", "`", literal[len(quote):-len(quote)])
+            if re.search(r"\w\W*\s\W*\w", inside) or inside == "likewise":
                 yield token.start[0], inside
 
 
@@ -55,10 +55,10 @@ def messages(text: str) -> Iterator[Piece]:
 READERS = [
     (re.compile(r"(README|CHANGELOG)\.md$|examples/.*README\.md$"), markdown),
     (re.compile(r"include/drillmbd/\w+\.h$|bindings/cpp/drillmbd\.hpp$"), header),
-    (re.compile(r"bindings/python/drillmbd/.*\.py$"), python),
+    (re.compile(r"bindings/python/drillmbd/.*\.py$|pkgconfig/(manual|reference)\w*(\.py)?$"), python),
     (re.compile(r"lib/.*\.[ch]$"), messages),
 ]
-FOLDERS = ["README.md", "CHANGELOG.md", "examples", "include", "bindings/cpp", "bindings/python/drillmbd", "lib"]
+FOLDERS = ["README.md", "CHANGELOG.md", "examples", "include", "bindings/cpp", "bindings/python/drillmbd", "pkgconfig", "lib"]
 
 
 class Pattern:
@@ -113,7 +113,7 @@ def planted_rules(known: list[Pattern]) -> Iterator[str]:
     samples = [(markdown, "The check\ntells it.\n", 1), (markdown, "```c\ntold\n```\nA `told` b.\n\n    told\n", 0),
                (markdown, "What is it?\n", 0), (markdown, "It is what it is.\n", 1), (markdown, "a guide\nthe user's guide\n", 1),
                (header, 'int told; /* told */ char *a = "told"; /* see `told` */\n', 1),
-               (python, 'told = "it is told"  # told\nkey = "told"\n', 1),
+               (python, 'told = f"it is told {told}"  # told\nkey = "told"\n', 1),
                (messages, 'told = 1; dmb_message_set(m, "it is told", told);', 1)]
     for read, text, count in samples:
         found = len(list(faults_of(text, read, known)))

@@ -1,16 +1,16 @@
-"""The C++ header as Doxygen reads it, for pkgconfig/reference: declarations without their bodies, and what is said of
-each: the // comment right before it or behind it, else the C function that it calls, else what all owners have."""
+"""The C++ header as Doxygen reads it, for pkgconfig/reference: declarations without their bodies, and the description of
+each: the // comment right before it or behind it, else the C function that it calls, else that of all owners."""
 import re
 
 OWNERS = (  # of a class with a handle: pattern of the declaration, what it does
-    (r"^{name}\({name} &&", "Takes over what the other has."),
-    (r"^{name} &operator=\({name} &&", "Gives back what it has and takes over what the other has."),
+    (r"^{name}\({name} &&", "Takes over the object of the other."),
+    (r"^{name} &operator=\({name} &&", "Destroys its object and takes over that of the other."),
     (r"=\s*delete$", "There is one owner: it is moved, not copied."),
-    (r"^~{name}\(\)", "Gives back what it has."),
+    (r"^~{name}\(\)", "Destroys its object."),
     (r"^explicit {name}\(dmb_\w+ \*", "Takes over a handle, or nothing."),
     (r"^dmb_\w+ \*get\(\)", "The handle for C functions, or NULL; it stays the owner's."),
     (r"^dmb_\w+ \*release\(\)", "The handle, now the caller's to destroy."),
-    (r"^void reset\(dmb_\w+ \*", "Gives back what it has and takes over a handle, or nothing."),
+    (r"^void reset\(dmb_\w+ \*", "Destroys its object and takes over a handle, or nothing."),
     (r"^explicit operator bool\(\)", "True where there is a handle."),
 )
 SILENT = re.compile(r"dmb_(?:status_\w+|\w+_default|\w+_init)$")
@@ -95,7 +95,7 @@ class CppWriter:
         return found
 
     def own_words(self, head, body):
-        """What a declaration without a comment does."""
+        """Description of a declaration without a comment."""
         names = re.findall(r"(\w+|operator\s*\S+?)\(", head)
         owner = self.scopes[-1] if self.scopes else ""
         for pattern, text in OWNERS:
@@ -126,7 +126,7 @@ class CppWriter:
         name = re.search(r"(?:class|struct|namespace) (\w+)", head).group(1)
         said = self.words(self.said)
         if name == "drillmbd":
-            said = "Everything in C++: owners, answers and failures."
+            said = "Everything in C++: owners, results and failures."
         if said:
             self.out.append(f"/** {said} */\n")
         self.out.append(f"{head} {{\n" + ("public:\n" if re.search(r"\bclass \w+( :|$)", head) else ""))

@@ -93,7 +93,7 @@ class GuideTest(unittest.TestCase):
                 told = io.StringIO()
                 with contextlib.redirect_stderr(told):
                     self.assertEqual(main([question, str(path)]), 2)
-                lines = told.getvalue().split("the least is\n")[1]
+                lines = told.getvalue().split("for example:\n")[1]
                 path.write_text(scene + lines, encoding="utf-8")
                 if question == "buckle":  # whether it buckles is the scene's affair
                     output_of(lambda: self.assertEqual(main(["check", str(path)]), 0))

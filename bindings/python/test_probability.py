@@ -505,7 +505,7 @@ class BadScene(unittest.TestCase):
                 ('time_function = "rock"\ndistribution', 'time_function = "rok"\ndistribution', "did you mean rock?"),
                 ("high = 1\n", "high = 0.9\n", "must be > low = 0.95"),
                 ("mean = 0.98", "mean = 0.94", "must be within low"),
-                ('key = "string[0].pipes.outer_diameter"', 'key = "string[4].pipes.outer_diameter"', "must be what varies along"),
+                ('key = "string[0].pipes.outer_diameter"', 'key = "string[4].pipes.outer_diameter"', "must be a quantity that varies along"),
                 ('name = "pump"', 'name = "wear"', "varies already"),
                 ('kind = "fatigue"', 'kind = "fatige"', "did you mean fatigue?"),
                 ("slope = 5", "", "fatigue must have a slope"),

@@ -152,7 +152,7 @@ class SoftTest(unittest.TestCase):
         more = '[[variability.field]]\nname = "survey"\nkey = "hole.survey.inclination"\ndistribution = "normal"\nmean = 0\n' \
                'deviation = "0.3 deg"\ncorrelation_length = "20 m"\n'
         self.check(LEVEL + more + ALL, "survey is no factor of the numbers that it changes")
-        self.assertIn("reads the scene anew", SceneSample(LEVEL + more + ALL).soft.notes()[0])
+        self.assertIn("reads the scene again", SceneSample(LEVEL + more + ALL).soft.notes()[0])
 
     def test_closed_form(self):
         sample = SceneSample(LEVEL + FORCES)

@@ -519,7 +519,7 @@ class PageTest(FolderTest):
         _, page, _ = self.page()
         self.assertIn('<html lang="en">', page)
         self.assertNotRegex(page.split('id="plotly"')[0].replace("演示钻孔", ""), "[\u4e00-\u9fff]")
-        for part in ("What must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4", "only 30 to 300 rpm", "dip +5.0 deg"):
+        for part in ("Limits that must not be exceeded", "Plan and section", 'class="still"', "@page{size:A4", "only 30 to 300 rpm", "dip +5.0 deg"):
             self.assertIn(part, page)
 
     def test_remarks_on_the_scene_file_in_chinese(self):

@@ -106,9 +106,9 @@ class ResumeTest(FolderTest):
             self.stop_at(step, *words)
             found = self.summary("parts")
             self.assertAlmostEqual(found["run"]["time_s"], at)
-            self.assertIn("the same command goes on from there", found["notes"][-1])
+            self.assertIn("the same command continues from there", found["notes"][-1])
         out = self.ask(*words)
-        self.assertIn("the run goes on at 0.185 s", out)
+        self.assertIn("the run continues at 0.185 s", out)
         self.assert_same("whole", "parts")
         self.assertEqual(self.summary("parts")["run"]["steps"], 200)
         self.assertFalse((self.folder / "parts" / run_state.FILE).exists())
@@ -137,11 +137,11 @@ class ResumeTest(FolderTest):
         with mock.patch.object(run_state, "EVERY", -1.0):
             with self.assertRaises(RuntimeError):
                 self.stop_at(42, "run", self.scene, "-o", self.folder / "parts", raising=RuntimeError("down"), status=1)
-        self.assertIn("goes on at 0.041 s", self.ask("run", self.scene, "-o", self.folder / "parts"))
+        self.assertIn("continues at 0.041 s", self.ask("run", self.scene, "-o", self.folder / "parts"))
         self.assert_same("whole", "parts")
 
     def test_other_settings(self):
-        """Another step, end, scene, command or version begins anew and says so; another unit system goes on."""
+        """Another step, end, scene, command or version starts again and says so; another unit system goes on."""
         def stopped():
             (self.folder / "out" / run_state.FILE).unlink(missing_ok=True)
             self.stop_at(40, "run", self.scene, "-o", self.folder / "out")
@@ -150,13 +150,13 @@ class ResumeTest(FolderTest):
         (self.folder / "out").mkdir()
         for words in (("run", self.scene, "--step", "2 ms"), ("run", self.scene, "--until", "0.1 s"), ("run", other)):
             stopped()
-            self.assertIn("is of another scene, other options or another version; the run begins anew",
+            self.assertIn("is of another scene, other options or another version; the run starts again",
                           self.ask(*words, "-o", self.folder / "out"), words)
         stopped()
         with mock.patch.object(run_state, "code", lambda: {"version": "another"}):
-            self.assertIn("begins anew", self.ask("run", self.scene, "-o", self.folder / "out"))
+            self.assertIn("starts again", self.ask("run", self.scene, "-o", self.folder / "out"))
         stopped()
-        self.assertIn("goes on at 0.04 s", self.ask("run", self.scene, "--units", "field", "-o", self.folder / "out"))
+        self.assertIn("continues at 0.04 s", self.ask("run", self.scene, "--units", "field", "-o", self.folder / "out"))
 
     def test_damaged_state(self):
         """A file that is none, or half of one, is passed over; bytes of the state that do not fit are refused with the remedy."""
@@ -165,17 +165,17 @@ class ResumeTest(FolderTest):
         whole = file.read_bytes()
         for content in (b"", b"no archive", whole[:len(whole) // 2]):
             file.write_bytes(content)
-            self.assertIn("cannot be read; the run begins anew", self.ask("run", self.scene, "-o", self.folder / "out"))
+            self.assertIn("cannot be read; the run starts again", self.ask("run", self.scene, "-o", self.folder / "out"))
         import numpy
         file.write_bytes(whole)
         with numpy.load(file) as read:
             arrays = {name: read[name] for name in read.files}
         arrays["sim"] = arrays["sim"][:-8]
         numpy.savez(file, **arrays)
-        self.assertIn("remove it, and the run begins anew", self.ask("run", self.scene, "-o", self.folder / "out", status=2))
+        self.assertIn("remove it, and the run starts again", self.ask("run", self.scene, "-o", self.folder / "out", status=2))
 
     def test_nothing_to_go_on_from(self):
-        """Without a folder, and after a second Ctrl-C that came between a step and its samples, the run begins anew and says so."""
+        """Without a folder, and after a second Ctrl-C that came between a step and its samples, the run starts again and says so."""
         real = mbd.Sim.step
 
         def impatient(sim, duration):
@@ -187,7 +187,7 @@ class ResumeTest(FolderTest):
 
         with mock.patch.object(mbd.Sim, "step", impatient):
             self.ask("run", self.scene, "-o", self.folder / "out", status=130)
-        self.assertIn("the same command begins anew", self.summary("out")["notes"][-1])
+        self.assertIn("the same command starts again", self.summary("out")["notes"][-1])
         self.assertFalse((self.folder / "out" / run_state.FILE).exists())
         self.stop_at(40, "run", self.scene)
 
@@ -196,7 +196,7 @@ class ResumeTest(FolderTest):
         self.ask(*words, self.folder / "whole")
         self.stop_at(240, *words, self.folder / "parts")
         self.ask(*words, self.folder / "parts")
-        self.assertIn("goes on at 0.04 s", self.summary("parts/00002")["notes"][0])
+        self.assertIn("continues at 0.04 s", self.summary("parts/00002")["notes"][0])
         self.assert_same("whole/00002", "parts/00002")
 
     def test_report_goes_on(self):
@@ -206,7 +206,7 @@ class ResumeTest(FolderTest):
         self.ask("report", self.scene, "-o", self.folder / "whole")
         words = ("report", self.scene, "-o", self.folder / "parts")
         self.stop_at(51, *words)
-        self.assertIn("the same command goes on from there", " ".join(self.summary("parts")["notes"]))
+        self.assertIn("the same command continues from there", " ".join(self.summary("parts")["notes"]))
         with mock.patch("drillmbd.report.speeds", side_effect=KeyboardInterrupt), mock.patch.dict(
                 "drillmbd.report.__dict__", {"buckling_tile": mock.Mock(side_effect=KeyboardInterrupt)}):
             with mock.patch.object(report_linear, "speeds", side_effect=KeyboardInterrupt), mock.patch(
@@ -216,7 +216,7 @@ class ResumeTest(FolderTest):
         with mock.patch.object(mbd.Sim, "step", lambda *_: real.append(0)):
             out = self.ask(*words)
         self.assertEqual(real, [])  # no step is computed again
-        self.assertIn("goes on at 0.2 s", out)
+        self.assertIn("continues at 0.2 s", out)
         self.assert_same("whole", "parts", ("verdicts", "hash", "energy_error", "run", "fatigue"))
         pages = [(self.folder / name / "report.html").read_text(encoding="utf-8") for name in ("whole", "parts")]
         self.assertLess(abs(len(pages[0]) - len(pages[1])), 600)

@@ -46,7 +46,7 @@ enum {
     DMB_STIFFNESS_SYMMETRIC = 0,  /* forces have a potential: the state is stable where no eigenvalue is negative */
     DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by
                                      each real negative eigenvalue; by complex ones it may flutter, which depends on
-                                     mass and damping and is a question for dmb_analysis_modes with DMB_MODES_DAMPED */
+                                     mass and damping and is computed by dmb_analysis_modes with DMB_MODES_DAMPED */
 };
 enum { DMB_STATIC_NEWTON = 0, DMB_STATIC_RELAXATION = 1 };
 typedef struct dmb_static_report {
@@ -226,7 +226,7 @@ typedef struct dmb_path_point {
     double displacement; /* [m] of the watched place and component since time 0; 0: none is watched */
 } dmb_path_point;
 DMB_SIZED_STRUCT(dmb_path_point)
-/* Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the
+/* Called at each point with a sim that is there at rest: every query works, snapshots may be taken and, after the
  * call, restored into the sim the path began with. Returns 0, or nonzero to stop. */
 typedef int32_t (*dmb_path_fn)(void *context, const dmb_sim *at, const dmb_path_point *point);
 typedef struct dmb_path_options {

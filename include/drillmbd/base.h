@@ -54,17 +54,17 @@ DMB_API const char *dmb_build_info(void);
     X(DMB_NOTE_FULL, 5, "done; the caller's memory is full, nothing more is recorded")                                \
     X(DMB_NOTE_TOLERANCE, 6, "done; the smallest step allowed was too long for the error tolerance")                  \
     X(DMB_NOTE_UNSTABLE, 7, "done; the equilibrium that was found is not stable")                                     \
-    X(DMB_NOTE_NOT_STEADY, 8, "done; drives move but no steady state was found: only what they move has a speed")     \
-    X(DMB_NOTE_EXTRAPOLATED, 9, "done; some of the answers are extrapolations that were not confirmed")               \
+    X(DMB_NOTE_NOT_STEADY, 8, "done; drives move but no steady state was found: only their components have a speed")     \
+    X(DMB_NOTE_EXTRAPOLATED, 9, "done; some of the results are extrapolations that were not confirmed")               \
     X(DMB_NOTE_CANCELLED, 10, "done up to where the caller's progress function ended it")                             \
     X(DMB_NOTE_INCOMPLETE, 11, "done; the scene or the range leaves something out: see the message")                     \
-    X(DMB_NOTE_FLUTTER, 12, "done; a mode grows before the stiffness is singular, the message tells from where on")     \
+    X(DMB_NOTE_FLUTTER, 12, "done; a mode grows before the stiffness is singular, the message states from where on")     \
     X(DMB_NOTE_CLAMPED, 13, "done; a value beyond its bounds was taken for the bound")                                \
     X(DMB_NOTE_NOT_SMOOTH, 14, "done; a derivative is the mean of both sides of a breakpoint")                              \
     X(DMB_NOTE_EVENT, 15, "done up to an event, the message names it")                                                  \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
-    X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size this library knows")                                        \
+    X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size of this library")                                        \
     X(DMB_ERR_ID, -4, "the id does not name a part of this model")                                                    \
     X(DMB_ERR_VALUE, -5, "a value lies outside its bounds")                                                           \
     X(DMB_ERR_NOT_FINITE, -6, "a value is NaN or infinite")                                                           \

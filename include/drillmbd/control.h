@@ -28,7 +28,7 @@ enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };
 typedef struct dmb_input_def {
     uint32_t struct_size;
     int32_t target;    /* DMB_TARGET_..., default DMB_TARGET_SET_POINT */
-    char name[24];     /* required, of its own among the inputs, ends with 0 */
+    char name[24];     /* required, unique among the inputs, ends with 0 */
     dmb_id part;       /* drive, load, bit or stuck place; {0, 0} of wall and environment */
     double initial;    /* [unit of the target] at time 0, within the bounds; NaN (default): as described, which for 0, 5
                           and 6 is the time function, until the input is set */
@@ -94,7 +94,7 @@ enum { DMB_EVENT_EITHER = 0, DMB_EVENT_RISING = 1, DMB_EVENT_FALLING = 2, DMB_EV
 typedef struct dmb_event_def {
     uint32_t struct_size;
     int32_t direction; /* DMB_EVENT_..., default DMB_EVENT_RISING */
-    char name[24];     /* required, of its own among the events, ends with 0 */
+    char name[24];     /* required, unique among the events, ends with 0 */
     dmb_output output; /* as of a recorder; dmb_sim_create fails if the scene does not have it */
     double level;      /* [unit of the output] default 0 */
     double hold;       /* [s] reported when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0 */

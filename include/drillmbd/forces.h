@@ -59,8 +59,8 @@ DMB_API int32_t dmb_query_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_s
  * counts: value, speed, force along it. tangent, shape (2, 6 place_count, 6 place_count), row-major, 0 when called, may
  * be NULL: derivatives of the forces by displacements of the places in the same axes, velocities there staying the
  * same; then by velocities. potential: [J] by poses and time, counted as stored energy (`strain`); the other power
- * is work of loads. Returns 0, or nonzero to stop. Pure, from any thread; asked a little beside the run's arguments
- * too. Followers and circulatory forces are respected. Load steps and factors of buckling leave it alone. */
+ * is work of loads. Returns 0, or nonzero to stop. Pure, from any thread; also called at arguments near those of the
+ * run. Followers and circulatory forces are respected. Load steps and factors of buckling leave it alone. */
 enum { DMB_PROVIDES_TANGENT = 1, DMB_PROVIDES_POTENTIAL = 2 };
 typedef int32_t (*dmb_force_fn)(void *context, double time, uint32_t place_count, const double (*poses)[12],
                                 const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential);

@@ -35,7 +35,7 @@ DMB_SIZED_STRUCT(dmb_hole_section)
 /* Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall
  * may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that
  * change too fast, and parts wider than the hole (DMB_ERR_GEOMETRY). Errors: DMB_ERR_VALUE, _NOT_FINITE,
- * _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections). */
+ * _STRUCT_SIZE, _NO_MEMORY; no section is added then. A query of the hole at a depth is O(log sections). */
 DMB_API int32_t dmb_model_add_hole_sections(dmb_model *model, const dmb_hole_section *sections, uint32_t count);
 
 DMB_C_END

@@ -54,7 +54,7 @@ typedef struct dmb_joint_def {
     double axis_b[3];      /* [-] shape (3) */
     double normal_b[3];    /* [-] shape (3) */
     int32_t match;         /* 1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b
-                              count for nothing; 0 (default): frame b as given */
+                              are ignored; 0 (default): frame b as given */
     int32_t state;         /* DMB_JOINT_... at time 0; default DMB_JOINT_ACTIVE */
     double length;         /* [m] of DISTANCE, radius of ROLLING; > 0; default 1 */
     double stiffness[6];   /* [N/m, N m/rad] of springs along the coordinates, >= 0; default 0, shape (6) */
@@ -103,7 +103,7 @@ DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def 
  * by body-frame displacements (translation; rotation) of the places; DMB_CONSTRAINT_NONHOLONOMIC: A(q, t) v + b(q, t) =
  * 0 with value = b and jacobian = A, v the body-frame velocities. Must write value; jacobian is not NULL and must be
  * written where `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from
- * any thread; it is asked at poses and times a little before and after those of the run too, for differences. */
+ * any thread; it is also called at poses and times near those of the run, for differences. */
 enum { DMB_CONSTRAINT_HOLONOMIC = 0, DMB_CONSTRAINT_NONHOLONOMIC = 1 };
 enum { DMB_PROVIDES_JACOBIAN = 1 };
 typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t place_count, const double (*poses)[12],

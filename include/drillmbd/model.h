@@ -322,7 +322,7 @@ typedef struct dmb_bit_def {
     double displaced_volume; /* [m3] as of a body */
     dmb_id stabiliser;   /* {0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface
                       is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia,
-                      diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance
+                      diameter, length, displaced_volume and string are ignored, and `bottom` is the distance
                       of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit */
     double inner_radius; /* [m] b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit;
                             0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */

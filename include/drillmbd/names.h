@@ -1,6 +1,6 @@
 /* libdrillmbd - names of parts. The definition of a part has a field `name`, or dmb_model_set_name gives it one;
  * messages state it beside the part's number, dmb_model_find looks it up. A name is text in UTF-8 without control
- * characters, at most 23 bytes and a 0, of its own among the parts of its kind. "" is no name; any number of parts may
+ * characters, at most 23 bytes and a 0, unique among the parts of its kind. "" is no name; any number of parts may
  * have none. */
 #ifndef DRILLMBD_NAMES_H
 #define DRILLMBD_NAMES_H

@@ -201,7 +201,7 @@ DMB_SIZED_STRUCT(dmb_window_result)
  * NULL then. */
 DMB_API int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *options, const dmb_output *outputs,
                                   uint32_t output_count, dmb_window **window);
-/* Takes a sample; call it after each step. A second one at the same time counts for nothing; DMB_ERR_ORDER for an
+/* Takes a sample; call it after each step. A second one at the same time is ignored; DMB_ERR_ORDER for an
  * earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs). */
 DMB_API int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim);
 /* O(slots). DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such output). */

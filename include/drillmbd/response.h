@@ -62,7 +62,7 @@ enum {
 typedef struct dmb_response_output {
     uint32_t struct_size;
     int32_t kind;      /* DMB_RESPONSE_..., default DMB_RESPONSE_DISPLACEMENT */
-    dmb_place place;   /* required where the kind asks for one */
+    dmb_place place;   /* required for some kinds */
     int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
     int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
 } dmb_response_output;

@@ -17,7 +17,7 @@ class Handle:
     _kind = ""  #: dmb_<kind>_destroy gives it back
 
     def close(self) -> None:
-        """Gives the memory back; later questions are an Error. Sims of a model go on."""
+        """Frees the memory; later calls raise Error. Sims of a model stay valid."""
         if getattr(self, "_handle", None) is not None and _lib is not None:
             getattr(_lib, f"dmb_{self._kind}_destroy")(byref(self._handle))
 

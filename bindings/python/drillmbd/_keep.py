@@ -70,7 +70,7 @@ def written(path: Any, handle: Any, status: int) -> int:
 
 
 def mirrors(name: str) -> Callable[[F], F]:
-    """A method whose docstring goes on with what the header says of the C function."""
+    """A method whose docstring ends with the comment of the C function in the header."""
     def put(method: F) -> F:
         text = FUNCTION_DOCS.get(name, "")
         method.__doc__ = "\n\n".join(part for part in (method.__doc__, text and f"{name}: {text}") if part)
@@ -168,7 +168,7 @@ class Keep:
         return wrapped
 
     def check(self, status: int, message: bytes) -> int:
-        """Raises Error for a failed call, because of what a callback raised if there is such."""
+        """Raises Error for a failed call, from the exception of a callback if there is one."""
         raised = getattr(self.raised, "error", None)
         if raised is not None:
             self.raised.error = None

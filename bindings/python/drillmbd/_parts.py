@@ -61,7 +61,7 @@ class Parts:
 
     def why_place(self, word: str, place: Place) -> str:
         """The message of a place that does not fit; "" where nothing is wrong."""
-        wrong = self.why_part(word, place.part, "a string, body, bit or ring")
+        wrong = self.why_part(word, place.part, "a string, body, bit or stabiliser")
         if wrong or place.part.index not in self.pipes:
             return wrong
         count = self.pipes[place.part.index]
@@ -104,7 +104,7 @@ def closed(kind: str) -> Error:
 
 
 def is_closed(handle: Any, status: int) -> bool:
-    """Whether a status tells that an object of the library was given back."""
+    """Whether a status says that an object of the library was destroyed."""
     return status == ERR_NULL and not handle
 
 

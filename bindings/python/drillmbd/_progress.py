@@ -1,4 +1,4 @@
-"""Long calls are told and ended: by a function of the caller's, or by Ctrl-C."""
+"""Progress and end of long calls: by a function of the caller, or by Ctrl-C."""
 from __future__ import annotations
 
 import contextlib
@@ -54,7 +54,7 @@ INTERRUPTS = Interrupts()
 
 
 class Teller:
-    """The C function of a sim's progress. It knows nothing of the sim, which holds it."""
+    """The C function of a sim's progress. It has no reference to the sim, which owns it."""
 
     def __init__(self) -> None:
         self.function: Callable[[float], Any] | None = None
@@ -71,14 +71,14 @@ class Teller:
         self.call = PROGRESS_FN(call)
 
     def set(self, handle: c_void_p, function: Callable[[float], Any] | None) -> int:
-        """The status of telling this function from now on."""
+        """The status of setting this function."""
         status = int(_lib.dmb_sim_set_progress(handle, _NOBODY if function is None else self.call, None))
         if status >= 0:
             self.function = function
         return status
 
     def rethrow(self) -> None:
-        """Raises what the function has raised in the last call."""
+        """Raises the exception of the function in the last call."""
         raised, self.raised = self.raised, None
         if raised is not None:
             raise raised

@@ -98,7 +98,7 @@ class Record(ctypes.Structure):
         super().__setattr__(name, value)
 
     def _fit(self, name: str, kind: Any, value: Any) -> Any:
-        """The value as ctypes takes it for a field of a kind; what does not fit is refused."""
+        """The value as ctypes takes it for a field of a kind; other values are refused."""
         part = type(self).__name__
         if kind is c_double:
             return real(value, part, name, self.field_docs.get(name, ("",))[0])
@@ -418,7 +418,7 @@ class PlacesPart:
 class ForcePart(PlacesPart):
     """A force on one to four `places` (places, bodies, or joints with their `component`). `function` takes the time, a
     sequence of poses, each of twelve numbers (position, rotation matrix by rows), and one of velocities, each of six; it
-    returns six numbers a place. With provides=PROVIDES_TANGENT it returns a tuple that goes on with the derivatives by
+    returns six numbers a place. With provides=PROVIDES_TANGENT it returns a tuple that also has the derivatives by
     displacements and by velocities, 6 places x 6 places each; with PROVIDES_POTENTIAL the energy [J] comes last."""
 
 

@@ -2526,7 +2526,7 @@ class BitDef(Sized):
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "as of a body"),
-        "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
+        "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string are ignored, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
         "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
         "added_mass": ("kg", "as of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
     }
@@ -2779,7 +2779,7 @@ class InputDef(Sized):
     ]
     field_docs = {
         "target": ("", "TARGET_..., default TARGET_SET_POINT"),
-        "name": ("", "required, of its own among the inputs, ends with 0"),
+        "name": ("", "required, unique among the inputs, ends with 0"),
         "part": ("", "drive, load, bit or stuck place; {0, 0} of wall and environment"),
         "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the time function, until the input is set"),
         "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
@@ -3039,7 +3039,7 @@ PARALLEL_FN.__doc__ = "Long strings on several cores, with threads of the caller
 
 
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
-PATH_FN.__doc__ = "Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the call, restored into the sim the path began with. Returns 0, or nonzero to stop."
+PATH_FN.__doc__ = "Called at each point with a sim that is there at rest: every query works, snapshots may be taken and, after the call, restored into the sim the path began with. Returns 0, or nonzero to stop."
 
 
 class ModelOptions(Sized):
@@ -3357,7 +3357,7 @@ class JointDef(Sized):
         "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
         "axis_b": ("-", "shape (3)"),
         "normal_b": ("-", "shape (3)"),
-        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b count for nothing; 0 (default): frame b as given"),
+        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b are ignored; 0 (default): frame b as given"),
         "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
         "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
         "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
@@ -3627,7 +3627,7 @@ class ResponseOutput(Sized):
     ]
     field_docs = {
         "kind": ("", "RESPONSE_..., default RESPONSE_DISPLACEMENT"),
-        "place": ("", "required where the kind asks for one"),
+        "place": ("", "required for some kinds"),
         "component": ("", "X .. RZ, default X"),
         "frame": ("", "FRAME_WORLD (default) or FRAME_BODY"),
     }
@@ -3688,7 +3688,7 @@ class EventDef(Sized):
     ]
     field_docs = {
         "direction": ("", "EVENT_..., default EVENT_RISING"),
-        "name": ("", "required, of its own among the events, ends with 0"),
+        "name": ("", "required, unique among the events, ends with 0"),
         "output": ("", "as of a recorder; dmb_sim_create fails if the scene does not have it"),
         "level": ("unit of the output", "default 0"),
         "hold": ("s", "reported when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0"),

@@ -1,4 +1,4 @@
-"""Values as they come from Python: numbers, texts, parts and places, or an error that tells part, field, value and bound."""
+"""Values as they come from Python: numbers, texts, parts and places, or an error with part, field, value and bound."""
 from __future__ import annotations
 
 import numbers as kinds
@@ -12,7 +12,7 @@ ERR_VALUE, ERR_ID = -5, -4  # of the headers; enums.py cannot be read here by al
 
 
 def shown(value: Any) -> str:
-    """A value as a message shows it: on one line, not too long, without what would end the message's field."""
+    """A value as a message shows it: on one line, not too long, without characters that end the field of the message."""
     text = " ".join(repr(value).split())
     text = text if len(text) <= 60 else text[:57] + "..."
     return text.replace(",", " ").replace(";", " ") if not text.startswith(("(", "{")) else text.replace(";", " ")
@@ -39,7 +39,7 @@ def refuse_value(part: str, field: str, value: Any, bound: str) -> NoReturn:
 
 
 def real(value: Any, part: str, field: str, unit: str = "") -> float:
-    """The number as float; what is no real number is refused, texts too."""
+    """The number as float; texts and other values that are no real numbers are refused."""
     if type(value) is float:
         return value
     if getattr(value, "size", 1) == 1 and hasattr(value, "item"):
@@ -69,7 +69,7 @@ def whole(value: Any, part: str, field: str, low: int = 0, high: int = 2 ** 32 -
 
 
 def reals(value: Any, part: str, field: str, count: int | None = None, unit: str = "") -> list[float]:
-    """A sequence of numbers; `count` of them, or as many as there are."""
+    """A sequence of numbers; `count` of them, or any number."""
     try:
         values = list(value) if not isinstance(value, (str, bytes, dict)) else None
     except TypeError:

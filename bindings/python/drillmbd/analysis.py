@@ -327,7 +327,7 @@ class Shaped(Handle):
     _parts: Parts
 
     def _answered(self, place: Place, status: int) -> int:
-        """The status of a question about a place, or an Error that tells what is wrong with the place."""
+        """The status of a query of a place, or an Error with the reason why the place is wrong."""
         if status < 0 and not is_closed(self._handle, status):
             raise Error(status, self._parts.why(status, "shape", (place,)))
         return self._sure(status)
@@ -335,7 +335,7 @@ class Shaped(Handle):
 
 # ---- Buckling --------------------------------------------------------------------------------------------------------
 class Buckling(Shaped):
-    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for,
+    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than requested,
     NOTE_EXTRAPOLATED where info.confirmed is less than their number."""
     _kind = "buckling"
 

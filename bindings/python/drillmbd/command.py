@@ -17,13 +17,13 @@ from .language_choice import NAMES as LANGUAGES
 from .unit_choice import NAMES
 
 EXAMPLES = """examples:
-  drillmbd check rig.toml                     is the scene complete? what does it consist of?
+  drillmbd check rig.toml                     describes the scene and warns of doubtful values
   drillmbd run rig.toml --output out          run it, with table, pictures and files for ParaView
   drillmbd run rig.toml --until "5 s" --step "2 ms"
-  drillmbd run rig.toml --output out          again after Ctrl-C: goes on where it was stopped
-  drillmbd static rig.toml --output out       where does the string lie, what bears it?
+  drillmbd run rig.toml --output out          again after Ctrl-C: continues where it was stopped
+  drillmbd static rig.toml --output out       static equilibrium: shape, forces, contact with the wall
   drillmbd modes rig.toml                     natural frequencies
-  drillmbd response rig.toml --output out     what shakes how much, by [response]
+  drillmbd response rig.toml --output out     linear forced response, by [response]
   drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
   drillmbd torque-drag rig.toml --units field -o out   in ft, lbf, ft-lbf, psi; or --units mine; or [results] units
   drillmbd torque-drag rig.toml --measured log.csv -o out   the friction that explains measured hook loads
@@ -31,7 +31,7 @@ EXAMPLES = """examples:
   drillmbd speeds rig.toml                    rotary speeds to avoid, by [speeds]
   drillmbd buckle rig.toml                    critical factors by [buckling], thrusts that buckle the string
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
-  drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   what arrives at a stuck bit; how far is it free?
+  drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   pull and torque at a stuck bit; free point
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
   drillmbd fmu rig.toml -o rig.fmu            a unit for co-simulation (FMI 3.0) with other programs
@@ -61,26 +61,26 @@ libcholmod must be installed where it runs."""
 
 PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     on all processors
-  drillmbd probability rig.toml -o out --samples 1000                     again: goes on where it was stopped, or adds samples
+  drillmbd probability rig.toml -o out --samples 1000                     again: continues, or adds samples
   drillmbd probability rig.toml -o out --question torque-drag --samples 100000   as a soft string: thousands of samples a second
   drillmbd probability rig.toml -o out --question auto --samples 10000    runs in time only where torque and drag do not decide
   drillmbd probability rig.toml -o out --vary "time_function[1].segment.h1=60 rpm,100 rpm,130 rpm" --vary "time_function[0].segment.h1=8 mm/s,12 mm/s"   a map
   drillmbd probability rig.toml -o out --until 30%                         as many samples as that needs
   drillmbd probability rig.toml -o out --method subset --failure stress   a rare failure
-  drillmbd probability rig.toml -o out --indices 64                       what matters most: Sobol' indices
+  drillmbd probability rig.toml -o out --indices 64                       which parameter matters most: Sobol' indices
   mpirun -n 9 drillmbd probability rig.toml -o out --engine mpi
   drillmbd probability rig.toml -o out --engine dask --address tcp://10.0.0.1:8786
 
 All samples are kept in out/study.h5, which can be read while it grows (drillmbd.probability.study.read_rows). It is refused where
 scene, code or settings are others than those it was made with."""
-STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "likewise", "torque": "likewise",
+STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "of the rig, instead of [limits] push", "torque": "of the rig, instead of [limits] torque",
          "overpull": "pulled beyond the weight to see how far it is free", "stretch": "by which the rig end came up then"}
 SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
 
 Options after -- belong to the command that is repeated. A case that fails is a row with its message; the exit status is 1 then.
-After Ctrl-C the same line goes on: cases that are complete in the folder are not computed again."""
+After Ctrl-C the same line continues: cases that are complete in the folder are not computed again."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -89,7 +89,7 @@ def parser() -> argparse.ArgumentParser:
                                     epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
     found.add_argument("--version", action="version", version=f"drillmbd {__version__}")
     commands = found.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, text in (("check", "describes the scene and warns of what looks wrong"),
+    for name, text in (("check", "describes the scene and warns of doubtful values"),
                        ("static", "computes the static equilibrium"), ("run", "runs the scene in time"),
                        ("modes", "computes natural frequencies about the static equilibrium"),
                        ("response", "computes the linear response to excitations about the static equilibrium"),
@@ -135,7 +135,7 @@ def parser() -> argparse.ArgumentParser:
                                  "is given) in time too and marks those where torque or lateral acceleration swing")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
-    sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
+    sweep = commands.add_parser("sweep", help="repeats a command for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
     sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
@@ -225,7 +225,7 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
     asked.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
     asked.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
-    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"], help="that each sample answers, instead of [variability] question: "
+    asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"], help="analysis of each sample, instead of [variability] question: "
                        "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
     asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES", help="a map of the probability over KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key")
@@ -235,19 +235,19 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"], help="instead of [variability] method")
     asked.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
     asked.add_argument("--failure", metavar="NAME", help="which failure subset and indices are about; left out: any, by margin over limit")
-    asked.add_argument("--indices", type=int, metavar="N", help="Sobol' indices of N rows, N (2 + number of what varies) samples")
+    asked.add_argument("--indices", type=int, metavar="N", help="Sobol' indices of N rows, N (2 + number of uncertain parameters) samples")
     asked.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
     asked.add_argument("--salvage", action="store_true", help="keeps the sound rows of a study.h5 that is damaged and computes the others again")
     asked.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
                        help="where samples are computed; the numbers are the same (default %(default)s)")
-    asked.add_argument("--workers", type=int, metavar="N", help="left out: as many as processors")
+    asked.add_argument("--workers", type=int, metavar="N", help="left out: number of processors")
     asked.add_argument("--address", metavar="HOST:PORT", help="of the scheduler of a Dask cluster; left out: one on this machine")
     asked.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION", help="the function of a failure of the "
                        "kind own: function(look) -> margin; once for each")
 
 
 def _complete(asked: argparse.ArgumentParser) -> None:
-    """Answers a shell that asks how the line may go on, and ends."""
+    """Answers a shell that requests completions of the line, and ends."""
     try:
         argcomplete: Any = importlib.import_module("argcomplete")
     except ImportError:
@@ -350,7 +350,7 @@ def _fmu(options: Any) -> int:
 
 
 LEAST = {"response": """[[response.excitation]]
-kind = "eccentricity"          # what shakes: eccentric pipes; or "drive", "load", "force" with a place
+kind = "eccentricity"          # excitation: eccentric pipes; or "drive", "load", "force" with a place
 [[response.output]]
 component = "z"
 place = {place}
@@ -411,7 +411,7 @@ def _ask(options: Any) -> int:
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
     loaded = scene.load(options.scene)
     if needed and needed not in loaded.analyses:
-        raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about; the least is\n\n"
+        raise Usage(f"{options.scene} has no [{needed}], which {options.command} needs, for example:\n\n"
                     + least(needed, loaded))
     if getattr(options, "probability", None) and options.output and os.path.realpath(options.probability) == os.path.realpath(options.output):
         raise Usage(f"--probability {options.probability}: is the --output folder too, whose files would be replaced; give another --output")

@@ -53,7 +53,7 @@ def to_rest(scene: Scene, sim: Sim, out: CommandOutput, linear: bool = False) ->
 
 
 def settled(scene: Scene, sim: Sim, out: CommandOutput, values: dict[str, Any]) -> None:
-    """The static state by these options, its report and what it leaves open."""
+    """The static state by these options, its report and its notes."""
     report = sim.static(**values)
     out.note(report.status, "static")
     out.summary["static"] = {**record(report), "status_name": Status(report.status).name}
@@ -124,7 +124,7 @@ def _time(text: str | None, known: float | None, what: str) -> float | None:
 
 
 def run(scene: Scene, out: CommandOutput, options: Any) -> int:
-    """The scene in time. After Ctrl-C the same command goes on from the state in its folder."""
+    """The scene in time. After Ctrl-C the same command continues from the state in its folder."""
     end = _time(options.until, scene.run.get("end"), "until")
     step = _time(options.step, scene.run.get("step"), "step")
     if end is None:
@@ -185,7 +185,7 @@ class Course:
         self.notes: dict[Status, str] = {}
 
     def take_up(self, parts: dict[str, Kept]) -> None:
-        """Goes on from a state that was kept."""
+        """Continues from a stored state."""
         kept = self.state.take_up(parts)
         if kept:
             self.begin, self.frame, self.elapsed = kept["begin"], kept["frame"], kept["elapsed"]
@@ -236,7 +236,7 @@ class Course:
         return not self.end - self.sim.time > (1e-6 * self.step if self.step else 0.0)
 
     def _stretch(self, recorder: Any, shown: Any, counters: list[Any]) -> None:
-        """To the next file, or to the end; a stretch that was stopped goes on."""
+        """To the next file, or to the end; a stretch that was stopped continues."""
         if not self.every:
             at = self.sim.run_noting(self.end, self.step, recorder, shown, LOOK, counters, self.begin)
             self.notes.update(at.notes)

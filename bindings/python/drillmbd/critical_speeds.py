@@ -90,7 +90,7 @@ def left_out(report: Any) -> list[str]:
     if report.undamped:
         remarks.append(phrase("Critical speeds: nothing damps the string, so the severity at resonances has no meaning"))
     if report.truncated:
-        remarks.append(phrase("Critical speeds: a band goes on beyond the range of [speeds]"))
+        remarks.append(phrase("Critical speeds: a band continues beyond the range of [speeds]"))
     return remarks
 
 

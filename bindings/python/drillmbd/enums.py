@@ -17,17 +17,17 @@ class Status(IntEnum):
     NOTE_FULL: done; the caller's memory is full, nothing more is recorded
     NOTE_TOLERANCE: done; the smallest step allowed was too long for the error tolerance
     NOTE_UNSTABLE: done; the equilibrium that was found is not stable
-    NOTE_NOT_STEADY: done; drives move but no steady state was found: only what they move has a speed
-    NOTE_EXTRAPOLATED: done; some of the answers are extrapolations that were not confirmed
+    NOTE_NOT_STEADY: done; drives move but no steady state was found: only their components have a speed
+    NOTE_EXTRAPOLATED: done; some of the results are extrapolations that were not confirmed
     NOTE_CANCELLED: done up to where the caller's progress function ended it
     NOTE_INCOMPLETE: done; the scene or the range leaves something out: see the message
-    NOTE_FLUTTER: done; a mode grows before the stiffness is singular, the message tells from where on
+    NOTE_FLUTTER: done; a mode grows before the stiffness is singular, the message states from where on
     NOTE_CLAMPED: done; a value beyond its bounds was taken for the bound
     NOTE_NOT_SMOOTH: done; a derivative is the mean of both sides of a breakpoint
     NOTE_EVENT: done up to an event, the message names it
     ERR_NULL: a required pointer is NULL
     ERR_HANDLE: not a live object of this kind
-    ERR_STRUCT_SIZE: struct_size is not a size this library knows
+    ERR_STRUCT_SIZE: struct_size is not a size of this library
     ERR_ID: the id does not name a part of this model
     ERR_VALUE: a value lies outside its bounds
     ERR_NOT_FINITE: a value is NaN or infinite
@@ -631,7 +631,7 @@ class Stiffness(IntEnum):
     """Values DMB_STIFFNESS_... of the headers.
 
     SYMMETRIC: forces have a potential: the state is stable where no eigenvalue is negative
-    UNSYMMETRIC: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is a question for dmb_analysis_modes with MODES_DAMPED
+    UNSYMMETRIC: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is computed by dmb_analysis_modes with MODES_DAMPED
     """
     SYMMETRIC = 0
     UNSYMMETRIC = 1

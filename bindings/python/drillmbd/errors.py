@@ -34,9 +34,9 @@ def _number(text: str) -> float | str:
 class Error(Exception):
     """A call that was refused or failed, with nothing changed.
 
-    status, name ("DMB_ERR_VALUE") and message tell why. Where the message says so, else None: part ("joint 1 (crank)"),
+    status, name ("DMB_ERR_VALUE") and message give the reason. Where the message says so, else None: part ("joint 1 (crank)"),
     field ("axis_a"), value (a float where it is a number; its unit is in the message), bound ("be of length > 0") and
-    advice (what to do about it)."""
+    advice (the remedy)."""
 
     def __init__(self, status: int, message: str = "") -> None:
         try:

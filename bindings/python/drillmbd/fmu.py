@@ -4,7 +4,7 @@
     fmu.export(scene.load("rig.toml"), "rig.fmu")
 
 [[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits,
-friction, mud, damping), [[output]] outputs, [[event]] counts of how often each was told. The run begins as that of
+friction, mud, damping), [[output]] outputs, [[event]] the number of occurrences of each. The run begins as that of
 the command: at rest in the static state by the parameters where [run] static says so; inputs act from then on. [run]
 step is the length of steps within a communication step; without it, and in scenes with events, the library chooses
 them. The unit holds the library itself and runs without Python."""
@@ -57,7 +57,7 @@ OF_THE_STATE = frozenset((
 
 
 class CannotExport(ValueError):
-    """A scene that cannot become a unit, or a unit without its binary: what it is, and what to do."""
+    """A scene that cannot become a unit, or a unit without its binary: cause and remedy."""
 
 
 # ---- The scene as bytes: bindings/fmi/scene_format.h -----------------------------------------------------------------
@@ -112,7 +112,7 @@ def _bare(call: str, one: Any) -> bytearray:
     for name, kind in type(one)._fields_:
         if _is_pointer(kind):
             if getattr(one, name) and name not in arrays:
-                raise CannotExport(f"unit refused: {call}, {name} points to what a unit cannot carry; leave it out")
+                raise CannotExport(f"unit refused: {call}, {name} points to data that a unit cannot contain; leave it out")
             offset, size = getattr(type(one), name).offset, sizeof(kind)
             found[offset:offset + size] = bytes(size)
     return found
@@ -182,7 +182,7 @@ def _step(scene: Scene) -> float:
 
 
 def scene_bytes(scene: Scene) -> tuple[bytes, str]:
-    """The file resources/scene.bin and the token of the unit, which is made of what is in it."""
+    """The file resources/scene.bin and the token of the unit, which is computed from its content."""
     if sys.byteorder != "little" or sizeof(ctypes.c_void_p) != LAYOUT:
         raise CannotExport("unit refused: this machine is not little-endian with 64 bits, as units must be")
     body = b"".join([*_calls(scene), *_asked(scene)])
@@ -239,7 +239,7 @@ def _refuse_changing(scene: Scene) -> None:
 
 
 def _output_unit(quantity: int, place: Place | None, drives: dict[int, dict[str, Any]]) -> str:
-    """The unit of a output; that of a drive goes by its component. Empty where it is not one unit."""
+    """The unit of an output; that of a drive depends on its component. Empty where it is not one unit."""
     unit = output_unit(quantity)
     drive = drives.get(place.part.index) if place is not None else None
     if " or " in unit and drive is not None:
@@ -286,7 +286,7 @@ def variables(scene: Scene) -> list[Variable]:
                                   of_state=quantity in OF_THE_STATE))
     for number, name in enumerate(scene.model.events()):
         found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete",
-                              about="how often this event was told", integer=True, of_state=True))
+                              about="number of occurrences of this event", integer=True, of_state=True))
     _check_names(found)
     return found
 
@@ -313,7 +313,7 @@ _BASE: dict[str, dict[str, int]] = {
 
 
 def base_exponents(unit: str) -> dict[str, int]:
-    """Exponents of kg, m, s, rad of a unit as "kg m2/s": what stands behind / divides."""
+    """Exponents of kg, m, s, rad of a unit as "kg m2/s": factors after / divide."""
     found: dict[str, int] = {}
     for sign, part in zip((1, -1), unit.split("/")):
         for word in part.split():
@@ -366,7 +366,7 @@ def _variables2(parent: Any, found: list[Variable]) -> None:
 
 
 def _known(one: Variable, at_start: bool) -> Attributes:
-    """On what an output depends: without the attribute on all that is known. At the start all goes into the state,
+    """Dependencies of an output: without the attribute it depends on all known variables. At the start all goes into the state,
     but counts of events are 0."""
     return {"dependencies": ""} if (one.integer if at_start else one.of_state) else {}
 
@@ -389,7 +389,7 @@ def _structure2(parent: Any, found: list[Variable]) -> None:
 
 
 def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
-    """Attributes of CoSimulation: what the unit can do."""
+    """Attributes of CoSimulation: capabilities of the unit."""
     found = {"modelIdentifier": identifier, "canHandleVariableCommunicationStepSize": "true"}
     if version == 2:
         return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true",
@@ -418,7 +418,7 @@ def description(scene: Scene, version: int, identifier: str, token: str, found: 
         ElementTree.SubElement(entry, "BaseUnit", {key: str(power) for key, power in base_exponents(name).items()})
     categories = ElementTree.SubElement(root, "LogCategories")
     for name, text in (("logStatusWarning", "notes and warnings of the library"),
-                       ("logStatusError", "what was refused or failed")):
+                       ("logStatusError", "refused and failed calls")):
         ElementTree.SubElement(categories, "Category", {"name": name, "description": text})
     run = {"stopTime": scene.run.get("end"), "stepSize": scene.run.get("step")}
     ElementTree.SubElement(root, "DefaultExperiment",
@@ -479,7 +479,7 @@ def platform_folder(version: int) -> str:
 
 
 def find_binary() -> pathlib.Path:
-    """The file that becomes the unit's binary: what the environment variable DRILLMBD_FMU names, or drillmbd_fmu.so
+    """The file that becomes the unit's binary: the one named by the environment variable DRILLMBD_FMU, or drillmbd_fmu.so
     beside the library or this package."""
     own = os.environ.get("DRILLMBD_FMU")
     folders = [pathlib.Path(_library.find()).parent, _library.HERE,

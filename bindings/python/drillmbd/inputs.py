@@ -1,4 +1,4 @@
-"""Inputs of a sim: what a controller or an operator moves while it runs."""
+"""Inputs of a sim: values that a controller or an operator changes while it runs."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, MutableMapping
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Inputs(MutableMapping[str, float]):
-    """Names to values [unit of the input]: reading one gives what is set, setting one holds from now on."""
+    """Names to values [unit of the input]: reading one gives the set point, setting one holds from now on."""
 
     def __init__(self, sim: Sim) -> None:
         self._sim = sim
@@ -34,7 +34,7 @@ class Inputs(MutableMapping[str, float]):
 
     @mirrors("dmb_sim_get_input")
     def state(self, name: str) -> InputState:
-        """The set point, the value in force on the way there, its rate, and the time of arrival."""
+        """The set point, the value in force, its rate, and the time at which the set point is reached."""
         answer: InputState = self._sim._ask(_lib.dmb_sim_get_input, InputState.blank(), self._id(name))
         return answer
 
@@ -68,7 +68,7 @@ class Inputs(MutableMapping[str, float]):
 
     @mirrors("dmb_sim_replay_inputs")
     def replay(self, records: Any, next_record: int = 0) -> int:
-        """Sets what the records (of InputLog.take) have from number next_record on up to the present time; returns the
+        """Sets the values of the records (of InputLog.take) from number next_record on up to the present time; returns the
         number of the first that is still to come. Called before each step, it gives the states of the recorded run."""
         array = (InputRecord * len(records))(*records)
         place = c_uint32(next_record)
@@ -77,7 +77,7 @@ class Inputs(MutableMapping[str, float]):
 
 
 class InputLog:
-    """Records of what was set when, written by the library while the sim lives."""
+    """Records of set points and times, written by the library while the sim lives."""
 
     def __init__(self, sim: Sim, capacity: int) -> None:
         capacity = whole(capacity, "input log", "capacity", 1)

@@ -64,7 +64,7 @@ def phrase(template: str, /, **values: Any) -> Phrase:
 
 
 def joined(separator: str, parts: Iterable[str]) -> Listed:
-    """Sentences with a separator between them, literals are separated alike."""
+    """Sentences with a separator between them, literals are separated in the same way."""
     return Listed(separator, parts)
 
 
@@ -147,6 +147,6 @@ def _catalogue(name: str) -> tuple[dict[str, str], list[tuple[re.Pattern[str], s
 
 
 def pattern_of(template: str) -> re.Pattern[str]:
-    """A message of the library with fields {a}, {b} in the place of its numbers and names."""
+    """A message of the library with fields {a}, {b} instead of its numbers and names."""
     pieces = FIELD.split(template)
     return re.compile("".join(re.escape(piece) if i % 2 == 0 else f"(?P<{piece}>.+?)" for i, piece in enumerate(pieces)))

@@ -54,7 +54,7 @@ class Model(Handle, ModelCalls):
         return remake(type(self), self.calls)
 
     def same_scene(self, other: Model) -> bool:
-        """True where both were described alike: parts of a kind in the same order, whatever the order of kinds."""
+        """True where both have the same description: parts of a kind in the same order, kinds in any order."""
         def bare(model: Model) -> Any:
             found: dict[str, list[Any]] = {}
             for name, arguments in model.calls:
@@ -274,7 +274,7 @@ class Model(Handle, ModelCalls):
 
     @mirrors("dmb_model_clear_refused")
     def clear_refused(self) -> None:
-        """Goes on without the parts whose add_ raised an Error: compile refuses otherwise."""
+        """Continues without the parts whose add_ raised an Error: compile refuses otherwise."""
         self._check(_lib.dmb_model_clear_refused(self._handle))
 
     # ---- Questions --------------------------------------------------------------------------------------------------

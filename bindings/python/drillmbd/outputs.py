@@ -1,4 +1,4 @@
-"""Outputs by their names: numbers that a recorder, a window or a response is asked for."""
+"""Outputs by their names: numbers for recorders, windows and responses."""
 from __future__ import annotations
 
 import difflib
@@ -38,7 +38,7 @@ def output_unit(quantity: int) -> str:
 
 
 def output_quantity(name: str | int) -> int:
-    """The number of a output by its name, as "bit_speed"; a number stays what it is."""
+    """The number of an output by its name, as "bit_speed"; a number is returned unchanged."""
     if not isinstance(name, str):
         number_given = whole(name, "output", "quantity", 0, 2 ** 31 - 1)
         output_name(number_given)

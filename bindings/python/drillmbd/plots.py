@@ -1,4 +1,4 @@
-"""Pictures of what one looks at, by matplotlib: depth downward, units on the axes, colours that greyscale and colour
+"""Pictures of results, by matplotlib: depth downward, units on the axes, colours that greyscale and colour
 blindness leave apart, legends beside the curves. Each function returns the figure; save it by figure.savefig(path)."""
 from __future__ import annotations
 
@@ -370,7 +370,7 @@ def causes(found: Response, names: Sequence[str], output: int = 0, label: str = 
 
 
 def frequencies(found: Modes, title: str = "") -> Any:
-    """All natural frequencies by their number, along, around and across apart by what moves most."""
+    """All natural frequencies by their number, axial, torsional and lateral ones apart by the largest motion."""
     figure, ((axes,),) = _axes(1, 1, (9, 5))
     elastic = [(number, mode.frequency, max(range(3), key=list(mode.share).__getitem__)) for number, mode in enumerate(found)
                if not mode.rigid]
@@ -466,7 +466,7 @@ def spectrum(table: Any, columns: Sequence[str], title: str = "") -> Any:
 
 
 def orbit(y: Any, z: Any, clearance: float | None = None, title: str = "") -> Any:
-    """The way of a point of the string across the hole, seen along it: displacements y, z [m], shape (n), and the circle
+    """The orbit of a point of the string across the hole, seen along it: displacements y, z [m], shape (n), and the circle
     that `clearance` [m] leaves, half the difference of the diameters of hole and pipe."""
     numpy = need("numpy")
     figure, ((axes,),) = _axes(1, 1, (6.5, 6))

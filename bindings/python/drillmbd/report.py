@@ -40,7 +40,7 @@ OPERATION_NAMES = (phrase("pick-up"), phrase("slack-off"), phrase("rotate"), phr
 
 
 class Study:
-    """Content of the page. An analysis that fails becomes a tile with its reason; the others go on."""
+    """Content of the page. An analysis that fails becomes a tile with its reason; the others continue."""
 
     def __init__(self, scene: Scene, out: CommandOutput, probability: Probability | None = None) -> None:
         self.scene, self.out, self.title, self.units = scene, out, scene.title, out.units
@@ -329,7 +329,7 @@ class Study:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))
         elif math.isfinite(found.life):
             self.tiles.append(Tile(title, f"{found.life / 3600.0:.0f} h" if found.life > 3.6e5 else f"{found.life / 3600.0:.3g} h", phrase(
-                "life if this run went on and on, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve", pipe=pipe),
+                "life if this run is repeated, until pipe {pipe}, counted from 0 at the rig, reaches its S-N curve", pipe=pipe),
                 OVER if found.damage > 1.0 else NO_LIMIT))
         else:
             text = phrase("in this run; largest range {range}, pipe {pipe}", range=shown(found.largest_range, "Pa", self.units), pipe=pipe)
@@ -375,7 +375,7 @@ class Study:
         if stopped:
             state.stopped(end, {})
             for demand in self.demands.values():
-                demand.failed.append(phrase("the rest of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
+                demand.failed.append(phrase("the end of the run, which was stopped at {time:g} s of {end:g} s", time=sim.time, end=end))
         else:
             state.keep({}, MOST_BYTES)  # until the page is made
             self.state = state

@@ -129,7 +129,7 @@ def _hole_radius(scene: Scene) -> float:
 
 
 def _tube(axis: Any, tangent: Any, radius: float, name: str) -> dict[str, Any]:
-    """A surface of rings around the axis."""
+    """A surface of circles around the axis."""
     numpy = need("numpy")
     some = slice(None, None, max(1, len(axis) // 80))
     axis, tangent = axis[some], tangent[some]

@@ -40,7 +40,7 @@ class Frames:
                 "times": array(self.times), "stresses": array(self.stresses).reshape(-1, 2), "extremes": array(self.extremes())}
 
     def take_up(self, kept: dict[str, Any]) -> None:
-        """Goes on from it."""
+        """Continues from it."""
         self.shapes = list(zip(kept["positions"], kept["displacements"]))
         self.times = [float(one) for one in kept["times"]]
         self.stresses = [(float(stress), float(time)) for stress, time in kept["stresses"]]

@@ -45,7 +45,7 @@ class HoleView:
     course: list[tuple[float, float, float]]  #: a, right, up, from the collar
     dips: list[float]                        #: [deg] there
     azimuth: float                           #: [rad] of the views
-    string: list[tuple[float, float, float]]  #: likewise, of the middles of the pipes
+    string: list[tuple[float, float, float]]  #: the same of the middles of the pipes
     force: list[float]                       #: contact force per length of each pipe
     length_unit: str
     force_unit: str
@@ -243,7 +243,7 @@ class Drawing:
         length = nice(0.3 * (self.width - 2.0 * self.margin) / self.scale)
         x, end = self.margin, self.margin + self.scale * length
         self.parts.append(_line([(x, top - 4.0), (x, top), (end, top), (end, top - 4.0)], "#000", 2.0))
-        self.parts.append(_text(end + 0.7 * size, top + 0.1 * size, self.to(phrase("{length:g} {unit}, along and across alike", length=length, unit=unit))))
+        self.parts.append(_text(end + 0.7 * size, top + 0.1 * size, self.to(phrase("{length:g} {unit}, the same along and across", length=length, unit=unit))))
         return top
 
     def _legend(self, top: float) -> float:
@@ -291,7 +291,7 @@ def still(axis: Any, string: Any, radius: float, factor: float, to: Language) ->
     parts += [_line(drawn(axis), "#555", 1.0, 'stroke-dasharray="6 4"'), _line(drawn(string), "#000", 2.5)]
     width, height = 40.0 + scale * extent[0], 40.0 + scale * extent[1]
     parts += _triad(turn, flat, 60.0, 50.0 if project[0][1] * ends[0] < 0.0 or ends[2] > 0.0 else height - 60.0, to)
-    text = to(phrase("rings: wall of the hole, {factor:g} times; line: string; dashed: axis of the hole", factor=factor))
+    text = to(phrase("circles: wall of the hole, {factor:g} times; line: string; dashed: axis of the hole", factor=factor))
     return (f'<svg viewBox="0 0 {max(width, 560.0):.0f} {height + 24.0:.0f}" width="{max(width, 560.0):.0f}" role="img" font-size="13" fill="#111">'
             + "".join(parts) + _text(10.0, height + 12.0, text) + "</svg>")
 

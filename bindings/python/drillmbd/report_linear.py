@@ -47,7 +47,7 @@ class Speeds:
         return left_out(self.bands.report)
 
     def _band(self, band: Any) -> str:
-        """A band that reaches an end of the range may go on beyond it."""
+        """A band that reaches an end of the range may continue beyond it."""
         low, high = band.low / RPM, band.high / RPM
         if band.high >= self.grid[-1] * (1.0 - SAME):
             return phrase("{low:.0f} rpm and more", low=low)

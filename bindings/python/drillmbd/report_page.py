@@ -122,13 +122,13 @@ class Page:
         return "".join(found)
 
     def limits(self) -> str:
-        """The table of what the crew must not exceed."""
+        """The table of limits for the crew."""
         heads = (phrase("Quantity"), phrase("Do not exceed"), phrase("Expected"), phrase("Verdict"))
         rows = "".join(f'<tr class="{CLASSES.get(verdict, "none")}"><th>{self.text(title)}</th><td><b>{self.text(limit)}</b></td><td>{self.text(expected)}</td>'
                        f'<td><span class="verdict">{self.text(verdict)}</span></td></tr>' for title, limit, expected, verdict in self.study.rows)
         over = [tile.title for tile in self.study.tiles if tile.verdict == OVER]
         stop = f'<p><b>{self.text(phrase("Do not drill as described here. Over the limit: {quantities}.", quantities=joined(", ", over)))}</b></p>' if over else ""
-        return (self.heading(phrase("What must not be exceeded")) + stop + '<div class="scroll"><table class="limits"><tr>'
+        return (self.heading(phrase("Limits that must not be exceeded")) + stop + '<div class="scroll"><table class="limits"><tr>'
                 + "".join(f"<th>{self.text(head)}</th>" for head in heads) + f"</tr>{rows}</table></div><p>"
                 + self.text(phrase("These values hold for this hole, string, mud and friction only. Stop and ask before a longer hole, another bit, or more "
                                    "than a value of this table. A quantity without the verdict OK is not cleared. If a reading is far from the expected "

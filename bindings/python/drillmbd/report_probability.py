@@ -38,7 +38,7 @@ class Outcome:
 
     @property
     def value(self) -> Phrase:
-        """The probability; its upper bound where no sample failed, because 0 is not what such a study shows."""
+        """The probability; its upper bound where no sample failed, because such a study does not show 0."""
         if self.estimate["probability"] is None:
             return phrase("not computed")
         if not self.estimate["probability"] > 0.0:

@@ -1,4 +1,4 @@
-"""Where answers of the command go, and the options that its questions read alike."""
+"""Where results of the command go, and the options that all commands have."""
 from __future__ import annotations
 
 import csv
@@ -75,12 +75,12 @@ class CommandOutput:
         self.note_text(text)
 
     def note(self, status: int, of: str) -> None:
-        """Tells the text of a status above 0."""
+        """Notes the text of a status above 0."""
         if status > 0:
             self.note_text(self.units.sentence(phrase("{analysis}: {reason}", analysis=of, reason=Foreign(status_text(status)))))
 
     def note_text(self, text: str) -> None:
-        """Something to know."""
+        """A note."""
         self.summary["notes"].append(text)
         self.say(phrase("note: {text}", text=text))
 

@@ -49,7 +49,7 @@ def loads_at(rows: Sequence[Any], words: Sequence[str], block_weight: float) -> 
 
 
 def reach(depths: Sequence[float], table: Sequence[dict[str, Load]], limits: dict[str, float]) -> Reach | None:
-    """The first limit on the way in, by straight lines between the depths; None if all loads stay below their limits."""
+    """The first limit by rising depth, by straight lines between the depths; None if all loads stay below their limits."""
     found: list[Reach] = []
     for key, word, _ in QUANTITIES:
         limit = limits.get(key, math.inf)

@@ -1,5 +1,5 @@
 """The torque at the rig that keeps a string turning whose drive gives a torque, not a speed: a steady rotation needs as much as friction
-takes from it (eq:sliding.state), whatever the time function of the drive says."""
+takes from it (eq:sliding.state), independent of the time function of the drive."""
 from __future__ import annotations
 
 from typing import Any, cast

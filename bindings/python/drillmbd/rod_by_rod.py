@@ -132,7 +132,7 @@ def heads(limits: dict[str, float]) -> list[str]:
 
 
 def within(rows: list[Row], limits: dict[str, float]) -> int | None:
-    """The number of rods up to which no limit is exceeded and nothing locks up on the way in; None without limits or lock-up."""
+    """The number of rods up to which no limit is exceeded and nothing locks up at a smaller depth; None without limits or lock-up."""
     over = next((row.rods for row in rows if row.share(limits) > 1.0), None)
     return over - 1 if over is not None else rows[-1].rods if limits else None
 

@@ -106,7 +106,7 @@ def sliding(scene: Scene, analysis: str) -> Linear | None:
 
 
 def at_rest(scene: Scene, analysis: str, refused: bool) -> Linear:
-    """The state of a string that does not turn. refused: in the place of a sliding state, without friction whatever the scene says."""
+    """The state of a string that does not turn. refused: instead of a sliding state, without friction in any case."""
     static = {key: value for key, value in scene.fields_of("static").items() if key not in ("slip_axial", "slip_rotation")}
     options = scene.fields_of(analysis)
     if refused:

@@ -46,7 +46,7 @@ class FirstTenth:
         return {"until": self.until, "start": self.start, "balance": self.balance}
 
     def take_up(self, kept: dict[str, Any]) -> None:
-        """Of a run that goes on."""
+        """Of a run that continues."""
         self.until, self.start, self.balance = kept["until"], kept["start"], kept["balance"]
 
 
@@ -84,7 +84,7 @@ class TurnAStep:
         return {"interval": self.interval, "most": self.most, "time": self.time, "turns": self.turns}
 
     def take_up(self, kept: dict[str, Any]) -> None:
-        """Of a run that goes on."""
+        """Of a run that continues."""
         self.interval, self.most, self.time, self.turns = kept["interval"], kept["most"], kept["time"], kept["turns"]
 
     def report(self, out: CommandOutput) -> None:
@@ -136,7 +136,7 @@ class LastPart:
         return {"begin": self.begin, "rows": need("numpy").array(self.recorder.table), "state": self.state or b""}
 
     def take_up(self, kept: dict[str, Any]) -> None:
-        """Of a run that goes on."""
+        """Of a run that continues."""
         self.begin, self.state = kept["begin"], kept["state"] or None
         self.recorder.take_up(kept["rows"])
 

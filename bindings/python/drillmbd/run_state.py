@@ -1,4 +1,4 @@
-"""The state of a run in time, kept in the folder of its results, from which the same command goes on after Ctrl-C, or after the machine
+"""The state of a run in time, kept in the folder of its results, from which the same command continues after Ctrl-C, or after the machine
 went down. It is written whole or not at all, and is gone when the run is complete."""
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Kept(Protocol):
         """Numbers, texts and lists of them, bytes, arrays of numpy."""
 
     def take_up(self, kept: dict[str, Any]) -> None:
-        """Goes on from what another one of the same run has kept."""
+        """Continues from the state that another one of the same run has stored."""
 
 
 class KeptRecorder:
@@ -79,11 +79,11 @@ class RunState:
     # ---- Going on ---------------------------------------------------------------------------------------------------
     @property
     def begun(self) -> bool:
-        """Whether there is a state to go on from."""
+        """Whether there is a stored state."""
         return self.read is not None
 
     def take_up(self, parts: dict[str, Kept]) -> dict[str, Any]:
-        """Parts that are kept from now on. Where there is a state, sim and parts go on from it; its scalars."""
+        """Parts that are kept from now on. Where there is a state, sim and parts continue from it; its scalars."""
         self.parts = parts
         if self.read is None:
             return {}
@@ -94,8 +94,8 @@ class RunState:
                 part.take_up(_unpacked(meta["parts"][name], arrays))
             scalars = _unpacked(meta["scalars"], arrays)
         except (Error, KeyError, ValueError, TypeError) as error:
-            raise Usage(f"{self.path}: cannot be read ({error}); remove it, and the run begins anew") from None
-        self.out.note_text(phrase("the run goes on at {time:g} s, up to which it was computed before; remove {file} to begin anew", time=self.sim.time,
+            raise Usage(f"{self.path}: cannot be read ({error}); remove it, and the run starts again") from None
+        self.out.note_text(phrase("the run continues at {time:g} s, up to which it was computed before; remove {file} to start again", time=self.sim.time,
                                      file=str(self.path)))
         return scalars
 
@@ -109,11 +109,11 @@ class RunState:
             meta = json.loads(arrays.pop("meta").tobytes().decode())
             same = meta["identity"] == self.identity
         except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
-            self._said(phrase("{file} cannot be read; the run begins anew", file=str(self.path)))
+            self._said(phrase("{file} cannot be read; the run starts again", file=str(self.path)))
             return None
         if same:
             return meta, arrays
-        self._said(phrase("{file} is of another scene, other options or another version; the run begins anew", file=str(self.path)))
+        self._said(phrase("{file} is of another scene, other options or another version; the run starts again", file=str(self.path)))
         return None
 
     def _said(self, text: Phrase) -> None:
@@ -145,10 +145,10 @@ class RunState:
             self.kept_at = time.monotonic()
 
     def stopped(self, end: float, scalars: dict[str, Any]) -> None:
-        """After Ctrl-C: keeps the state, and says how to go on."""
+        """After Ctrl-C: stores the state, and says how to continue."""
         time_, kept = self.sim.time, self.keep(scalars)
-        text = (phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command goes on from there", time=time_, end=end) if kept else
-                phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command begins anew", time=time_, end=end))
+        text = (phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command continues from there", time=time_, end=end) if kept else
+                phrase("stopped by Ctrl-C at {time:g} s of {end:g} s; the same command starts again", time=time_, end=end))
         self.out.stopped(text)
 
     def done(self) -> None:

@@ -1,4 +1,4 @@
-"""The way in which each command answers for a scene: warnings first, then the results, progress meanwhile; whatever ends it leaves a
+"""The run of a command: warnings first, then the results, with progress; any end of it leaves a
 summary with the exit status and the time that it took."""
 from __future__ import annotations
 

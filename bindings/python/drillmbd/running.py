@@ -101,7 +101,7 @@ class Lengths:
 
 class Bar:
     """A progress function that shows a bar on the terminal: by tqdm where it is there, else a line of its own. It shows
-    nothing where nobody looks."""
+    nothing where no terminal is there."""
 
     def __init__(self, begin: float, end: float, stream: IO[str] | None = None) -> None:
         self.bar: Any = None

@@ -93,8 +93,8 @@ class Sim(Handle, analysis.Analyses):
     @mirrors("dmb_sim_set_progress")
     def on_progress(self) -> Callable[[float], Any] | None:
         """function(fraction): called with 0 .. 1 at bounded intervals of step, advance and analyses. It ends the call by
-        returning what is true (ERR_CANCELLED; advance returns NOTE_CANCELLED) or by raising, which comes out of the call.
-        None: nobody is told."""
+        returning True (ERR_CANCELLED; advance returns NOTE_CANCELLED) or by raising, which comes out of the call.
+        None: no callback (default)."""
         return self._teller.function
 
     @on_progress.setter
@@ -144,7 +144,7 @@ class Sim(Handle, analysis.Analyses):
 
     @mirrors("dmb_sim_advance_to_event")
     def advance_to_event(self, time: float) -> list[str]:
-        """Advances to the first event on the way to time [s]: the names of those told there, at sim.time. None: [], and
+        """Advances to the first event before time [s]: the names of the events there, at sim.time. None: [], and
         the sim is at `time`, or where its max_steps or the progress function ended it."""
         report: EventReport = EventReport.blank()
         self._check(self._teller.long_call(self._handle, _advance_to_event, real(time, "advance", "time", "s"),
@@ -156,12 +156,12 @@ class Sim(Handle, analysis.Analyses):
             counters: Sequence[Taker] = (), begin: float | None = None) -> Progress:
         """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
         a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
-        recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows.
-        progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true, stops the
-        run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on,
+        recorder takes a row after each step, and so do counters: objects with a take(), as fatigue and windows.
+        progress(Progress) is called each `every` seconds by the clock and at the end; True, if it is returned, stops the
+        run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can continue,
         and the recorder has all rows so far. The answer has the notes of all steps; a full recorder, and steps above their
         tolerance, are a RuntimeWarning too. begin: of a run
-        that goes on from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
+        that continues from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
         at = self.run_noting(end, step, recorder, progress, every, counters, begin)
         warn_of(at)
         return at
@@ -206,7 +206,7 @@ class Sim(Handle, analysis.Analyses):
 
     @mirrors("dmb_sim_transfer_state")
     def transfer_state(self, other: Sim) -> int:
-        """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
+        """Continues from the state of `other`, a sim of another model: pipes may have come or gone at the rig end."""
         if not isinstance(other, Sim):
             refuse_type("state transfer", "other", other, "be a Sim")
         return self._check(_lib.dmb_sim_transfer_state(self._handle, other._handle))

@@ -124,7 +124,7 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
     longest = max(one.end for one in courses)
     out.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} processes; rotation and feed are "
                f"started within {RAMP:g} s, loads on bits within {RAMP:g} s more; the last {courses[-1].end - courses[-1].settle:.3g} to "
-               f"{max(one.end - one.settle for one in courses):.3g} s are judged")
+               f"{max(one.end - one.settle for one in courses):.3g} s are evaluated")
     started = time.perf_counter()
     results = []
     for one in _run_all(courses):

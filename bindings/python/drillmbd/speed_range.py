@@ -1,4 +1,4 @@
-"""Critical bands over the range of what the scene gives as uncertain in [variability]: diameters, friction and all else that scatters."""
+"""Critical bands over the range of the uncertain parameters in [variability]: diameters, friction and all else that scatters."""
 from __future__ import annotations
 
 import itertools

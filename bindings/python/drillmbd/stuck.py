@@ -1,4 +1,4 @@
-"""A string whose far end is stuck: what of the rig's pull, push and torque arrives there, and how deep it is free."""
+"""A string whose far end is stuck: pull, push and torque of the rig that arrive there, and how deep it is free."""
 from __future__ import annotations
 
 import math

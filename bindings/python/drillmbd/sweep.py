@@ -1,4 +1,4 @@
-"""One question asked of a scene for all combinations of some of its values, and the numbers of the answers in one table."""
+"""One command for all combinations of some values of a scene, and the numbers of the answers in one table."""
 from __future__ import annotations
 
 import csv
@@ -194,7 +194,7 @@ def sweep(question: str, vary: list[tuple[str, list[Any]]], load: Callable[[dict
             found.case(values, load, file, options)
         status = FAILED if found.failed or not found.rows else 0
     except KeyboardInterrupt:
-        found.say("stopped by Ctrl-C" + ("; the same command goes on from here" if target is not None else ""))
+        found.say("stopped by Ctrl-C" + ("; the same command continues from here" if target is not None else ""))
     except BaseException:
         found.finish(FAILED, file)
         raise

@@ -25,7 +25,7 @@ def worst(verdicts: Iterable[str]) -> str:
 
 @dataclass
 class Tile:
-    """One answer: what was asked, the value, its explanation, the verdict."""
+    """One result: its name, the value, its explanation, the verdict."""
     title: str
     value: str
     text: str

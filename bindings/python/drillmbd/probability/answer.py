@@ -1,4 +1,4 @@
-"""The answer of a study: probabilities with intervals, demands, what they go with, cost; on the terminal, in summary.json, as tables."""
+"""The answer of a study: probabilities with intervals, demands, rank correlations, cost; on the terminal, in summary.json, as tables."""
 from __future__ import annotations
 
 import argparse
@@ -115,7 +115,7 @@ class Answer:
 
     def stopped(self, study: Study) -> None:
         """A note that Ctrl-C ended it."""
-        more = "; the same command goes on from there" if study.file is not None else ""
+        more = "; the same command continues from there" if study.file is not None else ""
         self.output.stopped(f"stopped by Ctrl-C after {len(study.results)} samples, before there were estimates{more}")
 
     def _progress(self, at: Progress) -> None:
@@ -157,7 +157,7 @@ class Answer:
         self.table(results)
 
     def _until(self, study: Study, points: Points) -> list[Result]:
-        """Results in growing number, until the estimate of what is asked about meets the rule."""
+        """Results in growing number, until the estimate meets the rule."""
         numpy, asked, count = need("numpy"), self.asked, 0
         assert asked.rule is not None
         while True:
@@ -169,7 +169,7 @@ class Answer:
                 return results
 
     def say_demands(self, results: list[Result]) -> None:
-        """Percentiles of the demands and what they go with."""
+        """Percentiles and rank correlations of the demands."""
         numpy = need("numpy")
         demands, inputs = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs"))
         for i, one in enumerate(self.asked.failures):
@@ -186,10 +186,10 @@ class Answer:
     def _say_matters(self, found: Demand) -> None:
         counting = [one for one in found.matters if abs(one.rank) > one.least]
         if not found.matters:
-            self.output.say(f"{found.failure.name}: what it goes with is not assessed, because the demand is the same in all samples or there are "
+            self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same in all samples or there are "
                             "fewer than 10")
             return
-        told = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of what varies"
+        told = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of the uncertain parameters"
         self.output.say(f"{found.failure.name}: goes with {told} (rank correlation; below {found.matters[0].least:.2f} is chance)")
 
     def _surrogate(self, z: Any, margins: Any) -> None:
@@ -224,7 +224,7 @@ class Answer:
                                                                   *found.total_interval[i]))])
         self.output.summary["indices"] = {row[0]: {"first": row[1:4], "total": row[4:7]} for row in rows}
         self.output.summary["indices_lost_rows"] = found.lost
-        self.output.table("indices.csv", ["what varies", "first order", "low", "high", "total", "low", "high"], rows)
+        self.output.table("indices.csv", ["parameter", "first order", "low", "high", "total", "low", "high"], rows)
 
     # ---- The end -----------------------------------------------------------------------------------------------------
     def table(self, results: list[Result]) -> None:

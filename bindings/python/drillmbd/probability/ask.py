@@ -1,4 +1,4 @@
-"""The question `drillmbd probability`: a study of a scene file by an engine, its estimates told and written."""
+"""The question `drillmbd probability`: a study of a scene file by an engine, its estimates printed and written."""
 from __future__ import annotations
 
 import argparse
@@ -18,12 +18,12 @@ from .study import StudyError
 
 LEAST = """[variability]
 samples = 100
-[[variability.scatter]]        # what is uncertain
+[[variability.scatter]]        # an uncertain parameter
 key = "hole.mu_dynamic"
 distribution = "uniform"
 low = 0.2
 high = 0.4
-[[failure]]                    # what must not happen
+[[failure]]                    # a failure
 kind = "stress"
 strength = "500 MPa"
 """
@@ -58,7 +58,7 @@ def probability(options: argparse.Namespace) -> int:
     known = load(path)  # SceneError tells what is wrong
     if known.variability is None or not known.failures:
         missing = " and ".join(name for name, there in (("[variability]", known.variability), ("[[failure]]", known.failures)) if not there)
-        raise Usage(f"{path} has no {missing}; the least is\n\n" + LEAST)
+        raise Usage(f"{path} has no {missing}, for example:\n\n" + LEAST)
     question = options.question or known.variability.question
     sample = SceneSample(path.read_text(encoding="utf-8-sig"), str(path), str(path.parent.resolve()), _own(options.own),
                          asked="run" if question == "auto" else question)

@@ -6,7 +6,7 @@ torque and drag predict, and with B+ and B- the shares of the others that fail i
 
     P = A + B+ - B-                                                                (difference estimator, Cochran 1977, section 12)
 
-is unbiased whatever torque and drag leave out. Failures that only a run shows are predicted in no sample: B+ alone finds them."""
+is unbiased although torque and drag is a simpler model. Failures that only a run shows are predicted in no sample: B+ alone finds them."""
 from __future__ import annotations
 
 import math
@@ -40,7 +40,7 @@ def chosen(seed: int, number: int, part: float) -> bool:
 
 @dataclass
 class Stage:
-    """Samples of both stages: what torque and drag predict, which of them are near a limit, which are run, which fail in time."""
+    """Samples of both stages: predictions of torque and drag, which of them are near a limit, which are run, which fail in time."""
     predicted: Any
     near: Any
     ran: Any      #: with a margin

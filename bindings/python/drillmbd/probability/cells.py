@@ -71,7 +71,7 @@ class Map:
             for number, values in enumerate(itertools.product(*(listed for _, listed in self.vary)), 1):
                 self.cells.append(self._cell(number, dict(zip((key for key, _ in self.vary), values))))
         except KeyboardInterrupt:
-            self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells" + ("; the same command goes on from there" if self.output.folder else ""))
+            self.output.stopped(f"stopped by Ctrl-C after {len(self.cells)} cells" + ("; the same command continues from there" if self.output.folder else ""))
         if any(one.message for one in self.cells) or not self.cells:
             status = FAILED
         if len({one.dimension for one in self.cells if not one.message}) > 1:

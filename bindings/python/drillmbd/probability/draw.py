@@ -62,7 +62,7 @@ class Draw:
         self.dimension = sum(self.sizes)
 
     def _refuse_both(self) -> None:
-        """A time function that a process makes anew forgets what scatters in it."""
+        """A time function that a process replaces loses its scattered values."""
         for one in self.varies.processes:
             key = f"time_function[{self._time_function_number(one)}]"
             if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters for name in scatter.keys) \

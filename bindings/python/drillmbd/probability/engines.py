@@ -26,7 +26,7 @@ SUBMISSIONS = 3  #: of a sample to a Dask cluster that loses it
 
 
 def lost(sample: Any, task: tuple[int, Any], message: str) -> Any:
-    """The result of a task that nobody could compute: of its sample, or a list of those of its samples (Blocks)."""
+    """The result of a task that no worker could compute: of its sample, or a list of those of its samples (Blocks)."""
     number, z = task
     if isinstance(z, list):
         return [lost(sample, one, message) for one in z]
@@ -205,7 +205,7 @@ def mpi_together() -> Iterator[None]:
 
 
 def mpi_work(sample: Any) -> None:
-    """Ranks above 0 compute samples until they are told to end."""
+    """Ranks above 0 compute samples until rank 0 ends them."""
     mpi = need("mpi4py.MPI")
     world, status = mpi.COMM_WORLD, mpi.Status()
     while True:
@@ -304,7 +304,7 @@ NAMES = ("serial", "threads", "processes", "mpi", "dask")
 
 
 def engine(name: str, workers: int | None = None, address: str | None = None) -> Any:
-    """An engine by its name; workers: as many as there are processors."""
+    """An engine by its name; workers: by default the number of processors."""
     count = workers or len(os.sched_getaffinity(0))
     if name == "threads":
         return threads(count)

@@ -155,7 +155,7 @@ class Subset:
         return False
 
     def _hopeless(self, going: list[int], left: int) -> str:
-        """Why the replicates that go on will not see a failure: their thresholds fall so slowly that HOPE times the levels that are left would
+        """Why the replicates that continue will not reach a failure: their thresholds fall so slowly that HOPE times the levels that are left would
         not do. "" where they may."""
         if not going or any(len(self.thresholds[r]) < 3 for r in going):
             return ""
@@ -168,7 +168,7 @@ class Subset:
                 "for plain samples and their percentiles")
 
     def _level(self, evaluate: Evaluate, going: list[int], z: Any, margins: Any, steps: Any, used: list[int]) -> None:
-        """One more level of the replicates that go on, all chains side by side."""
+        """One more level of the replicates that continue, all chains side by side."""
         numpy = need("numpy")
         order = {r: numpy.argsort(margins[r], kind="stable")[:self.chains] for r in going}
         level = {r: 0.5 * (margins[r][order[r][-1]] + numpy.sort(margins[r])[self.chains]) for r in going}
@@ -201,7 +201,7 @@ class Subset:
 
 # ---- FORM --------------------------------------------------------------------------------------------------------------
 def _function(evaluate: Evaluate, dimension: int) -> Any:
-    """An OpenTURNS function; samples are numbered as they are asked for."""
+    """An OpenTURNS function; samples are numbered in the order of the calls."""
     ot, numpy = need("openturns"), need("numpy")
     count = [0]
 
@@ -334,7 +334,7 @@ def plan(dimension: int, samples: int, degree: int = 4) -> Plan:
 
 
 class Surrogate:
-    """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The rest tells
+    """A polynomial chaos of the margin (sparse, by least angle regression, OpenTURNS), fitted to 4 of 5 samples. The others give
     its error (eq:probability.surrogate): q2 = 1 - mean square error/variance, the root mean square error, and how many
     margins have the wrong sign."""
 

@@ -1,4 +1,4 @@
-"""Limit states: what a run shows of each failure, and its margin. A limit state asks for signals (series in time, looked at
+"""Limit states: demand of a run for each failure, and its margin. A limit state asks for signals (series in time, looked at
 in regular intervals) and makes one number of them, the demand; the margin is limit - demand (demand - limit where
 little is bad; eq:probability.margin), below 0 in a failure."""
 from __future__ import annotations
@@ -172,7 +172,7 @@ BESIDE = ("own", "leaves-seam")  #: kinds that a sample finds from its scene, no
 def margin_of(failure: Failure, demand: float) -> float:
     """limit - demand, or demand - limit where little is bad. NaN is refused: it is no margin."""
     if math.isnan(demand):
-        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks what {failure.kind} is about")
+        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks the parts that {failure.kind} needs")
     return demand - failure.limit if KINDS[failure.kind].low else failure.limit - demand
 
 
@@ -261,7 +261,7 @@ class Watch:
         return found
 
     def margins(self, more: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-        """Margin and demand of each failure, by its name; more: added to demands by kind, as what a static state lacks."""
+        """Margin and demand of each failure, by its name; more: added to demands by kind, for parts that a static state lacks."""
         times, found = need("numpy").array(self.times), {}
         for one in self.failures:
             demand = margin(one, times, self.signals(one))[1] + more.get(one.kind, 0.0) / one.values.get("strength", 1.0)

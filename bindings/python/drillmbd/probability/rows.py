@@ -1,6 +1,6 @@
 """Rows of a study file, an HDF5 file behind a head of its own that describes the study. Each row carries a mark, which is a digest of that
 description, its place among the rows, and a check sum of its bytes. Rows are therefore read from the bytes of the file, without HDF5:
-damage is found, sound rows are recovered whatever else is damaged, and no reader waits, as HDF5 does (SWMR) where a check sum of its own is
+damage is found, sound rows are recovered beside damaged ones, and no reader waits, as HDF5 does (SWMR) where a check sum of its own is
 wrong."""
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def once(rows: Any) -> Any:
 # ---- Reading ---------------------------------------------------------------------------------------------------------
 @dataclass
 class Content:
-    """A study file as it is read: sound rows, each number once, description, what is wrong with the file."""
+    """A study file as it is read: sound rows, each number once, description, faults of the file."""
     rows: Any
     attributes: dict[str, str] = field(default_factory=dict)
     damage: str = ""
@@ -110,7 +110,7 @@ def _described(data: bytes) -> dict[str, str]:
 
 
 def _rows(data: bytes, kind: Any, mark: int) -> tuple[Any, str]:
-    """Rows by their mark, and what shows that some are damaged or missing. A row without its check sum, which is the last of it to be
+    """Rows by their mark, and evidence that some are damaged or missing. A row without its check sum, which is the last of it to be
     written, was cut off when a process was killed: it is not damage."""
     numpy, wanted, found, wrong = need("numpy"), mark.to_bytes(8, "little"), [], 0
     at = data.find(wanted)

@@ -57,7 +57,7 @@ class Own:
 
     @property
     def source(self) -> str:
-        """Its text, by which a study knows whether it is the same."""
+        """Its text, by which a study checks that it is the same."""
         return f"{pathlib.Path(self.file).read_text(encoding='utf-8')}\n:{self.name}"
 
 
@@ -156,7 +156,7 @@ class SceneSample:
 
     @property
     def inputs(self) -> list[str]:
-        """Of what varies."""
+        """Of the uncertain parameters."""
         return self.draw.varies.names
 
     def describe(self) -> dict[str, str]:
@@ -215,7 +215,7 @@ class SceneSample:
 
     def _looked(self, scene: Scene, sim: Any, values: dict[str, Any], end: float, look: float, more: Mapping[str, float]
                 ) -> list[tuple[float, float]]:
-        """Margins and demands of a sim from now to `end` [s]; more: of demands, what the sim lacks, by kind."""
+        """Margins and demands of a sim from now to `end` [s]; more: of demands, the parts that the sim lacks, by kind."""
         watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.outputs], int(end / look) + 4) \
             if self.own and scene.outputs else None

@@ -36,7 +36,7 @@ Path = tuple[Any, ...]  #: of a number in a description: call, argument, key, ..
 
 
 class NotFast(ValueError):
-    """A scene of which each sample must be read anew, and why."""
+    """A scene of which each sample must be read again, and why."""
 
 
 # ---- Numbers of a description ------------------------------------------------------------------------------------------
@@ -117,7 +117,7 @@ class Places:
     def _verify(self, values: dict[str, Any], wanted: dict[Path, float]) -> None:
         mine = {**_leaves(self.calls), **dict(self.numbers(values))}
         if mine.keys() != wanted.keys() or any(_differ(mine[path], wanted[path]) for path in wanted):
-            raise NotFast("what varies acts together on the numbers of the scene")
+            raise NotFast("several uncertain parameters act on the same numbers of the scene")
 
 
 def put(calls: Any, path: Path, value: float) -> None:
@@ -292,7 +292,7 @@ class SoftString:
             raise NotFast("longer pieces of pipe give other results")
 
     def margins(self, values: dict[str, Any], failures: list[Failure]) -> list[tuple[float, float]]:
-        """Of one sample. Raises Error and what reading the scene raises."""
+        """Of one sample. Raises Error and the errors of reading the scene."""
         soft = self._slow(values) if self.places is None else self._fast(values)
         return [soft_margin(one, soft) for one in failures]
 
@@ -328,7 +328,7 @@ class SoftString:
         """Loads that the answer leaves out, and the reason for long computing times."""
         found = []
         if self.why:
-            found.append(f"torque and drag: each sample reads the scene anew, which takes about ten times as long, because {self.why}")
+            found.append(f"torque and drag: each sample reads the scene again, which takes about ten times as long, because {self.why}")
         if has_rock_law(self.draw.scene):
             found.append("torque and drag: the load and torque of the bit are left out, because a rock law gives them in a run only; ask --question run")
         elif not self._plan(self.draw.scene.model.calls).weight_on_bit:

@@ -1,7 +1,7 @@
 """A study: samples by their numbers, evaluated by an engine, kept in one HDF5 file that can be read while it grows (SWMR).
 
-The file has one table, "samples", a row for each sample in the order in which they came in, and attributes that say what the study is
-of. A run that was killed goes on from the rows that are there. A file of another scene, code or seed is refused."""
+The file has one table, "samples", a row for each sample in the order in which they came in, and attributes that identify the study
+in it. A run that was killed continues from the rows that are there. A file of another scene, code or seed is refused."""
 from __future__ import annotations
 
 import contextlib
@@ -39,7 +39,7 @@ class Sample(Protocol):
 
     @property
     def inputs(self) -> list[str]:
-        """Of what varies."""
+        """Of the uncertain parameters."""
 
     @property
     def dimension(self) -> int:
@@ -61,7 +61,7 @@ def _digest(data: bytes) -> str:
 
 @functools.lru_cache(maxsize=1)
 def code() -> dict[str, str]:
-    """Version of the package, and digests of its files and of the library, as they were when first asked for."""
+    """Version of the package, and digests of its files and of the library, as they were at the first call."""
     root = pathlib.Path(__file__).resolve().parents[1]
     mine = hashlib.sha256()
     for file in sorted(root.rglob("*.py")):
@@ -74,7 +74,7 @@ def code() -> dict[str, str]:
 
 
 def identity(sample: Sample, settings: dict[str, Any]) -> dict[str, str]:
-    """All that the results depend on, by name; long texts as they are, so that a difference can be told."""
+    """All that the results depend on, by name; long texts as they are, so that a difference can be shown."""
     return {**{f"code {key}": value for key, value in code().items()}, **sample.describe(),
             **{f"setting {key}": str(value) for key, value in settings.items()}, "dimension": str(sample.dimension)}
 
@@ -212,7 +212,7 @@ class StudyFile:
             raise
         different = differences(json.loads(found.attributes["study"]), self._known)
         if different:
-            raise StudyError(f"{self.path}: is a study of something else; give another file, or move this one away. What differs:\n  "
+            raise StudyError(f"{self.path}: belongs to a different study; choose another --output folder or move the file. Differences:\n  "
                              + "\n  ".join(different))
         if found.damage:
             raise Damaged(self.path, found.damage, found.rows)
@@ -225,7 +225,7 @@ class StudyFile:
             self._waiting.append(one)
 
     def flush(self) -> None:
-        """Puts what was added into the file. Raises OSError if the disk is full."""
+        """Writes added rows into the file. Raises OSError if the disk is full."""
         if not self._waiting:
             return
         self._still_there()
@@ -266,7 +266,7 @@ class StudyFile:
                          f"its {len(self.results)} finished rows are in {aside.name}, which the same command takes in when it is called again")
 
     def close(self) -> None:
-        """Writes the rest and lets the file go."""
+        """Writes the remaining rows and closes the file."""
         try:
             self.flush()
         finally:

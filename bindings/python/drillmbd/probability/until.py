@@ -26,11 +26,11 @@ class Rule:
     def verdict(self, one: Estimate) -> str:
         """The state of the estimate in words."""
         if self.bound:
-            word = "is below" if one.high < self.bound else "is above" if one.low > self.bound else "is not told apart from"
+            word = "is below" if one.high < self.bound else "is above" if one.low > self.bound else "cannot be distinguished from"
             return f"the probability {word} {self.bound:g}"
         if not one.probability > 0.0:
             return "no sample failed, so that the interval has no relative width"
-        return f"half of the interval is {50.0 * (one.high - one.low) / one.probability:.3g} % of the probability, asked for {100 * self.share:g} %"
+        return f"half of the interval is {50.0 * (one.high - one.low) / one.probability:.3g} % of the probability, requested {100 * self.share:g} %"
 
 
 def rule(text: str) -> Rule:

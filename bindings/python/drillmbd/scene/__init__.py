@@ -1,8 +1,8 @@
-"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units. Frames, angles and signs:
+"""Scene files: a drill string in its hole, its rig and the settings of commands, in TOML with units. Frames, angles and signs:
 examples/conventions/README.md.
 
     from drillmbd import scene
-    rig = scene.load("rig.toml")          # SceneError tells everything that is wrong, with lines
+    rig = scene.load("rig.toml")          # SceneError lists all faults, with lines
     with rig.new_sim() as sim: ...
     scene.save(rig, "copy.toml")
 """

@@ -248,7 +248,7 @@ class Catalogue:
                         "give yield_strength of its certificate")
 
     def _near(self, key: Key, entries: list[Entry]) -> str:
-        """Names of the same size, or those that are spelled alike."""
+        """Names of the same size, or those of similar spelling."""
         same = [one.name for one in entries if key and key_of(one.name)[:1] == key[:1] and isinstance(key[0], float)]
         by_text = {" ".join(map(str, key_of(one.name))): one.name for one in entries}
         close = same or [by_text[one] for one in difflib.get_close_matches(" ".join(map(str, key)), by_text, 3, 0.5)]

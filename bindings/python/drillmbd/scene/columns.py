@@ -260,7 +260,7 @@ def _cell(text: str, one: _Place, missing: str, comma: bool) -> Cell:
 
 
 def _is_missing(text: str, one: _Place, missing: str) -> bool:
-    """The sign of a LAS file, in whatever number of digits, or a usual one. 999 and 9999 are depths, too."""
+    """The sign of a LAS file, in any number of digits, or a usual one. 999 and 9999 are depths, too."""
     if missing and (text == missing or _same_number(text, missing)):
         return True
     return bool(_MISSING.fullmatch(text)) and not (one.column.key == "depth" and text[0] == "9")

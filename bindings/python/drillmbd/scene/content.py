@@ -1,4 +1,4 @@
-"""A scene: a compiled model with the names of its parts, and what is to be asked of it."""
+"""A scene: a compiled model with the names of its parts, and the settings of commands."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping

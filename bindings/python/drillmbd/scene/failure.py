@@ -1,4 +1,4 @@
-"""[[failure]] of a scene file: what counts as a failure, each a kind with its limit. The margins are found by
+"""[[failure]] of a scene file: failures, each a kind with its limit. The margins are found by
 drillmbd.probability.limits."""
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Key:
 
 @dataclass(frozen=True)
 class Kind:
-    """A limit state. This registry is all that the other modules know of a kind; the functions that find its demand from a run, a static
+    """A limit state. Other modules use a kind through this registry only; the functions that find its demand from a run, a static
     state or torque and drag stand beside it by the same name in drillmbd.probability.limits."""
     unit: str                           #: of demand and limit
     about: str

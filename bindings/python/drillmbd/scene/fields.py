@@ -114,7 +114,7 @@ class ValueProblem(ValueError):
 
 
 def read(field: Field, value: Any, unit: str | None = None) -> Any:
-    """The plain value (SI) of what is written for a field; ids and places are left to the caller."""
+    """The plain value (SI) of a field as written; ids and places are left to the caller."""
     if field.count:
         if not isinstance(value, list) or len(value) != field.count:
             raise ValueProblem(f"must be an array of {field.count}" + _shape(value, field.count))
@@ -234,13 +234,13 @@ def excitation_unit(kind: int, component: int) -> str:
 
 
 def event_fields() -> dict[str, Field]:
-    """The keys of an event: those of its struct, with quantity and place in the place of its output."""
+    """The keys of an event: those of its struct, with quantity and place instead of its output."""
     known = {key: field for key, field in fields_of(_structs.EventDef).items() if key not in ("output", "name")}
     return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
 
 
 def unit_of_output(quantity: int, setting: str | None, component: int | None) -> str:
-    """The unit of a output. setting: of the input that it reads, where it goes by that; component: of the drive that it
+    """The unit of an output. setting: of the input that it reads, where it depends on it; component: of the drive that it
     is about, by which "N or N m" is a force or a torque."""
     unit = output_unit(quantity) if quantity >= 0 else "-"
     listed = unit.replace("unit of the input", setting or "-").split(" or ")

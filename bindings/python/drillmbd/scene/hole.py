@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from .load import Loader
 
 #: Of a straight hole, in the place of `direction`.
-STRAIGHT = {"inclination": Field("inclination", "quantity", "rad", about="of a straight hole, from the downward vertical; in the place of direction"),
-            "dip": Field("dip", "quantity", "rad", about="of a straight hole, from the horizontal, up positive; in the place of direction"),
+STRAIGHT = {"inclination": Field("inclination", "quantity", "rad", about="of a straight hole, from the downward vertical; instead of direction"),
+            "dip": Field("dip", "quantity", "rad", about="of a straight hole, from the horizontal, up positive; instead of direction"),
             "azimuth": Field("azimuth", "quantity", "rad", about="of a straight hole, clockwise from north (+x) seen from above; default 0")}
 FRICTION, MOST_POINTS, LAWS = "friction_table", 8, ("stribeck", "bristle")
 SURVEY = ("survey", "survey_file", "survey_columns")
@@ -51,7 +51,7 @@ def _course(loader: Loader, path: Path, table: dict[str, Any], values: dict[str,
 
 
 def _friction(loader: Loader, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
-    """The coefficient against the speed of sliding, in the place of the coefficients at its ends."""
+    """The coefficient against the speed of sliding, instead of the coefficients at its ends."""
     if FRICTION not in table:
         return
     found = len(loader.problems.found)

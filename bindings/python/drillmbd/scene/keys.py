@@ -32,7 +32,7 @@ _TEXT = {"pipe": ("", "", 'name of a catalogue, as "5 in 19.50 S135" or "phi 73 
          "survey_file": ("", "", "file of the survey: CSV, text with blanks, LAS 2.0, Excel"),
          "survey_columns": ("", "", 'heads of the columns in their order, as ["depth [m]", "dip [deg]", "azimuth [deg]"]'),
          "friction_table": ("", "", 'pairs of speed of sliding and coefficient, as [["0 m/s", 0.5], ["70 mm/s", 0.5], ["80 mm/s", 0.24]] (static until '
-                            "70 mm/s), in the place of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or bristle"),
+                            "70 mm/s), instead of mu_static, mu_dynamic and stribeck_speed; friction_law stribeck or bristle"),
          "table": ("", "", 'pairs, as [["0 s", "0 kN"], ["2 s", "8 kN"]]')}
 
 

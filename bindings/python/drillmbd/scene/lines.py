@@ -1,4 +1,4 @@
-"""On which line of a TOML text a key stands. tomllib reads the text and tells no lines."""
+"""On which line of a TOML text a key stands. tomllib reads the text and gives no lines."""
 from __future__ import annotations
 
 import re
@@ -40,8 +40,8 @@ def _depth_after(line: str, depth: int, quote: str) -> tuple[int, str, str]:
 
 
 def scan(text: str) -> Iterator[tuple[Path, str, bool]]:
-    """For each line the path of the key or table that begins or goes on in it, its comment ("" if it has none), and whether the
-    key or table begins there. Keys in inline tables count as what they stand in."""
+    """For each line the path of the key or table that begins or continues in it, its comment ("" if it has none), and whether the
+    key or table begins there. Keys in inline tables count as the key that holds them."""
     counts: dict[Path, int] = {}
     table: Path = ()
     key: Path = ()
@@ -63,7 +63,7 @@ def scan(text: str) -> Iterator[tuple[Path, str, bool]]:
 
 
 def find_lines(text: str) -> dict[Path, int]:
-    """{path: line from 1}. Keys in inline tables have the line of what they stand in."""
+    """{path: line from 1}. Keys in inline tables have the line of the key that holds them."""
     found: dict[Path, int] = {(): 1}
     for number, (path, _, begins) in enumerate(scan(text), 1):
         if begins:

@@ -1,4 +1,4 @@
-"""Reads a scene file and makes its model; tells everything that is wrong with it at once."""
+"""Reads a scene file and makes its model; reports all its faults at once."""
 from __future__ import annotations
 
 import copy
@@ -34,7 +34,7 @@ USUAL_DAMPING = 1e-4
 
 
 def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
-    """The scene of a TOML file; changes: values by their keys, "hole.diameter", in place of what is written. Raises
+    """The scene of a TOML file; changes: values by their keys, "hole.diameter", instead of those of the file. Raises
     SceneError with everything that is wrong, OSError where it cannot be read."""
     path = pathlib.Path(path)
     try:
@@ -50,7 +50,7 @@ def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
 
 
 def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[str, Any] | None = None) -> Scene:
-    """The scene of a TOML text; files that it names are looked for in `folder`."""
+    """The scene of a TOML text; files that it names are searched in `folder`."""
     import tomllib
     try:
         content = tomllib.loads(text)
@@ -195,7 +195,7 @@ class Loader:
         return name if isinstance(name, str) and name else by_number
 
     def _find_time_function_units(self) -> None:
-        """A time function has the unit of what it is used for."""
+        """A time function has the unit of the drive, load or bit that uses it."""
         uses: list[tuple[Path, Any, str]] = []
         for path, table in self.parts("drive"):
             uses += [(path + (key,), table.get(key), self.drive_unit(table)) for key in ("time_function", "excitation")]
@@ -221,7 +221,7 @@ class Loader:
     # ---- One table --------------------------------------------------------------------------------------------------
     def read(self, path: Path, table: dict[str, Any], known: dict[str, Field], extra: tuple[str, ...] = (),
              unit_of: Callable[[str], str | None] = lambda name: None) -> dict[str, Any]:
-        """The plain values of a table; what is wrong becomes a problem and is left out. `extra` keys are the caller's."""
+        """The plain values of a table; wrong ones become problems and are left out. `extra` keys are the caller's."""
         found = {}
         for key, value in table.items():
             if key in extra:
@@ -263,7 +263,7 @@ class Loader:
                               + meant(str(value), [name for name, kind in self.kinds.items() if kind in kinds]))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value].replace('_', ' ')} that is made after this; time functions come first, "
-                                           "then strings, subs, bodies, bits, rings, joints, couplings, drives, loads, springs, "
+                                           "then strings, subs, bodies, bits, stabilisers, joints, couplings, drives, loads, springs, "
                                            "stuck places, inputs")
         return None
 
@@ -291,7 +291,7 @@ class Loader:
 
     # ---- Parts into the model ---------------------------------------------------------------------------------------
     def add(self, path: Path, add: Callable[..., Any], struct: Any, values: dict[str, Any]) -> Any:
-        """The id of what was added. Each field that the library refuses becomes a problem; it is left out then, so that
+        """The id of the added part. Each field that the library refuses becomes a problem; it is left out then, so that
         the next one is found."""
         values = dict(values)
         while True:
@@ -317,7 +317,7 @@ class Loader:
                 return None
 
     def _follows_from_refused(self, path: Path, name: str, values: dict[str, Any], text: str) -> bool:
-        """Whether the library refuses a default in the place of a value that was refused, or a value beside it."""
+        """Whether the library refuses a default instead of a value that was refused, or a value beside it."""
         refused = self.problems.refused_below(path) & set(self.table(path))
         return (name in refused and name not in values) or any(re.search(rf"\b{one}\b", text) for one in refused - {name})
 
@@ -582,7 +582,7 @@ class Loader:
                      if self.name("input", number, one) == name), None)
 
     def _setting_units(self, known: dict[str, Field], table: dict[str, Any]) -> dict[str, str]:
-        """Units of an input: those of what it moves."""
+        """Units of an input: those of the quantity that it sets."""
         part, drive = table.get("part"), None
         for number, (_, one) in enumerate(self.parts("drive")):
             if self.name("drive", number, one) == part:

@@ -74,10 +74,21 @@ static = true
 [results]
 interval = "20 ms"
 
+[[output]]                     # columns of run.csv; names of quantities: drillmbd schema, or include/drillmbd/output.h
+name = "torque at the rig [N m]"
+quantity = "drive-force"
+place = "rotation drive"
+
+[[output]]
+name = "thrust at the rig [N]"
+quantity = "drive-force"
+place = "feed drive"
+
 # Speeds to avoid: eccentric pipes excite the string once a revolution; the amplitude in the middle of the string may be {clearance}.
 [speeds]
 [[speeds.order]]
 [[speeds.output]]
+name = "middle of the string"
 component = "z"
 place = {{part = "rods", pipe = {middle}, fraction = 0.5}}
 limit = "{clearance}"
@@ -101,7 +112,7 @@ deviation = "12 %"             # 0.25 to 0.40 about 0.33 are two deviations to e
 name = "diameter of the hole"
 key = "hole.diameter"
 relative = true
-distribution = "triangular"    # an assumption: coal breaks out; a calliper log knows better
+distribution = "triangular"    # an assumption: coal breaks out; replace it by a calliper log
 low = 1
 mode = 1.02
 high = 1.15
@@ -111,7 +122,7 @@ name = "load of the rock"
 time_function = "bit load"
 distribution = "gamma"
 mean = 1
-deviation = "20 %"             # an assumption: records of the feed pressure know better
+deviation = "20 %"             # an assumption: replace it by records of the feed pressure
 correlation_time = "0.5 s"
 
 [[failure]]
@@ -133,7 +144,7 @@ strength = "550 MPa"           # of your pipes; left out: [limits] yield_stress
 [[failure]]
 kind = "helical-buckling"      # limit 1: the load at which the string becomes a helix
 """
-_COMMENTED = "\n# How often does it fail? Take the # before the lines below away, put in your own values, and ask: drillmbd probability FILE\n" + "".join(
+_COMMENTED = "\n# How often does it fail? Take the # before the lines below away, put in your own values, and run: drillmbd probability FILE\n" + "".join(
     f"# {line}".rstrip() + "\n" for line in _VARIABILITY.splitlines())
 
 _STRAIGHT = """# A surveyed hole instead of dip and azimuth: survey_file = "survey.csv", with heads "depth [m], dip [deg], azimuth [deg]"

@@ -20,7 +20,7 @@ class NoNumber(ValueError):
 
 
 def split(text: str) -> tuple[Decimal, str, bool]:
-    """The number at the beginning, the rest, and whether a sign of a diameter stands before it. Raises NoNumber."""
+    """The number at the beginning, the remaining text, and whether a sign of a diameter stands before it. Raises NoNumber."""
     if len(text) > _MOST:
         raise NoNumber("is too long for a number with its unit")
     text = plain(_spelled_fractions(text))

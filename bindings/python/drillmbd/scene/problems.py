@@ -51,7 +51,7 @@ class Problems:
         self.remarks = list[Problem]()  # what was assumed, or looks wrong
 
     def remark(self, path: Path, value: Any, text: str) -> None:
-        """Something to know about a value that is accepted; nothing where the text is empty."""
+        """A note about a value that is accepted; nothing where the text is empty."""
         if text and not any(one.key == dotted(path) and one.text == text for one in self.remarks):
             self.remarks.append(Problem(line_of(self.lines, path), dotted(path), value, text))
 
@@ -79,7 +79,7 @@ def dotted(path: Path) -> str:
 
 
 def meant(word: str, known: Iterable[str]) -> str:
-    """A suggestion for a misspelt word, or what is possible."""
+    """A suggestion for a misspelt word, or the possible words."""
     known = sorted(set(known))
     close = difflib.get_close_matches(word, known, 1, 0.6)
     if close:

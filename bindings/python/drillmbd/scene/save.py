@@ -29,11 +29,11 @@ SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("
 
 
 class CannotSave(ValueError):
-    """A model with what a file cannot say, as functions of Python."""
+    """A model with parts that a file cannot describe, as functions of Python."""
 
 
 def save(scene: Scene | Model, path: Any) -> None:
-    """Writes the file. Raises CannotSave where the model has what a file cannot say."""
+    """Writes the file. Raises CannotSave where the model has parts that a file cannot describe."""
     pathlib.Path(path).write_text(saves(scene), encoding="utf-8")
 
 
@@ -128,7 +128,7 @@ class Writer:
         self.pipes.setdefault(string.index, []).append((count, plain))
 
     def _units(self) -> dict[int, str]:
-        """The unit of every time function, by what uses it."""
+        """The unit of every time function, by the part that uses it."""
         found = {}
         for _, drive in self.parts.get("drive", []):
             unit = fields.drive_unit(drive.get("kind", 0), drive.get("component", 0))
@@ -138,7 +138,7 @@ class Writer:
         return found
 
     def _constants(self) -> dict[int, tuple[float, str]]:
-        """Time functions that the file gives as a value in the place of a name."""
+        """Time functions that the file gives as a value instead of a name."""
         if self.scene is None:
             return {}
         known = self._units()

@@ -38,7 +38,7 @@ FATIGUE_BOUNDS: dict[str, tuple[str, Callable[[float], bool]]] = {
 
 
 class Asked:
-    """Reads what is asked into the scene, with the names and tables of a loader."""
+    """Reads the settings of commands into the scene, with the names and tables of a loader."""
 
     def __init__(self, loader: Loader) -> None:
         self.loader = loader
@@ -99,7 +99,7 @@ class Asked:
         return values
 
     def _curve(self, table: dict[str, Any], values: dict[str, Any]) -> None:
-        """The S-N curve has to be told; the bounds are those of dmb_fatigue_create. Fatigue is counted in a run."""
+        """The S-N curve is required; the bounds are those of dmb_fatigue_create. Fatigue is counted in a run."""
         for key in ("curve_stress", "slope"):
             if key not in table:
                 self.loader.problems.add(("fatigue",), None, f"must have a {key}, of the S-N curve of the pipes")

@@ -124,7 +124,7 @@ def replaced(content: Any, path: Path = ()) -> Iterable[Comment]:
 
 def decorated(lines: list[tuple[str, Path | None]], source: Source) -> list[str]:
     """The lines of a saved file, each with the path that it has in the source, with the comments of the source beside them. A
-    comment of a key that is not saved stands before its table; one of a table that is not saved before the first line of what is
+    comment of a key that is not saved stands before its table; one of a table that is not saved before the first line of the part that is
     in it; else at the top."""
     places: dict[Path, int] = {}
     for number, (_, path) in enumerate(lines):

@@ -47,7 +47,7 @@ class Station:
 
 @dataclass
 class Survey:
-    """Stations as the library takes them, with what a reader should know."""
+    """Stations as the library takes them, with notes for the reader."""
     rows: list[list[float]]                          #: depth [m], inclination, azimuth [rad]
     by_dip: bool
     heads: dict[str, str] = field(default_factory=dict)

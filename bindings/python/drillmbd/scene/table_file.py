@@ -190,7 +190,7 @@ def _excel(path: pathlib.Path) -> Table:
 
 
 def _mark_formulas(sheet: Any, table: Table) -> None:
-    """Cells that are empty because nobody has computed their formula become that formula."""
+    """Cells that are empty because their formula was not computed become that formula."""
     rows = {row.line: row for row in table.rows if not all(row.cells)}
     if not rows:
         return

@@ -1,5 +1,5 @@
 """Names of units: those of the SI and those of the trade, with the factor to SI and the powers of metre, kilogram,
-second and radian. A line is: names, value, names of what the value counts, prefixes. The first name is the usual one."""
+second and radian. A line is: names, value, names of the unit that the value counts, prefixes. The first name is the usual one."""
 from __future__ import annotations
 
 import functools

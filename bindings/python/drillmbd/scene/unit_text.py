@@ -22,11 +22,11 @@ MOST = 60  # characters of a unit
 
 
 class UnknownUnit(ValueError):
-    """A text that names no unit; args: the text, what is wrong with it."""
+    """A text that names no unit; args: the text, its fault."""
 
 
 def plain(text: str) -> str:
-    """The same text in signs that the parser knows: full-width signs, primes, degrees, powers."""
+    """The same text in signs of the parser: full-width signs, primes, degrees, powers."""
     text = text.replace("º", "°").replace("˚", "°").replace("’", "'").replace("”", '"').replace("“", '"')
     text = unicodedata.normalize("NFKC", text).replace("′′", '"').replace("′", "'").replace("''", '"')
     return text.replace("−", "-").replace("–", "-").replace("µ", "μ").replace("每", "/").replace("℃", "°C").replace("⁄", "/")
@@ -81,7 +81,7 @@ def factors(text: str) -> tuple[Factor, ...]:
 
 
 def _after_sign(text: str, sign: str, before: float, signs: list[float]) -> float:
-    """The power of what follows a sign, by which parentheses are kept track of, too."""
+    """The power of the unit that follows a sign, by which parentheses are kept track of, too."""
     if sign == "(":
         signs.append(before * signs[-1])
         return 1.0

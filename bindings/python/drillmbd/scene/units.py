@@ -76,7 +76,7 @@ def fits(unit: str, wanted: str) -> bool:
 
 @functools.lru_cache(maxsize=2000)
 def _chosen(unit: str, options: tuple[str, ...]) -> tuple[Decimal, str] | None:
-    """Factor and remark for a unit as written, by what is wanted; None where it is of another kind. Raises UnitError."""
+    """Factor and remark for a unit as written, by the wanted kind; None where it is of another kind. Raises UnitError."""
     if unit in ("", "-"):
         return (Decimal(1), "") if "-" in options else None
     wanted = [_wanted_unit(option) for option in options]
@@ -105,7 +105,7 @@ def _weight_remark(unit: str, sign: int, options: tuple[str, ...]) -> str:
 
 def interpret(value: Any, wanted: str) -> Reading:
     """The value in SI of a text like "63.5 mm", or of a number where the wanted unit is none or the number is 0, with
-    what was assumed. `wanted` may be alternatives, comma between. Raises UnitError that says what is wanted."""
+    the assumption. `wanted` may be alternatives, comma between. Raises UnitError that states the wanted unit."""
     options = tuple(one.strip() for one in wanted.split(",")) if wanted else ("-",)
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise UnitError(f"must be {_wanted(options)}")

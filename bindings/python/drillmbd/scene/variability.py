@@ -1,7 +1,7 @@
 """[variability] of a scene file: parameters that scatter, random fields along hole or string, random processes in time,
 with their distributions and rank correlations. Read and checked here; drawn by drillmbd.probability.
 
-A distribution has a name and parameters. With `relative` its numbers are factors of what the scene says."""
+A distribution has a name and parameters. With `relative` its numbers are factors of the values of the scene."""
 from __future__ import annotations
 
 import math
@@ -88,7 +88,7 @@ class RandomField:
 
 @dataclass(frozen=True)
 class RandomProcess:
-    """A time function that varies in time, by a factor or by what is added to it."""
+    """A time function that varies in time, by a factor or a sum."""
     name: str
     time_function: str
     unit: str
@@ -245,7 +245,7 @@ class Reader:
         return Marginal(name, values)
 
     def _common(self, path: Path, table: dict[str, Any], more: dict[str, Field], words: tuple[str, ...]) -> dict[str, Any]:
-        """Numbers that are read by their fields; the rest is the caller's."""
+        """Numbers that are read by their fields; the other keys are the caller's."""
         return self.loader.read(path, table, more, ("name", "distribution", *PARAMETERS, *words))
 
     def _relative(self, path: Path, table: dict[str, Any]) -> bool:
@@ -385,7 +385,7 @@ class Reader:
                                                      tuple(units_of))
 
     def _field_unit(self, path: Path, key: Any) -> str | None:
-        """Of hole.survey.inclination, hole.survey.azimuth (what is added), or of a number of pipes: string[0].pipes.eccentricity."""
+        """Of hole.survey.inclination, hole.survey.azimuth (added values), or of a number of pipes: string[0].pipes.eccentricity."""
         if key in ("hole.survey.inclination", "hole.survey.azimuth"):
             if not {"survey", "survey_file"} & set(self.loader.table(("hole",))):
                 self.problems.add(path + ("key",), key, "needs a survey of the hole")
@@ -394,9 +394,9 @@ class Reader:
         known = fields_of(DEFINITIONS["pipes"]).get(match.group(2)) if match else None
         if match and known and known.kind == "quantity" and not known.count and int(match.group(1)) < len(self.loader.parts("string")):
             return known.unit or "-"
-        self.problems.add(path + ("key",), key, "must be what varies along the string, as string[0].pipes.eccentricity, or "
+        self.problems.add(path + ("key",), key, "must be a quantity that varies along the string, as string[0].pipes.eccentricity, or "
                           "along the hole: " + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + ", hole.survey.inclination, "
-                          "hole.survey.azimuth (what is added to them)")
+                          "hole.survey.azimuth (a value that is added to them)")
         return None
 
     def _process(self, path: Path, table: dict[str, Any], name: str) -> RandomProcess | None:
@@ -497,7 +497,7 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     def words(known: Any) -> dict[str, Any]:
         return {"enum": list(known)}
     common = {"name": name, "distribution": words(DISTRIBUTIONS), **{key: quantity for key in PARAMETERS}}
-    relative = {"type": "boolean", "description": "numbers are factors of what the scene says"}
+    relative = {"type": "boolean", "description": "numbers are factors of the values of the scene"}
     return table(SETTINGS, (), method=words(METHODS), question=words(QUESTIONS),  # type: ignore[no-any-return]
                  scatter=many(table({}, ("distribution",), key=name, keys={"type": "array", "items": name, "minItems": 1},
                                     relative=relative, **common)),

@@ -20,7 +20,7 @@ class Mud(NamedTuple):
 
 
 def fit(readings: Sequence[tuple[float, float]]) -> Mud:
-    """The mud of pairs of speed [rev/min] and reading [degree]. Raises ValueError that says what must be different."""
+    """The mud of pairs of speed [rev/min] and reading [degree]. Raises ValueError that states the fault."""
     pairs = sorted(readings)
     if len(pairs) < 2:
         raise ValueError("must have two speeds at least")

@@ -150,6 +150,6 @@ def _ever(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> bool:
 
 
 def _largest(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> float:
-    """The largest magnitude of a time function; of one with a function of Python that of the rest."""
+    """The largest magnitude of a time function; of one with a function of Python that of the others."""
     segments = calls["add_time_function"][time_function.index & 0xFFFFFF]
     return largest_of([one for one in segments if one.get("function") is None and one.get("kind") != enums.SEGMENT_CALLBACK]) or 0.0
