@@ -10,10 +10,10 @@
 //     while (sim.time() < 40.0) sim.step(1e-3);
 //     dmb_pose pose = sim.pose(dmb_station(string, 99, 1.0));
 //
-// A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a
+// A member that fails throws drillmbd::error; one that is done returns its result, or the status where that may be a
 // note (> 0). The members named try_ and the create functions throw nothing and return the status instead; without
 // exceptions in the compiler they are the only ones, next to the C functions on get(). Owners are one pointer wide, and
-// the members are inline calls of C functions. Since C++17 a status or an answer that is thrown away is a warning.
+// the members are inline calls of C functions. Since C++17 a status or a result that is not used is a warning.
 #ifndef DRILLMBD_DRILLMBD_HPP
 #define DRILLMBD_DRILLMBD_HPP
 
@@ -996,7 +996,7 @@ public:
         return done(try_steps(duration, count, finished, report));
     }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
-    // Bit i of `events` of the answer: event number i is reported.
+    // Bit i of `events` of the result: event number i is reported.
     dmb_event_report advance_to_event(double to, dmb_step_report *report = nullptr)
     {
         dmb_event_report event = dmb_event_report_default();
@@ -1037,7 +1037,7 @@ public:
         done(dmb_analysis_path(handle_, options, &report));
         return report;
     }
-    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, stands there and may be queried until
+    // The same with visit(at, point) at each point: `at`, a const dmb_sim *, is there and may be queried until
     // visit returns; true ends the path. An exception of visit ends it too and comes out of here.
     template <typename Visit>
     dmb_path_report path(const dmb_path_options &options, Visit visit)

@@ -15,7 +15,7 @@ DMB_C_BEGIN
  * DMB_ERR_GEOMETRY. So is, at creation, in statics and in a run, |RZ| within 0.01 rad of a right angle, where RX and RY
  * are not defined: of a universal joint, and of others with springs, dampers, stops, friction, drives or couplings on
  * an angle; and a rim that rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may
- * stand there. */
+ * be there. */
 enum {
     DMB_JOINT_FIXED = 0,
     DMB_JOINT_REVOLUTE = 1,       /* RX free */
@@ -102,7 +102,7 @@ DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def 
  * matrix from the place's frame to the world, row-major (9). DMB_CONSTRAINT_HOLONOMIC: value = C(q, t), jacobian = dC
  * by body-frame displacements (translation; rotation) of the places; DMB_CONSTRAINT_NONHOLONOMIC: A(q, t) v + b(q, t) =
  * 0 with value = b and jacobian = A, v the body-frame velocities. Must write value; jacobian is not NULL and must be
- * written where `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from
+ * written where `provides` says so. Returns 0, or nonzero to stop. Pure: same values for the same poses and time, from
  * any thread; it is also called at poses and times near those of the run, for differences. */
 enum { DMB_CONSTRAINT_HOLONOMIC = 0, DMB_CONSTRAINT_NONHOLONOMIC = 1 };
 enum { DMB_PROVIDES_JACOBIAN = 1 };

@@ -112,7 +112,7 @@ typedef struct dmb_segment {
     const double *table_value; /* [unit of the time function] shape (table_count); copied */
     uint32_t table_count;      /* [-] 1 .. 2^20 */
     int32_t provides;          /* DMB_PROVIDES_..., of CALLBACK */
-    dmb_time_fn callback;      /* of CALLBACK; pure: same answer for the same time, callable from any thread */
+    dmb_time_fn callback;      /* of CALLBACK; pure: same values for the same time, callable from any thread */
     void *callback_context;
 } dmb_segment;
 DMB_SIZED_STRUCT(dmb_segment)
@@ -273,7 +273,7 @@ typedef struct dmb_body_def {
     int32_t free_mask;  /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
     int32_t reserved;
     double contact_diameter; /* [m] of the contact ring at the reference point; 0: none (default) */
-    double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
+    double contact_length;   /* [m] length of wall it represents, > 0; default 1 */
     char name[24];           /* for messages and look-up (names.h), ends with 0; default "" */
     double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
     double added_mass[2]; /* [kg] of mud that goes along with it where it speeds up along body x, and across, at the x

@@ -9,7 +9,7 @@ DMB_C_BEGIN
 
 /* ---- Outputs ----------------------------------------------------------------------------------------------------
  * Numbers of dmb_output.quantity that continue those of query.h. Where six follow each other, the number is the one
- * given plus DMB_X .. DMB_RZ. Each is the answer of the query it is named after. Numbers 500 .. 999 and from 3000 on
+ * given plus DMB_X .. DMB_RZ. Each is the result of the query it is named after. Numbers 500 .. 999 and from 3000 on
  * are kept free. A stretch of numbers may grow at its end. */
 enum {
     /* Readings of a driller; place.part is a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */

@@ -1,6 +1,6 @@
 /* libdrillmbd - ask a sim about its last accepted state. Nothing here changes a sim; every query is O(1) unless it says
  * otherwise (O(log) of stations, contact points or described runs where a place has to be looked up), allocates nothing
- * and returns DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE, leaving the answer untouched on
+ * and returns DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE, leaving the result untouched on
  * error. Between nodes a flexible pipe is interpolated with its own shape functions. */
 #ifndef DRILLMBD_QUERY_H
 #define DRILLMBD_QUERY_H
@@ -53,7 +53,7 @@ typedef struct dmb_contact {
     dmb_id part;     /* string or body the contact point belongs to */
     uint32_t pipe;   /* [-] pipe whose far end it is, or that it is on; DMB_NONE for the rig end of the string */
     uint32_t reserved;
-    double length;       /* [m] of pipe it stands for */
+    double length;       /* [m] of pipe it represents */
     double gap;          /* [m] to the wall, < 0 when penetrating */
     double normal[3];    /* [-] outward, from the axis to the wall, world frame, shape (3) */
     double normal_force; /* [N] on the wall, >= 0 */

@@ -99,7 +99,7 @@ typedef struct dmb_response dmb_response; /* transfer functions by frequency */
  * spins, frames of `place` are its section's, and turn with it unless `axes` are at rest: then those that it has in the
  * state, and section forces are given in axes that do not spin. Structural damping there is that of parts that do not
  * turn. DMB_NOTE_INCOMPLETE: joints whose equations change in these axes, since their parts turn against each other, or
- * a string that turns on the wall, which goes round in axes that turn; answers hold along and about the axes of
+ * a string that turns on the wall, which goes round in axes that turn; results hold along and about the axes of
  * straight parts, not across. Or coefficients that change while parts turn, as of modes. excitations, outputs: shapes
  * (excitation_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be
  * NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option, component,
@@ -164,7 +164,7 @@ DMB_SIZED_STRUCT(dmb_stepped_sine_report)
  * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes
  * of the world or (DMB_FRAME_BODY) those the place has at the call, less their drift over the window; component DMB_RX
  * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below
- * pi. Other outputs: as the queries answer. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
+ * pi. Other outputs: as those of queries. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
  * the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID,
  * _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted
  * state. amplitudes and report are left alone on error. Cost: steps. */

@@ -4,10 +4,10 @@
  *
  * Callbacks (time functions, constraints, progress, allocator, log) must not change the sim that calls them: from
  * within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a
- * step, and during analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state;
+ * step, and during analyses that leave the sim alone, queries, snapshot and hash use the last accepted state;
  * during calls that overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they
  * return DMB_ERR_ORDER too. Callbacks must return normally: after a longjmp or an exception the sim would stay busy for
- * ever. In lists of errors _X stands for DMB_ERR_X. */
+ * ever. In lists of errors _X means DMB_ERR_X. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
 

@@ -20,7 +20,7 @@ DMB_C_BEGIN
 enum {
     DMB_STATE_FULL = 0,    /* all coordinates */
     DMB_STATE_REDUCED = 1, /* amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of
-                              an input, two or three for a motion drive, so that answers are exact at frequency `shift`.
+                              an input, two or three for a motion drive, so that results are exact at frequency `shift`.
                               Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of
                               complex shapes it takes real and imaginary part */
     DMB_STATE_MATRICES = 2 /* none: sparse matrices alone, about any state; no inputs nor outputs */

@@ -2289,7 +2289,7 @@ class Segment(SegmentPart, Sized):
         "table_value": ("unit of the time function", "shape (table_count); copied"),
         "table_count": ("-", "1 .. 2^20"),
         "provides": ("", "PROVIDES_..., of CALLBACK"),
-        "callback": ("", "of CALLBACK; pure: same answer for the same time, callable from any thread"),
+        "callback": ("", "of CALLBACK; pure: same values for the same time, callable from any thread"),
         "callback_context": ("", ""),
     }
 
@@ -2441,7 +2441,7 @@ class BodyDef(Sized):
         "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0, shape (6)"),
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
         "contact_diameter": ("m", "of the contact ring at the reference point; 0: none (default)"),
-        "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
+        "contact_length": ("m", "length of wall it represents, > 0; default 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
         "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
@@ -2661,7 +2661,7 @@ class Contact(Sized):
         "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
         "part": ("", "string or body the contact point belongs to"),
         "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
-        "length": ("m", "of pipe it stands for"),
+        "length": ("m", "of pipe it represents"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
         "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
         "normal_force": ("N", "on the wall, >= 0"),

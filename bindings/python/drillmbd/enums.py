@@ -1502,7 +1502,7 @@ class StateForm(IntEnum):
     """Values DMB_STATE_... of the headers.
 
     FULL: all coordinates
-    REDUCED: amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input, two or three for a motion drive, so that answers are exact at frequency `shift`. Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part
+    REDUCED: amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input, two or three for a motion drive, so that results are exact at frequency `shift`. Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part
     MATRICES: none: sparse matrices alone, about any state; no inputs nor outputs
     """
     FULL = 0

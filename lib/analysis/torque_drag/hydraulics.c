@@ -151,7 +151,7 @@ static int32_t find(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulic
     dmb_check check = dmb_check_of(&sim->message, "hydraulics", DMB_NONE);
     column c = {.scene = scene, .flow = scene->flow, .speed = trip_speed};
     if (dmb_hydraulics_read(&c.sum, answer) < 0) {
-        dmb_message_set(&sim->message, "hydraulics: struct_size of the answer is not one of this library");
+        dmb_message_set(&sim->message, "hydraulics: struct_size of the result is not one of this library");
         return DMB_ERR_STRUCT_SIZE;
     }
     c.sum = dmb_hydraulics_default();
