@@ -131,7 +131,7 @@ void dmb_arena_place(dmb_arena *arena, void *block, size_t size)
     arena->size = size - gap;
 }
 
-void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t align)
+void *dmb_arena_allocate(dmb_arena *arena, size_t count, size_t item_size, size_t align)
 {
     size_t start = 0, length = 0, end = 0;
     bool valid = align != 0 && (align & (align - 1)) == 0 && align <= DMB_ALIGNMENT;

@@ -85,11 +85,11 @@ void dmb_arena_place(dmb_arena *arena, void *block, size_t size);
 
 /* Returns an array of count items of item_size bytes, zeroed. align is a power of two up to DMB_ALIGNMENT. Returns NULL
  * while counting and after an overflow; otherwise not NULL, even for no items. */
-void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t align);
+void *dmb_arena_allocate(dmb_arena *arena, size_t count, size_t item_size, size_t align);
 
 /* Arrays of doubles begin on a cache line; other items have the alignment of their type. */
-#define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_take((arena), (count), sizeof(double), 64))
-#define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_take((arena), (count), sizeof(T), _Alignof(T)))
+#define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_allocate((arena), (count), sizeof(double), 64))
+#define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_allocate((arena), (count), sizeof(T), _Alignof(T)))
 
 /* Makes an arena's block accessible again in builds with DMB_RED_ZONES. Releasing or placing does it too. */
 void dmb_arena_open(const void *block, size_t size);

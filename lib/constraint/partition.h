@@ -76,10 +76,10 @@ typedef struct dmb_jacobian {
  * the factor, and for notes of the nonzero entries of the factor and of B. It is valid for the same B and choice only,
  * and must be passed on unchanged. Returns 0, or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
 int32_t dmb_partition_gram(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram);
-/* Excludes near-redundant rows (pivot below DMB_WEAK_PIVOT of the diagonal) from projections with gram: near a singular
- * configuration a projection would amplify the rounding errors of the poses. */
-#define DMB_WEAK_PIVOT 1e-9
-void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram);
+/* Excludes near-redundant rows (pivot below DMB_NEAR_REDUNDANT_PIVOT of the diagonal) from projections with gram: near
+ * a singular configuration a projection would amplify the rounding errors of the poses. */
+#define DMB_NEAR_REDUNDANT_PIVOT 1e-9
+void dmb_partition_drop_near_redundant(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram);
 /* d: shape (rank), in the order of pivot rows, overwritten; x: shape (columns), natural order, overwritten. */
 void dmb_partition_project(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *gram, double *d,
                            double *x);

@@ -90,7 +90,8 @@ static void gram_eliminate(size_t n, size_t k, double *gram)
 
 /* Computes row k of U; returns false if its pivot is invalid. A pivot below the fraction `weak` of its diagonal is
  * excluded: its row of U is zero. */
-static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size_t k, double weak, double *gram)
+static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size_t k, double near_redundant,
+                      double *gram)
 {
     const double *B = jacobian->rows, *weight = jacobian->weight;
     const uint32_t stride = jacobian->stride;
@@ -101,7 +102,7 @@ static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size
     stretch stretches[DMB_STRETCHES];
     const size_t count = find_stretches(p->columns, b, blocks, stretches);
     const double m = dot_in_stretches(count, stretches, b, b, weight), pivot = m + row[k];
-    const bool kept = !(weak > 0.0 && pivot < weak * m);
+    const bool kept = !(near_redundant > 0.0 && pivot < near_redundant * m);
     if (kept && !(pivot > DMB_GRAM_PIVOT_MIN * m && pivot <= DBL_MAX)) return false;
     for (size_t r = k + 1; r < n && kept; r++)
         if (blocks & blocks_of(n, gram, r))
@@ -113,11 +114,11 @@ static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size
     return true;
 }
 
-static int32_t gram_factor(const dmb_jacobian *jacobian, const dmb_partition *p, double weak, double *gram)
+static int32_t gram_factor(const dmb_jacobian *jacobian, const dmb_partition *p, double near_redundant, double *gram)
 {
     gram_clear(jacobian->rows, jacobian->stride, p, gram);
     for (size_t k = 0; k < p->rank; k++)
-        if (!gram_step(jacobian, p, k, weak, gram)) return -1;
+        if (!gram_step(jacobian, p, k, near_redundant, gram)) return -1;
     return 0;
 }
 
@@ -129,18 +130,19 @@ int32_t dmb_partition_gram(const dmb_jacobian *jacobian, const dmb_partition *pa
 
 /* Repeats the factorisation without the near-redundant rows, if there are any, because later rows must not depend on
  * them. */
-void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
+void dmb_partition_drop_near_redundant(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
 {
     const size_t n = partition->rank;
-    bool weak = false;
-    for (size_t k = 0; k < n && !weak; k++) {
+    bool near_redundant = false;
+    for (size_t k = 0; k < n && !near_redundant; k++) {
         const double *b = pivot_row_of(jacobian->rows, jacobian->stride, partition, k);
         const double root = gram[n * k + k];
         stretch stretches[DMB_STRETCHES];
         const size_t count = find_stretches(partition->columns, b, blocks_of(n, gram, k), stretches);
-        weak = root * root * dot_in_stretches(count, stretches, b, b, jacobian->weight) * DMB_WEAK_PIVOT > 1.0;
+        near_redundant =
+            root * root * dot_in_stretches(count, stretches, b, b, jacobian->weight) * DMB_NEAR_REDUNDANT_PIVOT > 1.0;
     }
-    if (weak) (void)gram_factor(jacobian, partition, DMB_WEAK_PIVOT, gram);
+    if (near_redundant) (void)gram_factor(jacobian, partition, DMB_NEAR_REDUNDANT_PIVOT, gram);
 }
 
 /* ---- Solves ------------------------------------------------------------------------------------------------------ */

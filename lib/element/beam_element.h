@@ -232,7 +232,7 @@ static inline void dmb_beam_clear_blocks(dmb_beam_blocks *blocks)
 }
 
 /* K <- K T6(z) + C, or C only */
-static inline void dmb_beam_link(const dmb_real z[6], const dmb_real C[36], int stiff, dmb_real K[36])
+static inline void dmb_beam_off_diagonal(const dmb_real z[6], const dmb_real C[36], int stiff, dmb_real K[36])
 {
     dmb_se3_tangent T;
     if (!stiff) {
@@ -266,10 +266,10 @@ static inline void dmb_beam_to_nodes(const dmb_beam_task *task, const dmb_beam_c
 }
 
 /* Off-diagonal blocks in the form required by the iteration matrix. */
-static inline void dmb_beam_links(const dmb_beam_task *task, const dmb_beam_input *in, dmb_beam_output *out)
+static inline void dmb_beam_off_diagonals(const dmb_beam_task *task, const dmb_beam_input *in, dmb_beam_output *out)
 {
-    dmb_beam_link(in->zb, out->C.ab, !task->inertia_only, out->K.ab);
-    dmb_beam_link(in->za, out->C.ba, !task->inertia_only, out->K.ba);
+    dmb_beam_off_diagonal(in->zb, out->C.ab, !task->inertia_only, out->K.ab);
+    dmb_beam_off_diagonal(in->za, out->C.ba, !task->inertia_only, out->K.ba);
 }
 
 static inline void dmb_beam_clear(dmb_beam_output *out)
@@ -356,7 +356,7 @@ DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_c
     if (task->curved) dmb_beam_add_curved(task, curved, &shape, in, out);
     if (task->curved && task->tangent) dmb_beam_add_cross_tangent(task, c, curved, &shape, in, out);
     if (task->tangent && task->arms) dmb_beam_to_nodes(task, c, out);
-    if (task->tangent && task->dynamic) dmb_beam_links(task, in, out);
+    if (task->tangent && task->dynamic) dmb_beam_off_diagonals(task, in, out);
     if (!task->arms) return 0;
     dmb_arm_wrench(c->arm[0], out->fa);
     dmb_arm_wrench(-c->arm[1], out->fb);

@@ -24,22 +24,22 @@ static int32_t follows_error(const dmb_sim *sim)
 
 /* True if what is left is the rounding of the forces at the start: in free flight after a contact nothing else is there
  * to compare it with. */
-static int32_t is_rounding(const dmb_attempt *attempt, double balance, dmb_newton_course *course)
+static int32_t is_rounding(const dmb_trial_step *trial_step, double balance, dmb_convergence_history *history)
 {
-    if (course->balance > 0.0) return attempt->residual * balance <= 4.0 * DBL_EPSILON * course->balance;
-    course->balance = balance;
+    if (history->balance > 0.0) return trial_step->residual * balance <= 4.0 * DBL_EPSILON * history->balance;
+    history->balance = balance;
     return 0;
 }
 
 /* Near a singular place of the joints: poses settled to 2e-15 leave the null space unsharp by as much over the quality
  * of the partition squared (measured: up to 4e-14/quality^2 of the forces). A residual that no longer falls is as good
  * as it gets there. */
-static int32_t is_unsharp(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
+static int32_t is_unsharp(const dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_convergence_history *history)
 {
     double quality = 1.0;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) quality = fmin(quality, sim->cluster_quality[k]);
-    if (!(quality < 0.1) || !(course->last > 0.0) || attempt->residual <= 0.5 * course->last) return 0;
-    return attempt->residual <= fmin(1e-4, 4e-14 / (quality * quality));
+    if (!(quality < 0.1) || !(history->last > 0.0) || trial_step->residual <= 0.5 * history->last) return 0;
+    return trial_step->residual <= fmin(1e-4, 4e-14 / (quality * quality));
 }
 
 /* [-] to which residuals are alike that come back every second time, over how they differ from those between. */
@@ -47,39 +47,39 @@ static int32_t is_unsharp(const dmb_sim *sim, const dmb_attempt *attempt, const 
 
 /* A contact that opens when it is taken for closed, and closes when it is taken for open, has no solution at this end
  * of the step (the damping of a wall jumps at contact): the iteration goes to and fro between the two to its last. */
-static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
-    const double now = attempt->residual;
-    const int32_t found = course->corrections > 3 && now > 0.5 * course->last &&
-                          fabs(now - course->earlier) <= DMB_NEWTON_ALIKE * fabs(now - course->last);
-    course->earlier = course->last;
+    const double now = trial_step->residual;
+    const int32_t found = history->corrections > 3 && now > 0.5 * history->last &&
+                          fabs(now - history->earlier) <= DMB_NEWTON_ALIKE * fabs(now - history->last);
+    history->earlier = history->last;
     return found && sim->scene->site_count > 0 && follows_error(sim) && !sim->options.bounded_work;
 }
 
 /* 1: as it should be. */
-static int32_t check_course(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t check_convergence(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
-    if (goes_to_and_fro(sim, attempt, course)) return DMB_ERR_NO_CONVERGENCE;
-    if (course->first == 0.0) course->first = course->last = attempt->residual;
-    if (!(attempt->residual <= DMB_NEWTON_GROWTH * course->first)) return DMB_ERR_NO_CONVERGENCE; /* NaN, too */
-    if (attempt->residual > DBL_MAX) return DMB_ERR_NO_CONVERGENCE;
-    if (attempt->iterations < sim->options.max_iterations) return 1;
+    if (goes_to_and_fro(sim, trial_step, history)) return DMB_ERR_NO_CONVERGENCE;
+    if (history->first == 0.0) history->first = history->last = trial_step->residual;
+    if (!(trial_step->residual <= DMB_NEWTON_GROWTH * history->first)) return DMB_ERR_NO_CONVERGENCE; /* NaN, too */
+    if (trial_step->residual > DBL_MAX) return DMB_ERR_NO_CONVERGENCE;
+    if (trial_step->iterations < sim->options.max_iterations) return 1;
     return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
 }
 
 /* Fresh factors at the present trial. */
-static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
+static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
 {
-    if (!attempt->evaluation.tangent) {
-        attempt->evaluation.tangent = 1;
-        const int32_t status = dmb_system_evaluate(&attempt->evaluation);
+    if (!trial_step->evaluation.tangent) {
+        trial_step->evaluation.tangent = 1;
+        const int32_t status = dmb_system_evaluate(&trial_step->evaluation);
         if (status < 0) return status;
     }
-    dmb_system_iteration_matrix(&attempt->evaluation);
+    dmb_system_iteration_matrix(&trial_step->evaluation);
     const int64_t bad = dmb_factor_matrix(sim, sim->options.constraint_method);
-    attempt->factored = DMB_FACTORS_FRESH;
+    trial_step->factored = DMB_FACTORS_FRESH;
     if (bad < 0) return DMB_OK;
-    attempt->block = (uint32_t)bad;
+    trial_step->block = (uint32_t)bad;
     return DMB_ERR_SINGULAR;
 }
 
@@ -108,12 +108,12 @@ static double share_of(const dmb_sim *sim)
 #define DMB_LINEAR_AIM 0.01
 
 /* The bound of the residual; reused factors and linear predictions aim below the tolerance. */
-static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_newton_course *course, double aim)
+static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_convergence_history *history, double aim)
 {
-    if (course->linear && course->corrections == 0) aim *= DMB_LINEAR_AIM;
+    if (history->linear && history->corrections == 0) aim *= DMB_LINEAR_AIM;
     const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0, 0};
     const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST,
-                                          course->corrections == 0 && !course->linear};
+                                          history->corrections == 0 && !history->linear};
     return follows_error(sim) ? following : given;
 }
 
@@ -131,31 +131,31 @@ typedef struct powers {
 static powers powers_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    dmb_power_job job = {.count = scene->row_count,
-                         .residual = sim->residual,
-                         .scale = sim->scale_row,
-                         .velocity = sim->trial.velocity,
-                         .solved = scene->solved_row};
-    scene->kernels->powers(&job);
-    const powers p = {job.left, job.exchanged};
+    dmb_power_args args = {.count = scene->row_count,
+                           .residual = sim->residual,
+                           .scale = sim->scale_row,
+                           .velocity = sim->trial.velocity,
+                           .solved = scene->solved_row};
+    scene->kernels->powers(&args);
+    const powers p = {args.left, args.exchanged};
     return p;
 }
 
 /* [-] h times a frequency of the motion (eq:integration.pace) over DMB_NEWTON_PACE, at most 1. */
-static double pace_of(const dmb_attempt *attempt, const dmb_newton_course *course, double exchanged)
+static double pace_of(const dmb_trial_step *trial_step, const dmb_convergence_history *history, double exchanged)
 {
-    const double way = attempt->end.step * exchanged * course->first;
-    const double squared = 4.0 / (DMB_NEWTON_PACE * DMB_NEWTON_PACE) * course->most_work;
+    const double way = trial_step->end.step * exchanged * history->first;
+    const double squared = 4.0 / (DMB_NEWTON_PACE * DMB_NEWTON_PACE) * history->most_work;
     return way > squared ? sqrt(squared / way) : 1.0;
 }
 
 /* [-] Error left (eq:integration.contraction) over what is allowed of it (eq:integration.stop), the pace apart. */
-static double excess_of_error(const dmb_sim *sim, double residual, const dmb_newton_course *course)
+static double excess_of_error(const dmb_sim *sim, double residual, const dmb_convergence_history *history)
 {
-    if (!(course->work > 0.0)) return (double)INFINITY; /* it tells nothing; fmax would pass over a NaN */
-    const double rate = fmax(residual / course->last, work_of(sim) / course->work);
+    if (!(history->work > 0.0)) return (double)INFINITY; /* it tells nothing; fmax would pass over a NaN */
+    const double rate = fmax(residual / history->last, work_of(sim) / history->work);
     if (!(rate < 1.0)) return (double)INFINITY;
-    return rate * sqrt(course->work / course->most_work) / (share_of(sim) * (1.0 - rate));
+    return rate * sqrt(history->work / history->most_work) / (share_of(sim) * (1.0 - rate));
 }
 
 /* [-] Power of the residual over what is allowed (eq:integration.stop-power). */
@@ -166,31 +166,32 @@ static double excess_of_power(const powers *p)
 
 /* A linear prediction begins with the residual that it has saved. Where it leaves more than that, the motion is stiffer
  * than its inertia, and the residual at hand is the start. */
-static void note_start(const dmb_evaluation *evaluation, dmb_newton_course *course, dmb_residual_norm *norm,
+static void note_start(const dmb_evaluation *evaluation, dmb_convergence_history *history, dmb_residual_norm *norm,
                        const dmb_residual_bound *bound)
 {
     if (norm->relative < norm->start) {
-        course->first = course->last = norm->start;
+        history->first = history->last = norm->start;
         return;
     }
     dmb_residual_bound at_hand = *bound;
     at_hand.start = 1;
-    course->linear = 0;
-    course->work = course->most_work = 0.0;
+    history->linear = 0;
+    history->work = history->most_work = 0.0;
     *norm = dmb_residual_norm_within(evaluation, &at_hand);
 }
 
 /* Compares the residual with its bound. */
-static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course, double aim)
+static dmb_residual_norm compare(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history,
+                                 double aim)
 {
-    const dmb_residual_bound bound = bound_of(sim, course, aim);
-    dmb_residual_norm norm = dmb_residual_norm_within(&attempt->evaluation, &bound);
-    if (course->linear && course->corrections == 0) note_start(&attempt->evaluation, course, &norm, &bound);
+    const dmb_residual_bound bound = bound_of(sim, history, aim);
+    dmb_residual_norm norm = dmb_residual_norm_within(&trial_step->evaluation, &bound);
+    if (history->linear && history->corrections == 0) note_start(&trial_step->evaluation, history, &norm, &bound);
     if (norm.converged != DMB_SMALL_PART) return norm;
     const powers p = powers_of(sim);
-    const double share = course->linear ? DMB_NEWTON_LINEAR : 1.0;
+    const double share = history->linear ? DMB_NEWTON_LINEAR : 1.0;
     const double of_error =
-        excess_of_error(sim, norm.relative, course) / (share * pace_of(attempt, course, p.exchanged));
+        excess_of_error(sim, norm.relative, history) / (share * pace_of(trial_step, history, p.exchanged));
     const double excess = fmax(of_error, excess_of_power(&p) / share);
     if (excess <= 1.0) return norm;
     norm.converged = 0;
@@ -199,39 +200,39 @@ static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt,
 }
 
 /* The bound asked for is reached: reused factors only aimed lower. */
-static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t is_met(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
-    return attempt->factored == DMB_FACTORS_REUSED && compare(sim, attempt, course, 1.0).converged != 0;
+    return trial_step->factored == DMB_FACTORS_REUSED && compare(sim, trial_step, history, 1.0).converged != 0;
 }
 
 /* Residual, and the tangent where it will be needed at once, on the constraints. */
-static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt, const dmb_newton_course *course)
+static int32_t evaluate(dmb_sim *sim, dmb_trial_step *trial_step, const dmb_convergence_history *history)
 {
-    dmb_evaluation *evaluation = &attempt->evaluation;
-    evaluation->predicted = course->corrections == 0 && !attempt->released && *sim->sites_bounce;
-    evaluation->tangent = attempt->factored == DMB_FACTORS_NONE && !(course->linear && course->corrections == 0);
+    dmb_evaluation *evaluation = &trial_step->evaluation;
+    evaluation->predicted = history->corrections == 0 && !trial_step->released && *sim->sites_bounce;
+    evaluation->tangent = trial_step->factored == DMB_FACTORS_NONE && !(history->linear && history->corrections == 0);
     const int32_t status = sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
 
 /* 1: the residual is that of tangents to the mean forces of contacts, which no solution has to be near. */
-static int32_t from_tangent(const dmb_sim *sim, const dmb_attempt *attempt)
+static int32_t from_tangent(const dmb_sim *sim, const dmb_trial_step *trial_step)
 {
-    return attempt->evaluation.predicted && dmb_sites_have_mean(sim);
+    return trial_step->evaluation.predicted && dmb_sites_have_mean(sim);
 }
 
 /* Verdict of the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
-static int32_t judge(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t judge(dmb_sim *sim, dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
-    const double aim = attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE : 1.0;
-    const dmb_residual_norm norm = compare(sim, attempt, course, aim);
-    attempt->residual = norm.relative;
-    attempt->bound = norm.bound;
-    course->hidden = norm.converged == DMB_AT_ROUNDING && dmb_factor_reuse_still_pay(sim, attempt, course);
-    if (norm.converged && !course->hidden && !from_tangent(sim, attempt)) return 0;
-    if (is_rounding(attempt, norm.balance, course) || is_unsharp(sim, attempt, course)) return 0;
-    const int32_t status = check_course(sim, attempt, course);
-    return status != 1 && is_met(sim, attempt, course) ? 0 : status;
+    const double aim = trial_step->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE : 1.0;
+    const dmb_residual_norm norm = compare(sim, trial_step, history, aim);
+    trial_step->residual = norm.relative;
+    trial_step->bound = norm.bound;
+    history->hidden = norm.converged == DMB_AT_ROUNDING && dmb_factor_reuse_still_pay(sim, trial_step, history);
+    if (norm.converged && !history->hidden && !from_tangent(sim, trial_step)) return 0;
+    if (is_rounding(trial_step, norm.balance, history) || is_unsharp(sim, trial_step, history)) return 0;
+    const int32_t status = check_convergence(sim, trial_step, history);
+    return status != 1 && is_met(sim, trial_step, history) ? 0 : status;
 }
 
 /* [-] Work of the residual over the last correction, relative to that before it, below which the correction went too
@@ -247,9 +248,9 @@ static double work_along(const dmb_sim *sim)
 
 /* Friction of contacts with mean forces is steep in their slip: from one side of that, Newton comes as far beyond it on
  * the other, again and again. 1: the last correction went too far, so that half of the next one comes between. */
-static int32_t went_beyond(const dmb_sim *sim, const dmb_newton_course *course)
+static int32_t went_beyond(const dmb_sim *sim, const dmb_convergence_history *history)
 {
-    const double before = course->along;
+    const double before = history->along;
     return before != 0.0 && work_along(sim) / before < DMB_NEWTON_BEYOND;
 }
 
@@ -259,58 +260,60 @@ static void halve(dmb_sim *sim)
 }
 
 /* Moves the trial by the correction that the factors at hand give. */
-static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
+static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step,
+                    dmb_convergence_history *history)
 {
-    const int32_t beyond = went_beyond(sim, course);
+    const int32_t beyond = went_beyond(sim, history);
     dmb_solve_correction(sim);
     if (beyond) halve(sim);
-    course->along = work_along(sim);
+    history->along = work_along(sim);
     if (follows_error(sim)) {
-        course->work = work_of(sim);
-        course->most_work = fmax(course->most_work, course->work);
+        history->work = work_of(sim);
+        history->most_work = fmax(history->most_work, history->work);
     }
-    attempt->iterations++;
-    if (attempt->factored == DMB_FACTORS_FRESH) { /* kept ones give way to a tangent at the true stress */
+    trial_step->iterations++;
+    if (trial_step->factored == DMB_FACTORS_FRESH) { /* kept ones give way to a tangent at the true stress */
         dmb_system_extrapolate_stress(sim, sim->correction);
-        attempt->evaluation.extrapolated = 1;
+        trial_step->evaluation.extrapolated = 1;
     }
-    dmb_step_motion_correct(sim, c, attempt->end.step);
+    dmb_step_motion_correct(sim, c, trial_step->end.step);
 }
 
 /* One Newton iteration; 1: go on, otherwise as dmb_newton. */
-static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step,
+                       dmb_convergence_history *history)
 {
     int32_t status = dmb_progress_pulse(sim);
-    if (status >= 0) status = evaluate(sim, attempt, course);
-    if (status >= 0) status = judge(sim, attempt, course);
+    if (status >= 0) status = evaluate(sim, trial_step, history);
+    if (status >= 0) status = judge(sim, trial_step, history);
     if (status != 1) return status;
-    if (!course->hidden && !dmb_factor_reuse_will_do(sim, attempt, course)) {
-        if (course->corrections > 0 && is_met(sim, attempt, course)) return 0;
-        status = refactor(sim, attempt);
+    if (!history->hidden && !dmb_factor_reuse_will_do(sim, trial_step, history)) {
+        if (history->corrections > 0 && is_met(sim, trial_step, history)) return 0;
+        status = refactor(sim, trial_step);
         if (status < 0) return status;
     }
-    course->last = attempt->residual;
-    course->corrections++;
-    correct(sim, c, attempt, course);
+    history->last = trial_step->residual;
+    history->corrections++;
+    correct(sim, c, trial_step, history);
     return 1;
 }
 
 /* The change that a linear prediction makes counts as a first correction; where there is none, as after a jump, it is
  * the constant one. */
-static void begin_linear(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
+static void begin_linear(dmb_sim *sim, dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
-    course->work = course->most_work = dmb_prediction_saved(sim, attempt);
-    course->linear = attempt->linear = course->work > 0.0;
+    history->work = history->most_work = dmb_prediction_saved(sim, trial_step);
+    history->linear = trial_step->linear = history->work > 0.0;
 }
 
-int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
-    dmb_newton_course course;
+    dmb_convergence_history history;
     int32_t status;
-    memset(&course, 0, sizeof course);
-    dmb_factor_reuse_begin(sim, attempt);
-    if (attempt->linear && !attempt->released) begin_linear(sim, attempt, &course);
-    do status = iterate(sim, c, attempt, &course);
+    memset(&history, 0, sizeof history);
+    dmb_factor_reuse_begin(sim, trial_step);
+    if (trial_step->linear && !trial_step->released) begin_linear(sim, trial_step, &history);
+    do status = iterate(sim, c, trial_step, &history);
     while (status == 1);
     return status;
 }
@@ -326,30 +329,32 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 /* New factors cost about as much as this many corrections with old ones. */
 #define DMB_EXCESS_MAX 2
 
-void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt)
+void dmb_factor_reuse_begin(dmb_sim *sim, dmb_trial_step *trial_step)
 {
-    const double step = attempt->end.step;
-    const int usable = attempt->whole && !attempt->astray && fabs(sim->reuse->step - step) <= DMB_REUSE_STEP * step &&
-                       sim->reuse->pause == 0;
-    attempt->factored = usable ? DMB_FACTORS_REUSED : DMB_FACTORS_NONE;
-    attempt->tried |= usable;
-    *sim->factors = attempt->factored;
+    const double step = trial_step->end.step;
+    const int usable = trial_step->whole && !trial_step->diverged &&
+                       fabs(sim->reuse->step - step) <= DMB_REUSE_STEP * step && sim->reuse->pause == 0;
+    trial_step->factored = usable ? DMB_FACTORS_REUSED : DMB_FACTORS_NONE;
+    trial_step->tried |= usable;
+    *sim->factors = trial_step->factored;
 }
 
-int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
+int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_trial_step *trial_step,
+                                   const dmb_convergence_history *history)
 {
-    if (attempt->factored != DMB_FACTORS_REUSED || dmb_contact_changes(sim)) return 0;
-    return course->corrections == 0 || (course->corrections < 3 && attempt->residual < 0.25 * course->last);
+    if (trial_step->factored != DMB_FACTORS_REUSED || dmb_contact_changes(sim)) return 0;
+    return history->corrections == 0 || (history->corrections < 3 && trial_step->residual < 0.25 * history->last);
 }
 
-int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
+int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_trial_step *trial_step,
+                                 const dmb_convergence_history *history)
 {
-    if (attempt->factored == DMB_FACTORS_NONE) return 0;
-    if (attempt->factored == DMB_FACTORS_REUSED && dmb_contact_changes(sim)) return 0;
-    if (attempt->factored == DMB_FACTORS_REUSED && course->corrections == 0)
-        return attempt->residual <= DMB_REUSE_START;
-    const double rate = attempt->residual / course->last;
-    return rate * rate * attempt->residual <= attempt->bound;
+    if (trial_step->factored == DMB_FACTORS_NONE) return 0;
+    if (trial_step->factored == DMB_FACTORS_REUSED && dmb_contact_changes(sim)) return 0;
+    if (trial_step->factored == DMB_FACTORS_REUSED && history->corrections == 0)
+        return trial_step->residual <= DMB_REUSE_START;
+    const double rate = trial_step->residual / history->last;
+    return rate * rate * trial_step->residual <= trial_step->bound;
 }
 
 /* Kept factors have done for a whole step. */
@@ -383,21 +388,22 @@ static int32_t is_near_touch(const dmb_sim *sim, const dmb_configuration *reache
     return 0;
 }
 
-void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt, const dmb_configuration *reached)
+void dmb_factor_reuse_end(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_configuration *reached)
 {
-    if (!attempt->whole || attempt->iterations == 0) return;
-    if (attempt->factored == DMB_FACTORS_REUSED) {
-        count_success(sim->reuse, attempt->iterations);
-    } else if (attempt->factored == DMB_FACTORS_FRESH) {
-        count_pause(sim->reuse, attempt->tried);
+    if (!trial_step->whole || trial_step->iterations == 0) return;
+    if (trial_step->factored == DMB_FACTORS_REUSED) {
+        count_success(sim->reuse, trial_step->iterations);
+    } else if (trial_step->factored == DMB_FACTORS_FRESH) {
+        count_pause(sim->reuse, trial_step->tried);
         dmb_keep_factors(sim, reached->quaternion);
-        sim->reuse->step = is_near_touch(sim, reached) ? 0.0 : attempt->end.step;
+        sim->reuse->step = is_near_touch(sim, reached) ? 0.0 : trial_step->end.step;
         sim->reuse->corrections = sim->reuse->excess = 0;
     }
 }
 
-void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_attempt *attempt, const dmb_factor_reuse *kept)
+void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept)
 {
     *sim->reuse = *kept;
-    if (attempt->whole && !attempt->deferred && attempt->factored == DMB_FACTORS_FRESH) dmb_forget_factors(sim);
+    if (trial_step->whole && !trial_step->deferred && trial_step->factored == DMB_FACTORS_FRESH)
+        dmb_forget_factors(sim);
 }

@@ -12,38 +12,39 @@
 
 /* Joints move their trial, and free rigid bodies their centres of mass, by rules of their own; and a tolerance that is
  * given leaves what it always left. */
-static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_attempt *attempt)
+static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_trial_step *trial_step)
 {
     const dmb_scene *scene = sim->scene;
     if (sim->options.newton_tolerance > 0.0) return 0;
-    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || attempt->astray || attempt->constant) return 0;
+    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || trial_step->diverged || trial_step->constant)
+        return 0;
     return c->af - c->am >= DMB_APART_MIN && sim->prediction->constant > 0 &&
            sim->prediction->constant <= DMB_SMOOTH_MOST && sim->prediction->pause == 0;
 }
 
-void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+void dmb_prediction_make(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
-    attempt->linear = may_be_linear(sim, c, attempt);
-    dmb_step_motion_predict(sim, c, attempt->end.step, attempt->linear ? 1.0 / (c->am - c->af) : 0.0);
+    trial_step->linear = may_be_linear(sim, c, trial_step);
+    dmb_step_motion_predict(sim, c, trial_step->end.step, trial_step->linear ? 1.0 / (c->am - c->af) : 0.0);
 }
 
-double dmb_prediction_saved(dmb_sim *sim, const dmb_attempt *attempt)
+double dmb_prediction_saved(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     const dmb_scene *scene = sim->scene;
-    dmb_inertia_of_change(scene, sim->correction, attempt->evaluation.mass_factor, sim->residual);
+    dmb_inertia_of_change(scene, sim->correction, trial_step->evaluation.mass_factor, sim->residual);
     dmb_residual_begins_at(sim);
     return scene->kernels->product(scene->row_count, sim->correction, sim->residual);
 }
 
-void dmb_prediction_note(dmb_sim *sim, const dmb_attempt *attempt)
+void dmb_prediction_note(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     dmb_prediction *p = sim->prediction;
-    if (!attempt->linear) p->constant = attempt->iterations;
-    if (!attempt->linear && !attempt->constant) {
+    if (!trial_step->linear) p->constant = trial_step->iterations;
+    if (!trial_step->linear && !trial_step->constant) {
         if (p->pause > 0) p->pause--;
         return;
     }
-    const int saves = attempt->linear && attempt->iterations < p->constant;
+    const int saves = trial_step->linear && trial_step->iterations < p->constant;
     p->back_off = saves ? 0 : 2 * p->back_off + 1;
     if (p->back_off > DMB_PAUSE_MAX) p->back_off = DMB_PAUSE_MAX;
     p->pause = p->back_off;

@@ -6,9 +6,9 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/sim.h"
-#include "integrator/attempt.h"
 #include "integrator/breakpoint.h"
 #include "integrator/newton.h"
+#include "integrator/trial_step.h"
 #include "math/elementary.h"
 #include "sim/access.h"
 #include "sim/layout.h"
@@ -20,23 +20,23 @@
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 
-int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk)
+int32_t dmb_stepping_begin(dmb_sim *sim, const dmb_step_report *report, dmb_stepping *stepping)
 {
-    memset(walk, 0, sizeof *walk);
-    (void)dmb_step_report_init(&walk->report, (uint32_t)sizeof walk->report);
-    walk->counters = *sim->counters;
+    memset(stepping, 0, sizeof *stepping);
+    (void)dmb_step_report_init(&stepping->report, (uint32_t)sizeof stepping->report);
+    stepping->counters = *sim->counters;
     dmb_step_report unused; /* only its size matters: what the caller's report holds is from an earlier call */
     return report == NULL ? DMB_OK : dmb_step_report_read(&unused, report);
 }
 
-int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound)
+int32_t dmb_stepping_check(dmb_sim *sim, const char *field, double value, double bound)
 {
     dmb_check check = dmb_check_of(&sim->message, "step", DMB_NONE);
     dmb_check_above(&check, field, value, bound);
     return check.status;
 }
 
-int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound)
+int32_t dmb_stepping_check_at_most(dmb_sim *sim, const char *field, double value, double bound)
 {
     dmb_check check = dmb_check_of(&sim->message, "step", DMB_NONE);
     dmb_check_within(&check, field, value, 0.0, bound);
@@ -45,17 +45,17 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
 
 /* 1 if forces, or the rate of a time function, may jump behind the step, so that accelerations may be made anew.
  * *turns: the rate does. DMB_ERR_CALLBACK. */
-static int32_t may_jump(dmb_sim *sim, const dmb_attempt *attempt, int32_t *turns)
+static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t *turns)
 {
     const dmb_scene *scene = sim->scene;
-    *turns = dmb_system_rate_jumps(sim, attempt->end.time, fmax(attempt->end.breakpoint, sim->clock->breakpoint));
+    *turns = dmb_system_rate_jumps(sim, trial_step->end.time, fmax(trial_step->end.breakpoint, sim->clock->breakpoint));
     if (*turns != 0) return *turns;
     return scene->hole.cuts > 0 || dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
            dmb_actuators_may_jump(scene);
 }
 
 /* Accelerations anew where forces, or the rate of a time function, jump at the time reached; *jumped: they do. */
-static int32_t walk_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
+static int32_t stepping_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
     const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
@@ -71,29 +71,29 @@ static int32_t walk_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
 /* The state that a failure brings back is set aside unless the call has done that. Where a function of the caller's may
  * fail, factors are kept only when none can come any more, and are lost where the accelerations were made anew from
  * others; elsewhere those that a step made are lost with it. */
-static int32_t accept(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
+static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     const dmb_factor_reuse kept = *sim->reuse;
     int jumped = 0;
-    int32_t turns = 0, status = may_jump(sim, attempt, &turns);
+    int32_t turns = 0, status = may_jump(sim, trial_step, &turns);
     if (status >= 0) {
-        attempt->deferred = status > 0 && sim->scene->has_callback;
-        if (status > 0 && !walk->set_aside) dmb_state_back_up(sim);
-        dmb_attempt_commit(sim, attempt);
-        status = walk_breakpoint(sim, turns, &jumped);
+        trial_step->deferred = status > 0 && sim->scene->has_callback;
+        if (status > 0 && !stepping->set_aside) dmb_state_back_up(sim);
+        dmb_trial_step_commit(sim, trial_step);
+        status = stepping_breakpoint(sim, turns, &jumped);
         if (status >= 0) {
-            if (attempt->deferred && !jumped) dmb_factor_reuse_end(sim, attempt, &sim->now);
+            if (trial_step->deferred && !jumped) dmb_factor_reuse_end(sim, trial_step, &sim->now);
             return DMB_OK;
         }
-        if (!walk->set_aside) dmb_state_restore(sim);
-        dmb_factor_reuse_take_back(sim, attempt, &kept);
+        if (!stepping->set_aside) dmb_state_restore(sim);
+        dmb_factor_reuse_take_back(sim, trial_step, &kept);
     }
-    walk->report.steps--;
-    walk->report.rejected++;
+    stepping->report.steps--;
+    stepping->report.rejected++;
     return status;
 }
 
-int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
+int32_t dmb_stepping_commit(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     if (sim->follower != NULL) {
         if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED) {
@@ -101,23 +101,24 @@ int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
                 &sim->message,
                 "step to time %g: a stuck place is released there, which a derivative along the run must not "
                 "meet; end the run before it, or leave out the parameters",
-                attempt->end.time);
+                trial_step->end.time);
             return DMB_ERR_UNSUPPORTED;
         }
-        const int32_t status = sim->follower->follow(sim->follower->context, attempt);
+        const int32_t status = sim->follower->follow(sim->follower->context, trial_step);
         if (status < 0) return status;
     }
-    walk->report.steps++;
-    walk->report.iterations += attempt->iterations;
-    if (attempt->iterations > walk->report.most_iterations) walk->report.most_iterations = attempt->iterations;
-    walk->report.residual = fmax(walk->report.residual, attempt->residual);
-    walk->report.last_step = attempt->end.step;
-    walk->rejected = walk->report.rejected;
-    walk->iterations = walk->report.iterations;
-    return accept(sim, attempt, walk);
+    stepping->report.steps++;
+    stepping->report.iterations += trial_step->iterations;
+    if (trial_step->iterations > stepping->report.most_iterations)
+        stepping->report.most_iterations = trial_step->iterations;
+    stepping->report.residual = fmax(stepping->report.residual, trial_step->residual);
+    stepping->report.last_step = trial_step->end.step;
+    stepping->rejected = stepping->report.rejected;
+    stepping->iterations = stepping->report.iterations;
+    return accept(sim, trial_step, stepping);
 }
 
-int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step)
+int32_t dmb_stepping_stuck(dmb_sim *sim, const char *field, double step)
 {
     const double t = sim->clock->time;
     dmb_message_set(&sim->message,
@@ -127,28 +128,29 @@ int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step)
     return DMB_ERR_VALUE;
 }
 
-void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk)
+void dmb_stepping_reject(dmb_sim *sim, const dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
-    walk->report.rejected++;
-    walk->report.iterations += attempt->iterations;
-    if (attempt->status < 0) dmb_attempt_explain(sim, attempt);
+    stepping->report.rejected++;
+    stepping->report.iterations += trial_step->iterations;
+    if (trial_step->status < 0) dmb_trial_step_explain(sim, trial_step);
 }
 
-int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk)
+int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report,
+                         const dmb_stepping *stepping)
 {
-    dmb_step_report out = walk->report;
+    dmb_step_report out = stepping->report;
     if (status ==
         DMB_ERR_CANCELLED) { /* tried again by the call that goes on from here, whose bits are then the same */
-        out.rejected = walk->rejected;
-        out.iterations = walk->iterations;
+        out.rejected = stepping->rejected;
+        out.iterations = stepping->iterations;
     }
     if (status < 0 && restore) { /* counters too: a failing call changes nothing */
-        if (walk->set_aside) dmb_state_restore(sim);
-        *sim->counters = walk->counters;
+        if (stepping->set_aside) dmb_state_restore(sim);
+        *sim->counters = stepping->counters;
         out.steps = 0;
     } else { /* work spent in vain on the way counts */
-        sim->counters->rejected = walk->counters.rejected + out.rejected;
-        sim->counters->iterations = walk->counters.iterations + out.iterations;
+        sim->counters->rejected = stepping->counters.rejected + out.rejected;
+        sim->counters->iterations = stepping->counters.iterations + out.iterations;
     }
     out.time = sim->clock->time;
     if (report != NULL) (void)dmb_step_report_write(report, &out);
@@ -159,23 +161,23 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
     }
     if (status < 0) return status;
     /* Before the others, which tell how good the steps were: the time that was asked for was not reached. */
-    if (walk->stopped) {
+    if (stepping->stopped) {
         dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
                         sim->options.max_steps);
         return DMB_NOTE_STOPPED;
     }
-    if (walk->limited) {
+    if (stepping->limited) {
         dmb_message_set(&sim->message, "step to time %g: relative residual = %g after %u iterations, accepted as asked",
                         out.time, out.residual, out.most_iterations);
         return DMB_NOTE_WORK_LIMITED;
     }
-    if (walk->too_coarse) {
+    if (stepping->too_coarse) {
         dmb_message_set(&sim->message, "steps of step_min = %g were taken above the error tolerance",
                         sim->options.step_min);
         return DMB_NOTE_TOLERANCE;
     }
     dmb_message_clear(&sim->message);
-    if (!walk->was_cut) return DMB_OK;
+    if (!stepping->was_cut) return DMB_OK;
     dmb_message_set(&sim->message, "step to time %g: divided into %u steps, %u rejected", out.time, out.steps,
                     out.rejected);
     return DMB_NOTE_STEP_CUT;
@@ -199,62 +201,62 @@ static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double
 }
 
 /* One accepted step of at most `cut`, halving on failure. */
-static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts, dmb_walk *walk)
+static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts, dmb_stepping *stepping)
 {
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     for (;;) {
         dmb_step_end end = substep(sim, goal, *cut);
         end.asked = goal->step;
-        if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", end.step);
+        if (!(end.time > sim->clock->time)) return dmb_stepping_stuck(sim, "length", end.step);
         const int last = end.arrives;
-        if (!last && !walk->set_aside) {
+        if (!last && !stepping->set_aside) {
             dmb_state_back_up(sim);
-            walk->set_aside = 1;
+            stepping->set_aside = 1;
         }
-        int32_t status = dmb_attempt_step(sim, &end, last && !walk->set_aside, &attempt);
+        int32_t status = dmb_trial_step_run(sim, &end, last && !stepping->set_aside, &trial_step);
         if (status >= 0 && sim->scene->stuck_count > 0 && !sim->options.bounded_work)
-            status = dmb_attempt_to_release(sim, &attempt);
+            status = dmb_trial_step_to_release(sim, &trial_step);
         if (status >= 0) {
-            if (!attempt.end.arrives && !walk->set_aside) {
+            if (!trial_step.end.arrives && !stepping->set_aside) {
                 dmb_state_back_up(sim);
-                walk->set_aside = 1;
+                stepping->set_aside = 1;
             }
-            const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
+            const int32_t refused = dmb_stepping_commit(sim, &trial_step, stepping);
             if (refused < 0) return refused;
-            walk->arrived = attempt.end.arrives;
+            stepping->arrived = trial_step.end.arrives;
             *cut =
                 *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a breakpoint nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;
         }
-        dmb_walk_reject(sim, &attempt, walk);
+        dmb_stepping_reject(sim, &trial_step, stepping);
         if (sim->options.bounded_work || dmb_is_final(status) || *cuts >= sim->options.max_cuts ||
             0.5 * end.step < sim->options.step_min)
             return status;
         ++*cuts;
         *cut = 0.5 * end.step;
-        walk->was_cut = 1;
+        stepping->was_cut = 1;
     }
 }
 
 static int32_t step(dmb_sim *sim, double duration, dmb_step_report *report)
 {
-    dmb_walk walk;
+    dmb_stepping stepping;
     double cut = (double)INFINITY;
     uint32_t cuts = 0;
-    int32_t status = dmb_walk_begin(sim, report, &walk);
+    int32_t status = dmb_stepping_begin(sim, report, &stepping);
     if (status < 0) return status;
-    status = dmb_walk_check(sim, "duration", duration, 0.0);
+    status = dmb_stepping_check(sim, "duration", duration, 0.0);
     if (status < 0) return status;
-    status = dmb_walk_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
+    status = dmb_stepping_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
     if (status < 0) return status;
     const dmb_step_end goal = dmb_step_end_after(sim, duration);
-    if (!(goal.time > sim->clock->time)) return dmb_walk_stuck(sim, "duration", duration);
-    while (status >= 0 && !walk.arrived) {
-        status = take_substep(sim, &goal, &cut, &cuts, &walk);
-        if (status == DMB_NOTE_WORK_LIMITED) walk.limited = 1;
+    if (!(goal.time > sim->clock->time)) return dmb_stepping_stuck(sim, "duration", duration);
+    while (status >= 0 && !stepping.arrived) {
+        status = take_substep(sim, &goal, &cut, &cuts, &stepping);
+        if (status == DMB_NOTE_WORK_LIMITED) stepping.limited = 1;
     }
-    return dmb_walk_end(sim, status, 1, report, &walk);
+    return dmb_stepping_end(sim, status, 1, report, &stepping);
 }
 
 int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
@@ -290,10 +292,10 @@ static void note_step(const dmb_sim *sim, int32_t status, int32_t *worst, dmb_me
 /* Refuses what a step would refuse, before the first. */
 static int32_t check_steps(dmb_sim *sim, double duration, const dmb_step_report *report)
 {
-    dmb_walk unused;
-    int32_t status = dmb_walk_begin(sim, report, &unused);
-    if (status >= 0) status = dmb_walk_check(sim, "duration", duration, 0.0);
-    return status < 0 ? status : dmb_walk_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
+    dmb_stepping unused;
+    int32_t status = dmb_stepping_begin(sim, report, &unused);
+    if (status >= 0) status = dmb_stepping_check(sim, "duration", duration, 0.0);
+    return status < 0 ? status : dmb_stepping_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
 }
 
 static int32_t steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *done, dmb_step_report *report)
@@ -377,29 +379,29 @@ void dmb_advance_propose(dmb_sim *sim, double wanted)
     sim->clock->next_step = wanted;
 }
 
-int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
+int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_stepping *stepping)
 {
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     for (int retried = 0;; retried = 1) {
         const dmb_step_end end = fit(sim, *wanted, time);
         const double h = end.step;
-        if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", h);
-        int32_t status = dmb_attempt_step(sim, &end, 1, &attempt);
+        if (!(end.time > sim->clock->time)) return dmb_stepping_stuck(sim, "length", h);
+        int32_t status = dmb_trial_step_run(sim, &end, 1, &trial_step);
         if (status == DMB_NOTE_WORK_LIMITED)
-            status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
-        if (status >= 0 && sim->scene->stuck_count > 0) status = dmb_attempt_to_release(sim, &attempt);
-        const double taken = attempt.end.step;
+            status = trial_step.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
+        if (status >= 0 && sim->scene->stuck_count > 0) status = dmb_trial_step_to_release(sim, &trial_step);
+        const double taken = trial_step.end.step;
         const int smallest = !(h > sim->options.step_min * 1.0001);
-        const dmb_step_error error = status >= 0 ? dmb_attempt_error(sim, taken) : (dmb_step_error){0.0, 0.0};
+        const dmb_step_error error = status >= 0 ? dmb_trial_step_error(sim, taken) : (dmb_step_error){0.0, 0.0};
         if (status >= 0 && (error.here <= 1.0 || smallest)) {
             if (!(taken < h)) *wanted = wanted_after(sim, h, *wanted, error.ahead, retried);
-            if (error.here > 1.0) walk->too_coarse = 1;
-            const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
+            if (error.here > 1.0) stepping->too_coarse = 1;
+            const int32_t refused = dmb_stepping_commit(sim, &trial_step, stepping);
             if (refused < 0) return refused;
             dmb_advance_propose(sim, *wanted);
             return status;
         }
-        dmb_walk_reject(sim, &attempt, walk);
+        dmb_stepping_reject(sim, &trial_step, stepping);
         if (status < 0 && (smallest || dmb_is_final(status))) return status;
         *wanted = status >= 0 ? retry_step(sim, h, error.ahead) : fmax(0.25 * h, sim->options.step_min);
     }
@@ -407,19 +409,19 @@ int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *wa
 
 static int32_t advance(dmb_sim *sim, double time, dmb_step_report *report)
 {
-    dmb_walk walk;
-    int32_t status = dmb_walk_begin(sim, report, &walk);
+    dmb_stepping stepping;
+    int32_t status = dmb_stepping_begin(sim, report, &stepping);
     if (status < 0) return status;
-    status = dmb_walk_check(sim, "time", time, sim->clock->time);
+    status = dmb_stepping_check(sim, "time", time, sim->clock->time);
     if (status < 0) return status;
     const double start = sim->clock->time;
     double wanted = dmb_advance_first(sim);
-    while (status >= 0 && sim->clock->time < time && !walk.stopped) {
+    while (status >= 0 && sim->clock->time < time && !stepping.stopped) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
-        status = dmb_advance_once(sim, time, &wanted, &walk);
-        walk.stopped = walk.report.steps == sim->options.max_steps && sim->clock->time < time;
+        status = dmb_advance_once(sim, time, &wanted, &stepping);
+        stepping.stopped = stepping.report.steps == sim->options.max_steps && sim->clock->time < time;
     }
-    return dmb_walk_end(sim, status, 0, report, &walk);
+    return dmb_stepping_end(sim, status, 0, report, &stepping);
 }
 
 int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)

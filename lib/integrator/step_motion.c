@@ -1,7 +1,7 @@
 #include "integrator/step_motion.h"
 
 #include "kernel/kernels.h"
-#include "sim/parts.h"
+#include "sim/chunks.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
 #include "system/constrain/rotor.h"
@@ -11,37 +11,37 @@ enum { ROWS = 6 * DMB_GRAIN };
 
 typedef struct predict_rows {
     const dmb_kernels *kernels;
-    const dmb_predict_job *job;
+    const dmb_predict_args *args;
 } predict_rows;
 
 /* place: the poses of the nodes follow their rows. */
 typedef struct correct_nodes {
     dmb_sim *sim;
-    const dmb_correct_job *job;
+    const dmb_correct_args *args;
     int32_t place, reserved;
 } correct_nodes;
 
 static void predict(void *work, uint32_t first, uint32_t end)
 {
     const predict_rows *rows = work;
-    dmb_predict_job job = *rows->job;
-    job.count = end - first;
-    job.now_velocity += first;
-    job.now_acceleration += first;
-    job.now_pseudo_acceleration += first;
-    job.velocity += first;
-    job.acceleration += first;
-    job.pseudo_acceleration += first;
-    job.increment += first;
-    job.change += first;
-    rows->kernels->predict(&job);
+    dmb_predict_args args = *rows->args;
+    args.count = end - first;
+    args.now_velocity += first;
+    args.now_acceleration += first;
+    args.now_pseudo_acceleration += first;
+    args.velocity += first;
+    args.acceleration += first;
+    args.pseudo_acceleration += first;
+    args.increment += first;
+    args.change += first;
+    rows->kernels->predict(&args);
 }
 
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h, double slope)
 {
     const double whole = 1.0 - c->am;
     const dmb_step_motion to = dmb_step_motion_of(sim);
-    const dmb_predict_job job = {
+    const dmb_predict_args args = {
         .count = sim->scene->row_count,
         .step = h,
         .ratio = dmb_step_motion_ratio(sim, h),
@@ -63,12 +63,13 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    predict_rows rows = {sim->scene->kernels, &job};
-    dmb_parts_run(sim, job.count, ROWS, predict, &rows);
-    if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &job);
-    if (sim->scene->rotor_count) dmb_rotors_predict(sim, &job);
-    for (uint32_t i = 0; i < sim->scene->held_count && slope != 0.0; i++)
-        sim->correction[sim->scene->layout.row[sim->scene->held_node[i]] + sim->scene->held_component[i]] = 0.0;
+    predict_rows rows = {sim->scene->kernels, &args};
+    dmb_chunks_run(sim, args.count, ROWS, predict, &rows);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &args);
+    if (sim->scene->rotor_count) dmb_rotors_predict(sim, &args);
+    for (uint32_t i = 0; i < sim->scene->constrained_count && slope != 0.0; i++)
+        sim->correction[sim->scene->layout.row[sim->scene->constrained_node[i]] +
+                        sim->scene->constrained_component[i]] = 0.0;
 }
 
 void dmb_step_motion_keep_prescribed(dmb_sim *sim)
@@ -88,14 +89,14 @@ static void correct(void *work, uint32_t first, uint32_t end)
     const correct_nodes *nodes = work;
     const dmb_scene *scene = nodes->sim->scene;
     const uint32_t row = scene->layout.row[first];
-    dmb_correct_job job = *nodes->job;
-    job.count = scene->layout.row[end] - row;
-    job.correction += row;
-    job.velocity += row;
-    job.acceleration += row;
-    job.pseudo_acceleration += row;
-    job.increment += row;
-    scene->kernels->correct(&job);
+    dmb_correct_args args = *nodes->args;
+    args.count = scene->layout.row[end] - row;
+    args.correction += row;
+    args.velocity += row;
+    args.acceleration += row;
+    args.pseudo_acceleration += row;
+    args.increment += row;
+    scene->kernels->correct(&args);
     if (nodes->place) dmb_system_move_nodes(nodes->sim, first, end);
 }
 
@@ -103,7 +104,7 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
 {
     const double to_a = 1.0 / (h * h * c->beta);
     const dmb_step_motion to = dmb_step_motion_of(sim);
-    const dmb_correct_job job = {
+    const dmb_correct_args args = {
         .count = sim->scene->row_count,
         .to_velocity = c->gamma / (h * c->beta),
         .to_acceleration = to_a * (1.0 - c->am) / (1.0 - c->af),
@@ -114,14 +115,14 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    correct_nodes nodes = {sim, &job, sim->scene->free_rigid_count == 0, 0};
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, correct, &nodes);
+    correct_nodes nodes = {sim, &args, sim->scene->free_rigid_count == 0, 0};
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, correct, &nodes);
     if (sim->scene->rotor_count) {
-        dmb_rotors_correct(sim, &job);
+        dmb_rotors_correct(sim, &args);
         dmb_rotors_place(sim);
     }
     if (nodes.place) return;
-    dmb_free_rigids_correct(sim, &job);
+    dmb_free_rigids_correct(sim, &args);
     dmb_step_motion_place(sim);
 }
 

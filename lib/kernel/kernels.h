@@ -21,7 +21,7 @@ typedef struct dmb_seam {
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
  * first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written between
  * them, where elements are the first to add something. */
-typedef struct dmb_beam_job {
+typedef struct dmb_beam_args {
     uint32_t count;  /* elements */
     uint32_t failed; /* out: the first element that turned too far */
     const dmb_element_type *types;
@@ -44,11 +44,11 @@ typedef struct dmb_beam_job {
     double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
     dmb_seam *seam;                               /* added to in place of the last node; NULL: that itself is */
-} dmb_beam_job;
+} dmb_beam_args;
 
 /* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
  * the run's first bar, node or row. */
-typedef struct dmb_bar_job {
+typedef struct dmb_axial_torsional_args {
     uint32_t count;  /* bars */
     int32_t dynamic; /* as in dmb_evaluation */
     const dmb_element_type *types;
@@ -59,21 +59,21 @@ typedef struct dmb_bar_job {
     double per_length;                            /* [1/m] makes angles comparable with displacements */
     double *residual, *scale;                     /* added to, shape (count + 1, 2) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
-} dmb_bar_job;
+} dmb_axial_torsional_args;
 
 /* A run of FULL nodes. */
-typedef struct dmb_node_job {
+typedef struct dmb_node_args {
     uint32_t count;
     uint32_t reserved;
     const double *increment; /* [m, rad] body frame, shape (count, 6) */
     const double *start_displacement, *start_quaternion;
     double *displacement, *quaternion; /* start moved by the increment */
     double turned;                     /* [rad2] raised to the square of the largest rotation */
-} dmb_node_job;
+} dmb_node_args;
 
 /* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
  * block. */
-typedef struct dmb_node_force_job {
+typedef struct dmb_node_force_args {
     uint32_t count;                     /* nodes */
     uint32_t first;                     /* number of the first one, by which rigid_masses name theirs */
     const dmb_rigid_mass *rigid_masses; /* in the order of their nodes, none before the run; those behind it are left */
@@ -89,7 +89,7 @@ typedef struct dmb_node_force_job {
     double *residual, *scale;                  /* added to, shape (count, 6) */
     double *stiffness, *inertia;               /* added to, shape (count, 36) */
     double inertia_power, potential, damping_power; /* added to: [W] */
-} dmb_node_force_job;
+} dmb_node_force_args;
 
 /* Fields of the contact points in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
@@ -103,7 +103,7 @@ typedef struct dmb_site_fields {
 enum { DMB_SITE_COARSE = 1, DMB_SITE_PLASTIC = 2 };
 
 /* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
-typedef struct dmb_wall_job {
+typedef struct dmb_wall_args {
     uint32_t count;   /* sites */
     int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
     int32_t touches;  /* 1: the damping of the wall jumps at touch; else the fields of touch are empty */
@@ -132,9 +132,9 @@ typedef struct dmb_wall_job {
     double *residual, *scale;                     /* added to */
     double *stiffness, *inertia;                  /* diagonal blocks, added to */
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
-} dmb_wall_job;
+} dmb_wall_args;
 
-static inline void dmb_site_fields_skip(const dmb_wall_job *job, uint32_t count, dmb_site_fields *fields)
+static inline void dmb_site_fields_skip(const dmb_wall_args *args, uint32_t count, dmb_site_fields *fields)
 {
     fields->normal += 3 * (size_t)count;
     fields->depth += count;
@@ -142,43 +142,43 @@ static inline void dmb_site_fields_skip(const dmb_wall_job *job, uint32_t count,
     fields->impact_speed += count;
     fields->slip += 2 * (size_t)count;
     fields->segment += count;
-    if (job->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)count;
-    if (!job->bristles) return;
+    if (args->touches) fields->touch += DMB_TOUCH_SIZE * (size_t)count;
+    if (!args->bristles) return;
     fields->bristle += 2 * (size_t)count;
     fields->sticks += count;
 }
 /* The fields of sites go on to the one that stands so many behind the first. */
-static inline void dmb_wall_job_skip(dmb_wall_job *job, uint32_t count)
+static inline void dmb_wall_args_skip(dmb_wall_args *args, uint32_t count)
 {
-    job->site_history += count;
-    job->mode += count;
-    job->coarse += count;
-    job->presses += count;
-    dmb_site_fields_skip(job, count, &job->now);
-    dmb_site_fields_skip(job, count, &job->trial);
+    args->site_history += count;
+    args->mode += count;
+    args->coarse += count;
+    args->presses += count;
+    dmb_site_fields_skip(args, count, &args->now);
+    dmb_site_fields_skip(args, count, &args->trial);
 }
 
 /* Turns of FULL nodes about their own x axes. */
-typedef struct dmb_turn_job {
+typedef struct dmb_turn_args {
     uint32_t count;
     uint32_t reserved;
     const double *reference, *quaternion; /* orientation at time 0 and now, shape (count, 4) */
     const double *increment;              /* [m, rad] of the step, shape (count, 6) */
     const double *start;                  /* [rad] turn at its start, shape (count) */
     double *turn;                         /* [rad] revolutions counted */
-} dmb_turn_job;
+} dmb_turn_args;
 
 /* Vectors of FULL nodes, given in one frame of each and wanted in another that is twisted about the node's x axis. */
-typedef struct dmb_twist_job {
+typedef struct dmb_twist_args {
     uint32_t count;
     uint32_t reserved;
     const double *from, *to; /* quaternions of the two frames, shape (count, 4); only their twist counts */
     double *rows;            /* two vectors a node, shape (count, 6) */
-} dmb_twist_job;
+} dmb_twist_args;
 
 /* Rows at the start of a step (integrator/step_motion): with a0 = v0' + ratio (a - v0') of the accepted state, a1 =
  * a_from_dv v0' + a_from_a0 a0, v1 = v0 + v_from_a0 a0 + v_from_a1 a1, h Dq = h v0 + z_from_a0 a0 + z_from_a1 a1. */
-typedef struct dmb_predict_job {
+typedef struct dmb_predict_args {
     uint32_t count;
     uint32_t reserved;
     double step, ratio;                                                      /* [s], [-] */
@@ -188,34 +188,34 @@ typedef struct dmb_predict_job {
     const double *now_velocity, *now_acceleration, *now_pseudo_acceleration;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* written */
     double *change; /* written where it does not stay: what the increment is more by */
-} dmb_predict_job;
+} dmb_predict_args;
 
 /* Rows moved by a correction of h Dq. */
-typedef struct dmb_correct_job {
+typedef struct dmb_correct_args {
     uint32_t count;
     uint32_t reserved;
     double to_velocity, to_acceleration, to_pseudo_acceleration; /* [1/s], [1/s2] */
     const double *correction;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* added to */
-} dmb_correct_job;
+} dmb_correct_args;
 
 /* Powers over the rows with solved[i] = 1, in DMB_SQUARES sums side by side. */
-typedef struct dmb_power_job {
+typedef struct dmb_power_args {
     uint32_t count;
     uint32_t reserved;
     const double *residual, *scale, *velocity;
     const uint8_t *solved;
     double left, exchanged; /* [W] out: sum residual[i] velocity[i], sum |scale[i] velocity[i]| */
-} dmb_power_job;
+} dmb_power_args;
 
 /* Diagonal blocks of the iteration matrix of FULL nodes: K T6(z) + C. */
-typedef struct dmb_matrix_job {
+typedef struct dmb_matrix_args {
     uint32_t count;
     uint32_t reserved;
     const double *increment; /* [m, rad] z, shape (count, 6) */
     const double *inertia;   /* C, shape (count, 36) */
     double *stiffness;       /* K in, the block out; shape (count, 36) */
-} dmb_matrix_job;
+} dmb_matrix_args;
 
 /* Frequencies of a response that are solved side by side, in groups of this size on every processor. */
 #define DMB_FREQUENCIES 8
@@ -248,17 +248,17 @@ typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
     /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with job->failed. */
-    int32_t (*beams)(dmb_beam_job *job);
+    int32_t (*beams)(dmb_beam_args *args);
     /* Forces. */
-    void (*bars)(dmb_bar_job *job);
+    void (*axial_torsional_elements)(dmb_axial_torsional_args *args);
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (job->velocity), at job->strain. */
-    void (*extrapolate)(const dmb_beam_job *job);
-    void (*advance)(dmb_node_job *job);
-    void (*turns)(const dmb_turn_job *job);
-    void (*twist)(const dmb_twist_job *job);
-    void (*predict)(const dmb_predict_job *job);
-    void (*correct)(const dmb_correct_job *job);
-    void (*matrices)(const dmb_matrix_job *job);
+    void (*extrapolate)(const dmb_beam_args *args);
+    void (*advance)(dmb_node_args *args);
+    void (*turns)(const dmb_turn_args *args);
+    void (*twist)(const dmb_twist_args *args);
+    void (*predict)(const dmb_predict_args *args);
+    void (*correct)(const dmb_correct_args *args);
+    void (*matrices)(const dmb_matrix_args *args);
     /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
     void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES]);
@@ -267,7 +267,7 @@ typedef struct dmb_kernels {
     double (*magnitude)(uint32_t count, const double *a);
     /* to[i] = -from[i] */
     void (*negate)(uint32_t count, const double *from, double *to);
-    void (*powers)(dmb_power_job *job);
+    void (*powers)(dmb_power_args *args);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
@@ -281,10 +281,10 @@ typedef struct dmb_kernels {
     void (*away_part)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                       int32_t part, double *rhs);
     /* Forces and, if asked for, tangent blocks. */
-    void (*node_forces)(dmb_node_force_job *job);
+    void (*node_forces)(dmb_node_force_args *args);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
-    void (*walls)(dmb_wall_job *job);
-    void (*responses)(dmb_response_job *job);
+    void (*walls)(dmb_wall_args *args);
+    void (*responses)(dmb_response_job *args);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */

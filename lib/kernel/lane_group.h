@@ -51,8 +51,8 @@ typedef struct lane_places {
  */
 
 /* `count` numbers of each lane from places of `size` numbers to rows of `stride`. */
-DMB_LANES_CALL void gather_rest(const double *from, size_t size, uint32_t count, size_t stride, const lane_group *g,
-                                double *rows)
+DMB_LANES_CALL void load_rest(const double *from, size_t size, uint32_t count, size_t stride, const lane_group *g,
+                              double *rows)
 {
     for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
         for (uint32_t i = 0; i < count; i++) rows[stride * l + i] = from[size * place_at(g, l) + i];
@@ -63,8 +63,8 @@ DMB_LANES_CALL void scatter_rest(const double *rows, uint32_t count, const lane_
     for (size_t i = 0; i < (size_t)count * g->used; i++) to[(size_t)count * g->first + i] = rows[i];
 }
 
-DMB_LANES_CALL void gather_places(const double *from, size_t size, uint32_t count, const lane_places *places,
-                                  double *rows)
+DMB_LANES_CALL void load_lane_places(const double *from, size_t size, uint32_t count, const lane_places *places,
+                                     double *rows)
 {
     for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
         for (uint32_t i = 0; i < count; i++) rows[count * l + i] = from[size * places->place[l] + i];
@@ -80,7 +80,7 @@ DMB_LANES_INLINE void load(const double *from, size_t size, uint32_t count, cons
     const double *at = from + size * ((size_t)g->first + next);
     double rows[DMB_REAL_LANES * LANES_FEW];
     if (!is_whole(g)) {
-        gather_rest(from + size * next, size, count, size, g, rows);
+        load_rest(from + size * next, size, count, size, g, rows);
         at = rows;
     }
     load_together(at, size, count, x);
@@ -91,7 +91,7 @@ DMB_LANES_INLINE void load_block(const double *from, const lane_group *g, dmb_re
     const double *at = from + LANES_BLOCK * (size_t)g->first;
     double rows[DMB_REAL_LANES * LANES_BLOCK];
     if (!is_whole(g)) {
-        gather_rest(from, LANES_BLOCK, LANES_BLOCK, LANES_BLOCK, g, rows);
+        load_rest(from, LANES_BLOCK, LANES_BLOCK, LANES_BLOCK, g, rows);
         at = rows;
     }
     load_together(at, LANES_BLOCK, LANES_BLOCK, x);
@@ -119,7 +119,7 @@ DMB_LANES_INLINE void load_at(const double *from, size_t size, uint32_t count, c
     const double *at = from + size * places->place[0];
     double rows[DMB_REAL_LANES * 6];
     if (DMB_REAL_LANES > 1 && !places->together) {
-        gather_places(from, size, count, places, rows);
+        load_lane_places(from, size, count, places, rows);
         at = rows;
     }
     load_together(at, count, count, x);

@@ -3,7 +3,7 @@
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
-#include "kernel/lanes_bar.h"
+#include "kernel/lanes_axial_torsional.h"
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_response.h"
 #include "kernel/lanes_wall.h"
@@ -18,24 +18,25 @@ typedef struct lane_types {
     dmb_curved_constants curved; /* where they are bent */
 } lane_types;
 
-static void load_types(const dmb_beam_job *job, const lane_group *g, int first, lane_types *types)
+static void load_types(const dmb_beam_args *args, const lane_group *g, int first, lane_types *types)
 {
-    if (!first && is_whole(g) && memcmp(types->type, job->type + g->first, sizeof types->type) == 0) return;
+    if (!first && is_whole(g) && memcmp(types->type, args->type + g->first, sizeof types->type) == 0) return;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = job->type[place_at(g, (uint32_t)l)];
+        const uint32_t type = args->type[place_at(g, (uint32_t)l)];
         if (!first && types->type[l] == type) continue;
         types->type[l] = type;
-        dmb_beam_load_constants(job->types + type, l, &types->constants);
-        if (job->curved) dmb_curved_load(job->types + type, l, &types->curved);
+        dmb_beam_load_constants(args->types + type, l, &types->constants);
+        if (args->curved) dmb_curved_load(args->types + type, l, &types->curved);
     }
 }
 
 /* Vector from node A to node B, and the largest magnitude that enters it. */
-static inline void load_span(const dmb_beam_job *job, const lane_group *g, const lane_group *nodes, dmb_beam_input *in)
+static inline void load_span(const dmb_beam_args *args, const lane_group *g, const lane_group *nodes,
+                             dmb_beam_input *in)
 {
     dmb_real ua[3], ub[3];
-    load_ends(job->displacement, 3, nodes, job->count, ua, ub);
-    load(job->span, 3, 3, g, 0, in->span);
+    load_ends(args->displacement, 3, nodes, args->count, ua, ub);
+    load(args->span, 3, 3, g, 0, in->span);
     in->reach = dmb_real_of(0.0);
     for (int i = 0; i < 3; i++) {
         in->span[i] = in->span[i] + (ub[i] - ua[i]);
@@ -43,18 +44,18 @@ static inline void load_span(const dmb_beam_job *job, const lane_group *g, const
     }
 }
 
-DMB_LANES_INLINE void load_input(const dmb_beam_job *job, const dmb_beam_task *task, const lane_group *g,
+DMB_LANES_INLINE void load_input(const dmb_beam_args *args, const dmb_beam_task *task, const lane_group *g,
                                  dmb_beam_input *in)
 {
-    const lane_group nodes = group_at(g->first, job->count + 1);
-    load_ends(job->quaternion, 4, &nodes, job->count, in->qa, in->qb);
+    const lane_group nodes = group_at(g->first, args->count + 1);
+    load_ends(args->quaternion, 4, &nodes, args->count, in->qa, in->qb);
     dmb_quat_to_matrix(in->qa, in->Ra);
-    load_span(job, g, &nodes, in);
+    load_span(args, g, &nodes, in);
     if (!task->dynamic) return;
-    load_ends(job->velocity, 6, &nodes, job->count, in->va, in->vb);
-    load_ends(job->acceleration, 6, &nodes, job->count, in->aa, in->ab);
+    load_ends(args->velocity, 6, &nodes, args->count, in->va, in->vb);
+    load_ends(args->acceleration, 6, &nodes, args->count, in->aa, in->ab);
     if (!task->tangent) return;
-    load_ends(job->increment, 6, &nodes, job->count, in->za, in->zb);
+    load_ends(args->increment, 6, &nodes, args->count, in->za, in->zb);
 }
 
 /* Parts of the nodes of the next group that come from the far ends of elements. */
@@ -62,247 +63,248 @@ typedef struct beam_ends {
     dmb_real residual[6], scale[6], stiffness[36], inertia[36];
 } beam_ends;
 
-static inline void begin_ends(const dmb_beam_job *job, const dmb_beam_task *task, beam_ends *ends)
+static inline void begin_ends(const dmb_beam_args *args, const dmb_beam_task *task, beam_ends *ends)
 {
-    if (job->apart) {
+    if (args->apart) {
         const dmb_real zero = dmb_real_of(0.0);
         for (int i = 0; i < 6; i++) ends->residual[i] = ends->scale[i] = zero;
         for (int i = 0; i < 36; i++) ends->stiffness[i] = ends->inertia[i] = zero;
         return;
     }
-    chain_begin(job->residual, 6, ends->residual);
-    chain_begin(job->scale, 6, ends->scale);
+    chain_begin(args->residual, 6, ends->residual);
+    chain_begin(args->scale, 6, ends->scale);
     if (!task->tangent) return;
-    if (!task->inertia_only) chain_begin(job->stiffness_diagonal, 36, ends->stiffness);
-    if (task->dynamic) chain_begin(job->inertia_diagonal, 36, ends->inertia);
+    if (!task->inertia_only) chain_begin(args->stiffness_diagonal, 36, ends->stiffness);
+    if (task->dynamic) chain_begin(args->inertia_diagonal, 36, ends->inertia);
 }
 
-static inline void add_ends(const dmb_beam_job *job, const dmb_beam_task *task, const beam_ends *ends)
+static inline void add_ends(const dmb_beam_args *args, const dmb_beam_task *task, const beam_ends *ends)
 {
-    const size_t last = job->count;
-    const uint32_t used = (job->count - 1) % DMB_REAL_LANES + 1;
-    dmb_seam *seam = job->seam;
-    chain_end(ends->residual, 6, used, seam ? seam->residual : job->residual + 6 * last);
-    chain_end(ends->scale, 6, used, seam ? seam->scale : job->scale + 6 * last);
+    const size_t last = args->count;
+    const uint32_t used = (args->count - 1) % DMB_REAL_LANES + 1;
+    dmb_seam *seam = args->seam;
+    chain_end(ends->residual, 6, used, seam ? seam->residual : args->residual + 6 * last);
+    chain_end(ends->scale, 6, used, seam ? seam->scale : args->scale + 6 * last);
     if (!task->tangent) return;
     if (!task->inertia_only)
-        chain_end(ends->stiffness, 36, used, seam ? seam->stiffness : job->stiffness_diagonal + 36 * last);
-    if (task->dynamic) chain_end(ends->inertia, 36, used, seam ? seam->inertia : job->inertia_diagonal + 36 * last);
+        chain_end(ends->stiffness, 36, used, seam ? seam->stiffness : args->stiffness_diagonal + 36 * last);
+    if (task->dynamic) chain_end(ends->inertia, 36, used, seam ? seam->inertia : args->inertia_diagonal + 36 * last);
 }
 
-static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
+static inline void add_powers(dmb_beam_args *args, const lane_group *g, const dmb_beam_output *out)
 {
-    add_each(out->rounding, g, &job->rounding);
-    add_each(-out->potential, g, &job->potential);
-    add_each(-out->damping, g, &job->damping);
-    add_each(-out->inertia, g, &job->inertia);
+    add_each(out->rounding, g, &args->rounding);
+    add_each(-out->potential, g, &args->potential);
+    add_each(-out->damping, g, &args->damping);
+    add_each(-out->inertia, g, &args->inertia);
 }
 
-DMB_LANES_INLINE void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out, beam_ends *ends)
+DMB_LANES_INLINE void store_forces(dmb_beam_args *args, const lane_group *g, const dmb_beam_output *out,
+                                   beam_ends *ends)
 {
-    chain_store(out->fa, out->fb, 6, g, ends->residual, job->residual);
-    chain_store(out->scale_a, out->scale_b, 6, g, ends->scale, job->scale);
-    add_powers(job, g, out);
-    if (job->strain) store(out->strain, 6, g, job->strain);
+    chain_store(out->fa, out->fb, 6, g, ends->residual, args->residual);
+    chain_store(out->scale_a, out->scale_b, 6, g, ends->scale, args->scale);
+    add_powers(args, g, out);
+    if (args->strain) store(out->strain, 6, g, args->strain);
 }
 
-DMB_LANES_INLINE void store_tangent(const dmb_beam_job *job, const dmb_beam_task *task, const lane_group *g,
+DMB_LANES_INLINE void store_tangent(const dmb_beam_args *args, const dmb_beam_task *task, const lane_group *g,
                                     const dmb_beam_output *out, beam_ends *ends)
 {
     const dmb_beam_blocks *K = &out->K, *C = &out->C;
-    if (!task->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, job->stiffness_diagonal);
-    if (task->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, job->inertia_diagonal);
-    store_block(K->ab, g, job->upper);
-    store_block(K->ba, g, job->lower);
+    if (!task->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, args->stiffness_diagonal);
+    if (task->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, args->inertia_diagonal);
+    store_block(K->ab, g, args->upper);
+    store_block(K->ba, g, args->lower);
 }
 
 /* The first lane that turned too far, found one by one. */
-DMB_LANES_CALL uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dmb_beam_constants *c,
+DMB_LANES_CALL uint32_t failed_of(const dmb_beam_args *args, const lane_group *g, const dmb_beam_constants *c,
                                   const dmb_beam_input *in)
 {
     dmb_beam_shape shape;
-    dmb_beam_shape_at(c, job->arms, in->qa, in->Ra, in->qb, in->span, &shape);
+    dmb_beam_shape_at(c, args->arms, in->qa, in->Ra, in->qb, in->span, &shape);
     const dmb_real angle2 = dmb_vec3_norm_squared(shape.d + 3);
     for (uint32_t l = 0; l + 1 < g->used; l++)
         if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX)) return g->first + l;
     return g->first + g->used - 1;
 }
 
-DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
+DMB_LANES_INLINE int32_t beams_of(dmb_beam_args *args, const dmb_beam_task *task)
 {
     lane_types types;
     beam_ends ends;
-    begin_ends(job, task, &ends);
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
+    begin_ends(args, task, &ends);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
         dmb_beam_input in;
         dmb_beam_output out;
-        load_types(job, &g, first == 0, &types);
-        load_input(job, task, &g, &in);
-        if (task->tangent && task->extrapolated) load(job->stress, 6, 6, &g, 0, out.stress);
+        load_types(args, &g, first == 0, &types);
+        load_input(args, task, &g, &in);
+        if (task->tangent && task->extrapolated) load(args->stress, 6, 6, &g, 0, out.stress);
         if (dmb_beam_element(task, &types.constants, &types.curved, &in, &out) < 0) {
-            job->failed = failed_of(job, &g, &types.constants, &in);
+            args->failed = failed_of(args, &g, &types.constants, &in);
             return -1;
         }
-        store_forces(job, &g, &out, &ends);
-        if (task->tangent) store_tangent(job, task, &g, &out, &ends);
+        store_forces(args, &g, &out, &ends);
+        if (task->tangent) store_tangent(args, task, &g, &out, &ends);
     }
-    add_ends(job, task, &ends);
+    add_ends(args, task, &ends);
     return 0;
 }
 
 /* Most evaluations want nothing but forces in motion: compiled for these alone, less is kept in memory. Functions of
  * their own, whose frames on the stack are not added up. */
-DMB_LANES_CALL int32_t beams_in_motion(dmb_beam_job *job, int32_t rates)
+DMB_LANES_CALL int32_t beams_in_motion(dmb_beam_args *args, int32_t rates)
 {
     const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, rates, 0, 0, 0, 0, NULL};
-    return beams_of(job, &task);
+    return beams_of(args, &task);
 }
 
-DMB_LANES_CALL int32_t beams_damped(dmb_beam_job *job)
+DMB_LANES_CALL int32_t beams_damped(dmb_beam_args *args)
 {
-    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, 1, 1, 0, job->arms, 0, NULL};
-    return beams_of(job, &task);
+    const dmb_beam_task task = {0.0, 0.0, 1, 0, 1, 1, 1, 0, args->arms, 0, NULL};
+    return beams_of(args, &task);
 }
 
-DMB_LANES_CALL int32_t beams_as_asked(dmb_beam_job *job)
+DMB_LANES_CALL int32_t beams_as_asked(dmb_beam_args *args)
 {
-    const dmb_beam_task task = {job->mass_factor,
-                                job->velocity_factor,
-                                job->dynamic,
-                                job->tangent,
-                                job->extrapolated,
-                                job->dynamic && (job->ledger || job->damped),
-                                job->damped,
-                                job->inertia_only,
-                                job->arms,
+    const dmb_beam_task task = {args->mass_factor,
+                                args->velocity_factor,
+                                args->dynamic,
+                                args->tangent,
+                                args->extrapolated,
+                                args->dynamic && (args->ledger || args->damped),
+                                args->damped,
+                                args->inertia_only,
+                                args->arms,
                                 0,
                                 NULL};
-    return beams_of(job, &task);
+    return beams_of(args, &task);
 }
 
 #if DMB_REAL_LANES == 8
 extern const dmb_kernels dmb_kernels_4;
 
 /* In halves: at the full width blocks of curved elements would take more stack than the library states. Same bits. */
-static int32_t beams_curved(dmb_beam_job *job)
+static int32_t beams_curved(dmb_beam_args *args)
 {
-    return dmb_kernels_4.beams(job);
+    return dmb_kernels_4.beams(args);
 }
 #else
-DMB_LANES_CALL int32_t beams_curved(dmb_beam_job *job)
+DMB_LANES_CALL int32_t beams_curved(dmb_beam_args *args)
 {
-    const dmb_beam_task task = {job->mass_factor,  job->velocity_factor,
-                                job->dynamic,      job->tangent,
-                                job->extrapolated, job->dynamic && (job->ledger || job->damped),
-                                job->damped,       job->inertia_only,
-                                job->arms,         1,
-                                job->gravity};
-    return beams_of(job, &task);
+    const dmb_beam_task task = {args->mass_factor,  args->velocity_factor,
+                                args->dynamic,      args->tangent,
+                                args->extrapolated, args->dynamic && (args->ledger || args->damped),
+                                args->damped,       args->inertia_only,
+                                args->arms,         1,
+                                args->gravity};
+    return beams_of(args, &task);
 }
 #endif
 
-static int32_t beams(dmb_beam_job *job)
+static int32_t beams(dmb_beam_args *args)
 {
-    if (job->curved) return beams_curved(job);
-    if (!job->dynamic || job->tangent || (job->arms && !job->damped)) return beams_as_asked(job);
-    return job->damped ? beams_damped(job) : beams_in_motion(job, job->ledger);
+    if (args->curved) return beams_curved(args);
+    if (!args->dynamic || args->tangent || (args->arms && !args->damped)) return beams_as_asked(args);
+    return args->damped ? beams_damped(args) : beams_in_motion(args, args->ledger);
 }
 
 /* The stress after the correction z, linearised (eq:beam.extrapolation). */
-static void extrapolate(const dmb_beam_job *job)
+static void extrapolate(const dmb_beam_args *args)
 {
     lane_types types;
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
-        const lane_group nodes = group_at(first, job->count + 1);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
+        const lane_group nodes = group_at(first, args->count + 1);
         dmb_beam_shape shape;
         dmb_real za[6], zb[6], dd[6], stress[6];
-        load_types(job, &g, first == 0, &types);
-        load(job->strain, 6, 6, &g, 0, shape.d);
-        load_ends(job->velocity, 6, &nodes, job->count, za, zb);
+        load_types(args, &g, first == 0, &types);
+        load(args->strain, 6, 6, &g, 0, shape.d);
+        load_ends(args->velocity, 6, &nodes, args->count, za, zb);
         dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
         dmb_beam_operators_at(&types.constants, &shape);
-        if (job->arms) {
+        if (args->arms) {
             dmb_arm_velocity(types.constants.arm[0], za);
             dmb_arm_velocity(-types.constants.arm[1], zb);
         }
         dmb_beam_strain_rate(&shape, za, zb, dd);
         dmb_beam_elastic_stress(&types.constants, &shape, stress);
         for (int i = 0; i < 6; i++) stress[i] = stress[i] + types.constants.stiffness[i] * dd[i];
-        if (job->curved) {
+        if (args->curved) {
             dmb_curved_add_cross_stress(&types.curved, &types.constants, &shape, stress);
             dmb_curved_add_cross(types.curved.cross, dd, stress);
         }
-        store(stress, 6, &g, job->stress);
+        store(stress, 6, &g, args->stress);
     }
 }
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* H1 = H0 exp(z) */
-static void advance(dmb_node_job *job)
+static void advance(dmb_node_args *args)
 {
-    dmb_real turned = dmb_real_of(job->turned);
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
+    dmb_real turned = dmb_real_of(args->turned);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
         dmb_real q[4], u[3], z[6];
-        load(job->start_quaternion, 4, 4, &g, 0, q);
-        load(job->start_displacement, 3, 3, &g, 0, u);
-        load(job->increment, 6, 6, &g, 0, z);
+        load(args->start_quaternion, 4, 4, &g, 0, q);
+        load(args->start_displacement, 3, 3, &g, 0, u);
+        load(args->increment, 6, 6, &g, 0, z);
         dmb_se3_advance(q, u, z);
         turned = dmb_real_max(dmb_vec3_norm_squared(z + 3), turned);
-        store(q, 4, &g, job->quaternion);
-        store(u, 3, &g, job->displacement);
+        store(q, 4, &g, args->quaternion);
+        store(u, 3, &g, args->displacement);
     }
-    for (int l = 0; l < DMB_REAL_LANES; l++) job->turned = fmax(job->turned, dmb_real_lane(&turned, l));
+    for (int l = 0; l < DMB_REAL_LANES; l++) args->turned = fmax(args->turned, dmb_real_lane(&turned, l));
 }
 
 /* On the turn that the increment of the step leads to. */
-static void turns(const dmb_turn_job *job)
+static void turns(const dmb_turn_args *args)
 {
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
         dmb_real from[4], to[4], q[4], start, z[6];
-        load(job->reference, 4, 4, &g, 0, from);
-        load(job->quaternion, 4, 4, &g, 0, to);
-        load(job->increment, 6, 6, &g, 0, z);
-        load(job->start, 1, 1, &g, 0, &start);
+        load(args->reference, 4, 4, &g, 0, from);
+        load(args->quaternion, 4, 4, &g, 0, to);
+        load(args->increment, 6, 6, &g, 0, z);
+        load(args->start, 1, 1, &g, 0, &start);
         dmb_quat_between(from, to, q);
         const dmb_real turn = dmb_quat_twist(q, start + z[3]);
-        store(&turn, 1, &g, job->turn);
+        store(&turn, 1, &g, args->turn);
     }
 }
 
 /* Both vectors of a row, turned about x by the angle between the two frames. */
-static void twist(const dmb_twist_job *job)
+static void twist(const dmb_twist_args *args)
 {
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
         dmb_real from[4], to[4], q[4], x[6];
-        load(job->from, 4, 4, &g, 0, from);
-        load(job->to, 4, 4, &g, 0, to);
-        load(job->rows, 6, 6, &g, 0, x);
+        load(args->from, 4, 4, &g, 0, from);
+        load(args->to, 4, 4, &g, 0, to);
+        load(args->rows, 6, 6, &g, 0, x);
         dmb_quat_between(to, from, q);
         dmb_quat_twist_pair(q, x);
-        store(x, 6, &g, job->rows);
+        store(x, 6, &g, args->rows);
     }
 }
 
 /* K <- K T6(z) + C (eq:integration.iteration-matrix) */
-static void matrices(const dmb_matrix_job *job)
+static void matrices(const dmb_matrix_args *args)
 {
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, job->count);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, args->count);
         dmb_real z[6], K[36], C[36];
         dmb_se3_tangent T;
-        load(job->increment, 6, 6, &g, 0, z);
-        load_block(job->stiffness, &g, K);
+        load(args->increment, 6, 6, &g, 0, z);
+        load_block(args->stiffness, &g, K);
         dmb_se3_tangent_at(z, NULL, &T);
         dmb_se3_times_tangent(K, 6, &T);
-        load_block(job->inertia, &g, C);
+        load_block(args->inertia, &g, C);
         dmb_mat6_add(K, C, K);
-        store_block(K, &g, job->stiffness);
+        store_block(K, &g, args->stiffness);
     }
 }
 
@@ -340,7 +342,7 @@ static void solve_from_middle(const dmb_block_layout *layout, const dmb_block_ma
 extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
-                                 .bars = bars,
+                                 .axial_torsional_elements = axial_torsional_elements,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,
                                  .walls = walls,

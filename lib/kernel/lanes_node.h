@@ -27,40 +27,40 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
 
 /* Rigid masses stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it
  * is on one of the group's nodes. */
-static inline int has_rigid_masses(const dmb_node_force_job *job, const lane_group *g, uint32_t *next)
+static inline int has_rigid_masses(const dmb_node_force_args *args, const lane_group *g, uint32_t *next)
 {
-    while (*next < job->rigid_mass_count && job->rigid_masses[*next].node < job->first + g->first) (*next)++;
-    return *next < job->rigid_mass_count &&
-           job->rigid_masses[*next].node <= job->first + place_at(g, DMB_REAL_LANES - 1);
+    while (*next < args->rigid_mass_count && args->rigid_masses[*next].node < args->first + g->first) (*next)++;
+    return *next < args->rigid_mass_count &&
+           args->rigid_masses[*next].node <= args->first + place_at(g, DMB_REAL_LANES - 1);
 }
 
 /* 1 if each node of the group has one rigid mass. */
-static inline int has_mass_each(const dmb_node_force_job *job, const lane_group *g, uint32_t next)
+static inline int has_mass_each(const dmb_node_force_args *args, const lane_group *g, uint32_t next)
 {
     uint32_t other = 0;
-    if (!is_whole(g) || job->rigid_mass_count - next < DMB_REAL_LANES) return 0;
+    if (!is_whole(g) || args->rigid_mass_count - next < DMB_REAL_LANES) return 0;
     for (uint32_t l = 0; l < DMB_REAL_LANES; l++)
-        other |= job->rigid_masses[next + l].node ^ (job->first + g->first + l);
+        other |= args->rigid_masses[next + l].node ^ (args->first + g->first + l);
     return other == 0;
 }
 
 _Static_assert(offsetof(dmb_rigid_mass, inertia) == 4 * sizeof(double), "mass, moment, inertia");
 
 /* Constants of the rigid_masses on a group of nodes, from `next` on; 0 where there is none. */
-static inline void load_rigid_masses(const dmb_node_force_job *job, const lane_group *g, uint32_t next,
+static inline void load_rigid_masses(const dmb_node_force_args *args, const lane_group *g, uint32_t next,
                                      dmb_rigid_mass_constants *c)
 {
     enum { NUMBERS = sizeof(dmb_rigid_mass) / sizeof(double) };
     static const dmb_rigid_mass none;
     dmb_rigid_mass rigid_masses[DMB_REAL_LANES];
-    const dmb_rigid_mass *from = job->rigid_masses + next;
+    const dmb_rigid_mass *from = args->rigid_masses + next;
     dmb_real constants[10];
-    if (!has_mass_each(job, g, next)) {
+    if (!has_mass_each(args, g, next)) {
         for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
-            const size_t node = job->first + place_at(g, l);
-            while (next < job->rigid_mass_count && job->rigid_masses[next].node < node) next++;
-            const int has = next < job->rigid_mass_count && job->rigid_masses[next].node == node;
-            rigid_masses[l] = has ? job->rigid_masses[next] : none;
+            const size_t node = args->first + place_at(g, l);
+            while (next < args->rigid_mass_count && args->rigid_masses[next].node < node) next++;
+            const int has = next < args->rigid_mass_count && args->rigid_masses[next].node == node;
+            rigid_masses[l] = has ? args->rigid_masses[next] : none;
         }
         from = rigid_masses;
     }
@@ -71,23 +71,23 @@ static inline void load_rigid_masses(const dmb_node_force_job *job, const lane_g
 }
 
 /* f = M v' - v^^T p */
-DMB_LANES_INLINE void add_rigid_masses(dmb_node_force_job *job, uint32_t next, int tangent, node_group *g)
+DMB_LANES_INLINE void add_rigid_masses(dmb_node_force_args *args, uint32_t next, int tangent, node_group *g)
 {
     dmb_rigid_mass_constants rigid_mass;
     dmb_real a[6], f[6], p[6], gyroscopic[6];
-    load_rigid_masses(job, &g->place, next, &rigid_mass);
-    load(job->acceleration, 6, 6, &g->place, 0, a);
+    load_rigid_masses(args, &g->place, next, &rigid_mass);
+    load(args->acceleration, 6, 6, &g->place, 0, a);
     dmb_rigid_mass_momentum(&rigid_mass, a, f);
-    add_each(-dmb_vec6_dot(g->v, f), &g->place, &job->inertia_power);
+    add_each(-dmb_vec6_dot(g->v, f), &g->place, &args->inertia_power);
     dmb_rigid_mass_momentum(&rigid_mass, g->v, p);
     dmb_ad_transpose(g->v, p, gyroscopic);
     for (int i = 0; i < 6; i++) f[i] = -f[i];
     node_apply(f, g); /* one by one: on a free body these two are all that balances */
     node_apply(gyroscopic, g);
-    if (tangent) dmb_rigid_mass_add_tangent(&rigid_mass, g->v, p, job->mass_factor, job->velocity_factor, g->C);
+    if (tangent) dmb_rigid_mass_add_tangent(&rigid_mass, g->v, p, args->mass_factor, args->velocity_factor, g->C);
 }
 
-static inline void store_weight_tangent(const dmb_node_force_job *job, const lane_group *g, const dmb_real force[6],
+static inline void store_weight_tangent(const dmb_node_force_args *args, const lane_group *g, const dmb_real force[6],
                                         const dmb_real by_rotation[9])
 {
     const dmb_real zero = dmb_real_of(0.0), *f = force;
@@ -98,63 +98,63 @@ static inline void store_weight_tangent(const dmb_node_force_job *job, const lan
                                  {zero, -by_rotation[3], -by_rotation[4], -by_rotation[5]},
                                  {zero, -by_rotation[6], -by_rotation[7], -by_rotation[8]}};
     double *to[DMB_REAL_LANES];
-    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = job->stiffness + 36 * place_at(g, (uint32_t)l) + 2;
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = args->stiffness + 36 * place_at(g, (uint32_t)l) + 2;
     for (uint32_t i = 0; i < 6; i++) add_four(rows[i], lanes_used(g), to, 6 * i);
 }
 
-static inline void add_weight(dmb_node_force_job *job, int tangent, node_group *g)
+static inline void add_weight(dmb_node_force_args *args, int tangent, node_group *g)
 {
     dmb_real q[4], R[9], mass, moment[3], force[6], by_rotation[9];
-    load(job->quaternion, 4, 4, &g->place, 0, q);
+    load(args->quaternion, 4, 4, &g->place, 0, q);
     dmb_quat_to_matrix(q, R);
-    mass = load_line(job->weight_mass, &g->place);
-    load(job->weight_moment, 3, 3, &g->place, 0, moment);
-    dmb_vec3_scale(dmb_real_of(job->load_factor), moment, moment);
-    dmb_weight_at(job->gravity, R, job->load_factor * mass, moment, force, by_rotation);
+    mass = load_line(args->weight_mass, &g->place);
+    load(args->weight_moment, 3, 3, &g->place, 0, moment);
+    dmb_vec3_scale(dmb_real_of(args->load_factor), moment, moment);
+    dmb_weight_at(args->gravity, R, args->load_factor * mass, moment, force, by_rotation);
     node_apply(force, g);
-    if (job->dynamic) add_each(dmb_vec6_dot(force, g->v), &g->place, &job->potential);
-    if (tangent) store_weight_tangent(job, &g->place, force, by_rotation);
+    if (args->dynamic) add_each(dmb_vec6_dot(force, g->v), &g->place, &args->potential);
+    if (tangent) store_weight_tangent(args, &g->place, force, by_rotation);
 }
 
-static inline void add_damping(dmb_node_force_job *job, int tangent, node_group *g)
+static inline void add_damping(dmb_node_force_args *args, int tangent, node_group *g)
 {
     dmb_real c[5], force[6];
-    load(job->damping, 5, 5, &g->place, 0, c);
+    load(args->damping, 5, 5, &g->place, 0, c);
     dmb_damping_force(c, g->v, force);
     node_apply(force, g);
-    add_each(dmb_vec6_dot(force, g->v), &g->place, &job->damping_power);
-    if (tangent) dmb_damping_add_tangent(c, job->velocity_factor, g->C);
+    add_each(dmb_vec6_dot(force, g->v), &g->place, &args->damping_power);
+    if (tangent) dmb_damping_add_tangent(c, args->velocity_factor, g->C);
 }
 
-DMB_LANES_INLINE void node_forces_of(dmb_node_force_job *job, int tangent)
+DMB_LANES_INLINE void node_forces_of(dmb_node_force_args *args, int tangent)
 {
     uint32_t next = 0;
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         node_group g;
-        g.place = group_at(first, job->count);
-        const int rigid_masses = has_rigid_masses(job, &g.place, &next),
-                  inertia = tangent && (rigid_masses || job->damping);
-        load(job->residual, 6, 6, &g.place, 0, g.residual);
-        load(job->scale, 6, 6, &g.place, 0, g.scale);
+        g.place = group_at(first, args->count);
+        const int rigid_masses = has_rigid_masses(args, &g.place, &next),
+                  inertia = tangent && (rigid_masses || args->damping);
+        load(args->residual, 6, 6, &g.place, 0, g.residual);
+        load(args->scale, 6, 6, &g.place, 0, g.scale);
         for (int i = 0; i < 6; i++) g.v[i] = dmb_real_of(0.0);
-        if (job->dynamic) load(job->velocity, 6, 6, &g.place, 0, g.v);
-        if (inertia) load_block(job->inertia, &g.place, g.C);
-        if (rigid_masses) add_rigid_masses(job, next, inertia, &g);
-        if (job->gravity) add_weight(job, tangent, &g);
-        if (job->damping) add_damping(job, inertia, &g);
-        store(g.residual, 6, &g.place, job->residual);
-        store(g.scale, 6, &g.place, job->scale);
-        if (inertia) store_block(g.C, &g.place, job->inertia);
+        if (args->dynamic) load(args->velocity, 6, 6, &g.place, 0, g.v);
+        if (inertia) load_block(args->inertia, &g.place, g.C);
+        if (rigid_masses) add_rigid_masses(args, next, inertia, &g);
+        if (args->gravity) add_weight(args, tangent, &g);
+        if (args->damping) add_damping(args, inertia, &g);
+        store(g.residual, 6, &g.place, args->residual);
+        store(g.scale, 6, &g.place, args->scale);
+        if (inertia) store_block(g.C, &g.place, args->inertia);
     }
 }
 
 /* Most evaluations want no tangent. */
-static void node_forces(dmb_node_force_job *job)
+static void node_forces(dmb_node_force_args *args)
 {
-    if (job->tangent)
-        node_forces_of(job, 1);
+    if (args->tangent)
+        node_forces_of(args, 1);
     else
-        node_forces_of(job, 0);
+        node_forces_of(args, 0);
 }
 
 /* Rows one after the other, all alike: as wide as the compiler makes the loops for this processor. gcc gives up where
@@ -168,16 +168,16 @@ static void node_forces(dmb_node_force_job *job)
 /* Generalized-alpha from an acceleration that stays (eq:integration.newmark): a0 carried over from the last step, which
  * may have had another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
  * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
-static void predict_constant(const dmb_predict_job *job)
+static void predict_constant(const dmb_predict_args *args)
 {
-    const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;
-    const double v_a0 = job->v_from_a0, v_a1 = job->v_from_a1, z_a0 = job->z_from_a0, z_a1 = job->z_from_a1;
-    const double *restrict now_v = job->now_velocity, *restrict now_dv = job->now_acceleration,
-                           *restrict now_a = job->now_pseudo_acceleration;
-    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
-                     *restrict z = job->increment;
+    const double h = args->step, ratio = args->ratio, a_a0 = args->a_from_a0, a_dv = args->a_from_dv;
+    const double v_a0 = args->v_from_a0, v_a1 = args->v_from_a1, z_a0 = args->z_from_a0, z_a1 = args->z_from_a1;
+    const double *restrict now_v = args->now_velocity, *restrict now_dv = args->now_acceleration,
+                           *restrict now_a = args->now_pseudo_acceleration;
+    double *restrict v = args->velocity, *restrict dv = args->acceleration, *restrict a = args->pseudo_acceleration,
+                     *restrict z = args->increment;
     DMB_LANES_APART
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < args->count; i++) {
         const double a0 = now_dv[i] + ratio * (now_a[i] - now_dv[i]), a1 = a_dv * now_dv[i] + a_a0 * a0;
         dv[i] = now_dv[i];
         a[i] = a1;
@@ -187,17 +187,17 @@ static void predict_constant(const dmb_predict_job *job)
 }
 
 /* The same from an acceleration that changes by slope (a0 - v0') (eq:integration.prediction). */
-static void predict_linear(const dmb_predict_job *job)
+static void predict_linear(const dmb_predict_args *args)
 {
-    const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;
-    const double v_a0 = job->v_from_a0, v_a1 = job->v_from_a1, z_a0 = job->z_from_a0, z_a1 = job->z_from_a1;
-    const double slope = job->slope, a_more = job->a_from_change, z_more = job->z_from_change;
-    const double *restrict now_v = job->now_velocity, *restrict now_dv = job->now_acceleration,
-                           *restrict now_a = job->now_pseudo_acceleration;
-    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
-                     *restrict z = job->increment, *restrict change = job->change;
+    const double h = args->step, ratio = args->ratio, a_a0 = args->a_from_a0, a_dv = args->a_from_dv;
+    const double v_a0 = args->v_from_a0, v_a1 = args->v_from_a1, z_a0 = args->z_from_a0, z_a1 = args->z_from_a1;
+    const double slope = args->slope, a_more = args->a_from_change, z_more = args->z_from_change;
+    const double *restrict now_v = args->now_velocity, *restrict now_dv = args->now_acceleration,
+                           *restrict now_a = args->now_pseudo_acceleration;
+    double *restrict v = args->velocity, *restrict dv = args->acceleration, *restrict a = args->pseudo_acceleration,
+                     *restrict z = args->increment, *restrict change = args->change;
     DMB_LANES_APART
-    for (uint32_t i = 0; i < job->count; i++) {
+    for (uint32_t i = 0; i < args->count; i++) {
         const double apart = ratio * (now_a[i] - now_dv[i]), a0 = now_dv[i] + apart, more = slope * apart;
         const double a1 = a_dv * now_dv[i] + a_a0 * a0 + a_more * more;
         dv[i] = now_dv[i] + more;
@@ -208,22 +208,22 @@ static void predict_linear(const dmb_predict_job *job)
     }
 }
 
-static void predict(const dmb_predict_job *job)
+static void predict(const dmb_predict_args *args)
 {
-    if (job->slope != 0.0)
-        predict_linear(job);
+    if (args->slope != 0.0)
+        predict_linear(args);
     else
-        predict_constant(job);
+        predict_constant(args);
 }
 
 /* z, v, v' and a follow a correction of the increment by constant factors. */
-static void correct(const dmb_correct_job *job)
+static void correct(const dmb_correct_args *args)
 {
-    const double to_v = job->to_velocity, to_dv = job->to_acceleration, to_a = job->to_pseudo_acceleration;
-    const double *restrict z = job->correction;
-    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
-                     *restrict increment = job->increment;
-    for (uint32_t i = 0; i < job->count; i++) {
+    const double to_v = args->to_velocity, to_dv = args->to_acceleration, to_a = args->to_pseudo_acceleration;
+    const double *restrict z = args->correction;
+    double *restrict v = args->velocity, *restrict dv = args->acceleration, *restrict a = args->pseudo_acceleration,
+                     *restrict increment = args->increment;
+    for (uint32_t i = 0; i < args->count; i++) {
         increment[i] += z[i];
         v[i] += to_v * z[i];
         dv[i] += to_dv * z[i];
@@ -348,26 +348,26 @@ DMB_LANES_INLINE void add_powers_at(const double *residual, const double *scale,
     }
 }
 
-static void powers(dmb_power_job *job)
+static void powers(dmb_power_args *args)
 {
     lane_sums left, exchanged;
     begin_sums(&left);
     begin_sums(&exchanged);
-    for (uint32_t i = 0; i < job->count; i += DMB_SQUARES) {
-        const uint32_t rows = job->count - i < DMB_SQUARES ? job->count - i : DMB_SQUARES;
-        const uint8_t *solved = job->solved + i;
+    for (uint32_t i = 0; i < args->count; i += DMB_SQUARES) {
+        const uint32_t rows = args->count - i < DMB_SQUARES ? args->count - i : DMB_SQUARES;
+        const uint8_t *solved = args->solved + i;
         double r[DMB_SQUARES], s[DMB_SQUARES], v[DMB_SQUARES];
         if (rows == DMB_SQUARES && memcmp(solved, every_row, DMB_SQUARES) == 0) {
-            add_powers_at(job->residual + i, job->scale + i, job->velocity + i, &left, &exchanged);
+            add_powers_at(args->residual + i, args->scale + i, args->velocity + i, &left, &exchanged);
             continue;
         }
-        rest_of(rows, job->residual + i, r);
-        rest_of(rows, job->scale + i, s);
-        for (uint32_t c = 0; c < DMB_SQUARES; c++) v[c] = c < rows && solved[c] ? job->velocity[i + c] : 0.0;
+        rest_of(rows, args->residual + i, r);
+        rest_of(rows, args->scale + i, s);
+        for (uint32_t c = 0; c < DMB_SQUARES; c++) v[c] = c < rows && solved[c] ? args->velocity[i + c] : 0.0;
         add_powers_at(r, s, v, &left, &exchanged);
     }
-    job->left = sum_of(&left);
-    job->exchanged = sum_of(&exchanged);
+    args->left = sum_of(&left);
+    args->exchanged = sum_of(&exchanged);
 }
 
 #endif

@@ -21,7 +21,7 @@ typedef struct lane_complex {
 
 /* A part of the frequencies of a job, as many as there are lanes. */
 typedef struct response_lanes {
-    const dmb_response_job *job;
+    const dmb_response_job *args;
     dmb_real omega, square; /* [rad/s], [rad2/s2] */
     uint32_t lane;          /* of the job, that is the first here */
     uint32_t bad;           /* one bit for each lane where a pivot is too small */
@@ -102,12 +102,12 @@ DMB_LANES_INLINE lane_complex load_number(const double *from, size_t i)
 /* From a row of the right-hand sides to the next one, and the first number of a row. */
 static inline size_t row_stride(const response_lanes *l)
 {
-    return 2 * (size_t)DMB_FREQUENCIES * l->job->stride;
+    return 2 * (size_t)DMB_FREQUENCIES * l->args->stride;
 }
 
 static inline double *side_of(const response_lanes *l, uint32_t row)
 {
-    return l->job->sides + row_stride(l) * row + l->lane;
+    return l->args->sides + row_stride(l) * row + l->lane;
 }
 
 /* ---- One block --------------------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ DMB_BLOCK_KERNEL void assemble_block(const response_lanes *l, int count, const d
                                      lane_complex *A)
 {
     const double *M = blocks->mass + at, *C = blocks->damping + at, *K = blocks->stiffness + at;
-    const double eta = l->job->structural_damping;
+    const double eta = l->args->structural_damping;
     for (int e = 0; e < count; e++) {
         A[e].re = K[e] - l->square * M[e];
         A[e].im = l->omega * C[e] + eta * K[e];
@@ -126,15 +126,15 @@ DMB_BLOCK_KERNEL void assemble_block(const response_lanes *l, int count, const d
 /* Supported rows are zero but for a one. */
 DMB_BLOCK_KERNEL void assemble_diagonal(const response_lanes *l, int n, uint32_t i, lane_complex *D)
 {
-    const dmb_block_layout *layout = l->job->layout;
-    assemble_block(l, n * n, &l->job->diagonal, layout->diag[i], D);
+    const dmb_block_layout *layout = l->args->layout;
+    assemble_block(l, n * n, &l->args->diagonal, layout->diag[i], D);
     for (int k = 0; k < n; k++)
-        if (!l->job->solved[layout->row[i] + (uint32_t)k]) D[n * k + k].re = dmb_real_of(1.0);
+        if (!l->args->solved[layout->row[i] + (uint32_t)k]) D[n * k + k].re = dmb_real_of(1.0);
 }
 
 DMB_LANES_CALL void exchange_sides(const response_lanes *l, dmb_mask mask, double *x, double *y)
 {
-    for (uint32_t c = 0; c < l->job->columns; c++) {
+    for (uint32_t c = 0; c < l->args->columns; c++) {
         const size_t at = 2 * (size_t)DMB_FREQUENCIES * c;
         lane_complex a = load_side(x + at), b = load_side(y + at);
         complex_exchange(mask, &a, &b);
@@ -174,11 +174,11 @@ DMB_BLOCK_KERNEL void take_pivot(const response_lanes *l, int n, int m, int k, r
 /* Marks the lanes where pivot k of block i is no number to divide by, or of rounding size beside K and w^2 M. */
 static inline void watch_pivot(response_lanes *l, uint32_t at, lane_complex pivot, lane_complex inverse)
 {
-    const double K = fabs(l->job->diagonal.stiffness[at]), M = fabs(l->job->diagonal.mass[at]);
+    const double K = fabs(l->args->diagonal.stiffness[at]), M = fabs(l->args->diagonal.mass[at]);
     const dmb_real size = complex_size(pivot), most = dmb_real_max(dmb_real_abs(inverse.re), dmb_real_abs(inverse.im));
     const dmb_mask holds =
         dmb_mask_at_most(dmb_real_of(DMB_BLOCK_PIVOT_MIN), size) & dmb_mask_at_most(size, dmb_real_of(DBL_MAX));
-    const dmb_mask loose = dmb_mask_less(dmb_real_of(1.0), most * (K + l->square * M) * DMB_LOOSE_PIVOT);
+    const dmb_mask loose = dmb_mask_less(dmb_real_of(1.0), most * (K + l->square * M) * DMB_UNCONSTRAINED_PIVOT);
     l->bad |= dmb_mask_bits(dmb_mask_not(holds) | loose);
 }
 
@@ -204,13 +204,13 @@ static inline void scale_sides(uint32_t columns, lane_complex f, double *x)
 /* U <- L^-1 U, b <- L^-1 b, with D = L R; R is left in D, the reciprocals of its diagonal in place of that. */
 DMB_BLOCK_KERNEL void solve_lower(response_lanes *l, int n, int m, uint32_t i, response_rows *r)
 {
-    const uint32_t columns = l->job->columns;
+    const uint32_t columns = l->args->columns;
     const size_t next = row_stride(l);
     lane_complex *D = r->D, *U = r->U;
     for (int k = 0; k < n; k++) {
         take_pivot(l, n, m, k, r);
         const lane_complex inverse = complex_inverse(D[n * k + k]);
-        watch_pivot(l, l->job->layout->diag[i] + (uint32_t)(n * k + k), D[n * k + k], inverse);
+        watch_pivot(l, l->args->layout->diag[i] + (uint32_t)(n * k + k), D[n * k + k], inverse);
         D[n * k + k] = inverse;
         for (int p = k + 1; p < n; p++) {
             const lane_complex f = complex_times(inverse, D[n * p + k]);
@@ -224,7 +224,7 @@ DMB_BLOCK_KERNEL void solve_lower(response_lanes *l, int n, int m, uint32_t i, r
 /* U <- R^-1 U, which is W, b <- R^-1 b. */
 DMB_BLOCK_KERNEL void solve_upper(const response_lanes *l, int n, int m, response_rows *r, double *W)
 {
-    const uint32_t columns = l->job->columns;
+    const uint32_t columns = l->args->columns;
     const size_t next = row_stride(l);
     for (int k = n - 1; k >= 0; k--) {
         lane_complex row[DMB_BLOCK_SIZE_MAX];
@@ -244,11 +244,11 @@ DMB_BLOCK_KERNEL void solve_upper(const response_lanes *l, int n, int m, respons
 /* D_{i+1} -= L_i W_i, b_{i+1} -= L_i b_i; D is that of block i + 1. */
 DMB_BLOCK_KERNEL void update_block(const response_lanes *l, int n, int m, uint32_t i, response_rows *r)
 {
-    const dmb_block_layout *layout = l->job->layout;
+    const dmb_block_layout *layout = l->args->layout;
     const size_t next = row_stride(l);
     lane_complex L[LANES_BLOCK];
     assemble_diagonal(l, m, i + 1, r->D);
-    assemble_block(l, m * n, &l->job->lower, layout->link[i], L);
+    assemble_block(l, m * n, &l->args->lower, layout->link[i], L);
     for (int p = 0; p < m; p++) {
         lane_complex row[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < m; j++) row[j] = r->D[m * p + j];
@@ -256,7 +256,7 @@ DMB_BLOCK_KERNEL void update_block(const response_lanes *l, int n, int m, uint32
             for (int j = 0; j < m; j++) complex_subtract(L[n * p + c], r->U[m * c + j], row + j);
         for (int j = 0; j < m; j++) r->D[m * p + j] = row[j];
         double *side = side_of(l, layout->row[i + 1] + (uint32_t)p);
-        for (int c = 0; c < n; c++) subtract_sides(l->job->columns, L[n * p + c], r->sides + next * (size_t)c, side);
+        for (int c = 0; c < n; c++) subtract_sides(l->args->columns, L[n * p + c], r->sides + next * (size_t)c, side);
     }
 }
 
@@ -265,10 +265,10 @@ DMB_BLOCK_KERNEL void update_block(const response_lanes *l, int n, int m, uint32
 /* Block i, D of which is in `r`; m is the size of the next one, 0 at the end of the chain. */
 DMB_BLOCK_KERNEL int forward_block(int n, int m, response_lanes *l, uint32_t i, response_rows *r)
 {
-    const dmb_block_layout *layout = l->job->layout;
-    double *W = l->job->work + 2 * (size_t)DMB_REAL_LANES * (layout->link[i] - layout->link[l->job->first]);
+    const dmb_block_layout *layout = l->args->layout;
+    double *W = l->args->work + 2 * (size_t)DMB_REAL_LANES * (layout->link[i] - layout->link[l->args->first]);
     r->sides = side_of(l, layout->row[i]);
-    assemble_block(l, n * m, &l->job->upper, layout->link[i], r->U);
+    assemble_block(l, n * m, &l->args->upper, layout->link[i], r->U);
     solve_lower(l, n, m, i, r);
     solve_upper(l, n, m, r, W);
     if (m > 0) update_block(l, n, m, i, r);
@@ -278,9 +278,9 @@ DMB_BLOCK_KERNEL int forward_block(int n, int m, response_lanes *l, uint32_t i, 
 /* b_i -= W_i b_{i+1} */
 DMB_BLOCK_KERNEL int backward_block(int n, int m, const response_lanes *l, uint32_t i)
 {
-    const dmb_block_layout *layout = l->job->layout;
-    const uint32_t columns = l->job->columns;
-    const double *W = l->job->work + 2 * (size_t)DMB_REAL_LANES * (layout->link[i] - layout->link[l->job->first]);
+    const dmb_block_layout *layout = l->args->layout;
+    const uint32_t columns = l->args->columns;
+    const double *W = l->args->work + 2 * (size_t)DMB_REAL_LANES * (layout->link[i] - layout->link[l->args->first]);
     const double *x = side_of(l, layout->row[i + 1]);
     double *b = side_of(l, layout->row[i]);
     for (uint32_t c = 0; c < columns; c++) {
@@ -298,8 +298,8 @@ DMB_BLOCK_KERNEL int backward_block(int n, int m, const response_lanes *l, uint3
 
 static void response_chain(response_lanes *l)
 {
-    const dmb_block_layout *layout = l->job->layout;
-    const uint32_t first = l->job->first, end = first + l->job->count;
+    const dmb_block_layout *layout = l->args->layout;
+    const uint32_t first = l->args->first, end = first + l->args->count;
     response_rows rows;
     assemble_diagonal(l, layout->size[first], first, rows.D);
     for (uint32_t i = first; i < end; i++) {
@@ -312,17 +312,17 @@ static void response_chain(response_lanes *l)
     }
 }
 
-static void responses(dmb_response_job *job)
+static void responses(dmb_response_job *args)
 {
-    job->bad = 0;
-    for (uint32_t lane = 0; lane < job->used; lane += DMB_REAL_LANES) {
-        response_lanes l = {.job = job, .lane = lane, .bad = 0};
-        memcpy(&l.omega, job->omega + lane, sizeof l.omega);
+    args->bad = 0;
+    for (uint32_t lane = 0; lane < args->used; lane += DMB_REAL_LANES) {
+        response_lanes l = {.args = args, .lane = lane, .bad = 0};
+        memcpy(&l.omega, args->omega + lane, sizeof l.omega);
         l.square = l.omega * l.omega;
         response_chain(&l);
-        job->bad |= l.bad << lane;
+        args->bad |= l.bad << lane;
     }
-    job->bad &= (1u << job->used) - 1;
+    args->bad &= (1u << args->used) - 1;
 }
 
 #endif

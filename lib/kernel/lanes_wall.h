@@ -41,81 +41,81 @@ typedef struct wall_group {
 } wall_group;
 
 /* In a hole of sections each ring has constants of its own. */
-static inline int has_sections(const dmb_wall_job *job)
+static inline int has_sections(const dmb_wall_args *args)
 {
-    return job->hole->pieces > 0;
+    return args->hole->pieces > 0;
 }
 
-static inline wall_laws laws_of(const dmb_wall_job *job)
+static inline wall_laws laws_of(const dmb_wall_args *args)
 {
     static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
-    const wall_laws laws = {dmb_local_normal_of(job->normal_law),
-                            dmb_local_friction_of(job->friction_law != NULL ? job->friction_law : &none)};
+    const wall_laws laws = {dmb_local_normal_of(args->normal_law),
+                            dmb_local_friction_of(args->friction_law != NULL ? args->friction_law : &none)};
     return laws;
 }
 
 _Static_assert(offsetof(dmb_site, length) == 3 * sizeof(double), "offset, radius, clearance, length");
 
-DMB_LANES_CALL void find_places(const dmb_wall_job *job, wall_group *g)
+DMB_LANES_CALL void find_places(const dmb_wall_args *args, wall_group *g)
 {
     for (uint32_t l = 0; l < DMB_REAL_LANES; l++) {
-        g->node.place[l] = job->sites[place_at(&g->site, l)].node;
-        g->row.place[l] = job->row[g->node.place[l]];
+        g->node.place[l] = args->sites[place_at(&g->site, l)].node;
+        g->row.place[l] = args->row[g->node.place[l]];
     }
 }
 
 /* Rings stand in the order of their nodes: those of neighbours that move freely are together as their nodes and rows
  * are, six to a node. */
-static inline void load_places(const dmb_wall_job *job, wall_group *g)
+static inline void load_places(const dmb_wall_args *args, wall_group *g)
 {
-    const size_t first = job->sites[g->site.first].node;
+    const size_t first = args->sites[g->site.first].node;
     size_t node = first, apart = 0;
     for (uint32_t l = 1; l < DMB_REAL_LANES; l++) {
-        node = job->sites[place_at(&g->site, l)].node;
+        node = args->sites[place_at(&g->site, l)].node;
         apart |= node - first - l;
     }
     g->node.place[0] = first;
-    g->row.place[0] = job->row[first];
-    apart |= job->row[node] - g->row.place[0] - 6 * (size_t)(DMB_REAL_LANES - 1);
+    g->row.place[0] = args->row[first];
+    apart |= args->row[node] - g->row.place[0] - 6 * (size_t)(DMB_REAL_LANES - 1);
     g->node.together = g->row.together = apart == 0;
-    if (apart != 0) find_places(job, g);
+    if (apart != 0) find_places(args, g);
 }
 
-static inline void load_sites(const dmb_wall_job *job, wall_group *g)
+static inline void load_sites(const dmb_wall_args *args, wall_group *g)
 {
     enum { NUMBERS = sizeof(dmb_site) / sizeof(double) };
     dmb_real head[4];
-    load_places(job, g);
-    load((const double *)(const void *)job->sites, NUMBERS, 4, &g->site, 0, head);
+    load_places(args, g);
+    load((const double *)(const void *)args->sites, NUMBERS, 4, &g->site, 0, head);
     g->offset = head[0];
     g->frame.radius = head[1];
     g->clearance = head[2];
     g->length = head[3];
 }
 
-static inline void load_motion(const dmb_wall_job *job, wall_group *g)
+static inline void load_motion(const dmb_wall_args *args, wall_group *g)
 {
     dmb_real q[4], u[3];
-    load_at(job->quaternion, 4, 4, &g->node, q);
+    load_at(args->quaternion, 4, 4, &g->node, q);
     dmb_quat_to_matrix(q, g->R);
-    load_at(job->reference, 3, 3, &g->node, g->x);
-    load_at(job->displacement, 3, 3, &g->node, u);
+    load_at(args->reference, 3, 3, &g->node, g->x);
+    load_at(args->displacement, 3, 3, &g->node, u);
     for (int i = 0; i < 3; i++) g->x[i] = g->x[i] + u[i] + g->R[3 * i] * g->offset;
-    if (!job->dynamic) return;
-    load_at(job->velocity, 1, 6, &g->row, g->frame.V);
+    if (!args->dynamic) return;
+    load_at(args->velocity, 1, 6, &g->row, g->frame.V);
     dmb_arm_velocity(g->offset, g->frame.V);
 }
 
 /* Closest points of a surveyed axis, found one by one. */
-static inline void project_survey(const dmb_wall_job *job, wall_group *g, dmb_real point[3])
+static inline void project_survey(const dmb_wall_args *args, wall_group *g, dmb_real point[3])
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t s = place_at(&g->site, (uint32_t)l);
         const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
         double at[3], tangent[3], bend[3];
-        job->trial.segment[s] = job->now.segment[s];
-        dmb_hole_project(job->hole, x, &job->trial.depth[s], &job->trial.segment[s], at, tangent);
-        dmb_hole_arc_bend(job->hole, job->trial.depth[s], job->trial.segment[s], bend);
+        args->trial.segment[s] = args->now.segment[s];
+        dmb_hole_project(args->hole, x, &args->trial.depth[s], &args->trial.segment[s], at, tangent);
+        dmb_hole_arc_bend(args->hole, args->trial.depth[s], args->trial.segment[s], bend);
         for (int i = 0; i < 3; i++) {
             dmb_real_set_lane(point + i, l, at[i]);
             dmb_real_set_lane(g->tangent + i, l, tangent[i]);
@@ -126,145 +126,145 @@ static inline void project_survey(const dmb_wall_job *job, wall_group *g, dmb_re
 }
 
 /* A straight hole: depth = (x - origin) . direction. */
-static inline void project_line(const dmb_wall_job *job, wall_group *g, dmb_real point[3])
+static inline void project_line(const dmb_wall_args *args, wall_group *g, dmb_real point[3])
 {
     dmb_real depth;
-    dmb_line_project(job->hole->origin, job->hole->direction, g->x, &depth, point);
-    for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(job->hole->direction[i]);
-    store_line(depth, &g->site, job->trial.depth);
-    for (uint32_t l = 0; l < g->site.used; l++) job->trial.segment[place_at(&g->site, (uint32_t)l)] = 0;
+    dmb_line_project(args->hole->origin, args->hole->direction, g->x, &depth, point);
+    for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(args->hole->direction[i]);
+    store_line(depth, &g->site, args->trial.depth);
+    for (uint32_t l = 0; l < g->site.used; l++) args->trial.segment[place_at(&g->site, (uint32_t)l)] = 0;
 }
 
-static inline void locate(const dmb_wall_job *job, wall_group *g)
+static inline void locate(const dmb_wall_args *args, wall_group *g)
 {
     dmb_real point[3], last[3];
-    if (dmb_hole_is_straight(job->hole))
-        project_line(job, g, point);
+    if (dmb_hole_is_straight(args->hole))
+        project_line(args, g, point);
     else
-        project_survey(job, g, point);
-    load(job->now.normal, 3, 3, &g->site, 0, last);
+        project_survey(args, g, point);
+    load(args->now.normal, 3, 3, &g->site, 0, last);
     dmb_radial_at(g->x, point, g->tangent, last, &g->frame.distance, g->normal);
     g->turned = dmb_vec3_dot(last, g->normal);
-    store(g->normal, 3, &g->site, job->trial.normal);
+    store(g->normal, 3, &g->site, args->trial.normal);
 }
 
 /* Speed of the rings at the last accepted instant towards where they are now: they may have crossed the axis since. */
-static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g)
+static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group *g)
 {
     dmb_real q[4], R[9], V[6];
-    load_at(job->now_velocity, 1, 6, &g->row, V);
-    load_at(job->now_quaternion, 4, 4, &g->node, q);
+    load_at(args->now_velocity, 1, 6, &g->row, V);
+    load_at(args->now_quaternion, 4, 4, &g->node, q);
     dmb_arm_velocity(g->offset, V);
     dmb_quat_to_matrix(q, R);
     dmb_mat3_vec(R, V, V);
-    if (has_sections(job)) return dmb_vec3_dot(g->normal, V) - g->section.rho * dmb_vec3_dot(g->tangent, V);
+    if (has_sections(args)) return dmb_vec3_dot(g->normal, V) - g->section.rho * dmb_vec3_dot(g->tangent, V);
     return dmb_vec3_dot(g->normal, V);
 }
 
 /* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
  * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
-static inline void take_impact_speed(const dmb_wall_job *job, wall_group *g)
+static inline void take_impact_speed(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    const dmb_real back = job->own_factor > 0.0 ? load_line(job->site_history, &g->site) : zero;
-    const dmb_real penetration = load_line(job->now.penetration, &g->site);
-    const dmb_real impact_speed = load_line(job->now.impact_speed, &g->site);
+    const dmb_real back = args->own_factor > 0.0 ? load_line(args->site_history, &g->site) : zero;
+    const dmb_real penetration = load_line(args->now.penetration, &g->site);
+    const dmb_real impact_speed = load_line(args->now.impact_speed, &g->site);
     const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
     const dmb_mask touched = dmb_mask_less(zero, penetration);
     dmb_real closed = impact_speed;
     if (dmb_mask_any(touches & dmb_mask_not(touched | returns)))
-        closed = dmb_real_select(touched, impact_speed, speed_before(job, g));
+        closed = dmb_real_select(touched, impact_speed, speed_before(args, g));
     closed = dmb_real_select(returns, back, closed);
     g->impact_speed = dmb_real_select(touches, closed, dmb_real_select(touched, impact_speed, g->frame.speed[0]));
 }
 
 /* The walls of a group, found one by one; constants beside those of the place are those of the whole hole. */
-static inline void load_walls(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+static inline void load_walls(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     dmb_section_contact *section = &g->section;
     section->normal = laws->normal;
     section->friction = laws->friction;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         dmb_local_wall wall;
-        dmb_local_wall_at(job->hole, job->normal_law, laws->friction.law,
-                          job->trial.depth[place_at(&g->site, (uint32_t)l)], job->softer, &wall);
+        dmb_local_wall_at(args->hole, args->normal_law, laws->friction.law,
+                          args->trial.depth[place_at(&g->site, (uint32_t)l)], args->softer, &wall);
         dmb_section_set_wall(&wall, l, section);
     }
 }
 
 /* The wall at the rings, and the speed at which they go in. */
-static inline void enter_section(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+static inline void enter_section(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     dmb_vec3_zero(g->section.curvature);
-    if (!dmb_hole_is_straight(job->hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
-    load_walls(job, laws, g);
+    if (!dmb_hole_is_straight(args->hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
+    load_walls(args, laws, g);
     dmb_section_contact_at(&g->frame, &g->section);
     g->clearance = g->section.radius - g->frame.radius;
-    if (job->dynamic) g->frame.speed[0] = g->frame.speed[0] - g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
+    if (args->dynamic) g->frame.speed[0] = g->frame.speed[0] - g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
 }
 
-static inline void take_laws(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+static inline void take_laws(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     g->normal_law = &laws->normal;
     g->friction_law = &laws->friction;
-    if (!has_sections(job)) return;
-    enter_section(job, laws, g);
+    if (!has_sections(args)) return;
+    enter_section(args, laws, g);
     g->normal_law = &g->section.normal;
     g->friction_law = &g->section.friction;
 }
 
 /* Position and motion of the rings, and the part of it that the trial holds. */
-static inline void place_rings(const dmb_wall_job *job, const wall_laws *laws, wall_group *g)
+static inline void place_rings(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
-    load_sites(job, g);
-    load_motion(job, g);
-    locate(job, g);
+    load_sites(args, g);
+    load_motion(args, g);
+    locate(args, g);
     dmb_contact_frame_at(g->R, g->normal, g->tangent, &g->frame);
-    if (job->dynamic)
+    if (args->dynamic)
         dmb_contact_speeds(&g->frame);
     else
-        dmb_contact_static_speeds(job->slip, &g->frame);
-    take_laws(job, laws, g);
+        dmb_contact_static_speeds(args->slip, &g->frame);
+    take_laws(args, laws, g);
     g->penetration = g->frame.distance - g->clearance;
-    take_impact_speed(job, g);
-    store_line(g->penetration, &g->site, job->trial.penetration);
-    store_line(g->impact_speed, &g->site, job->trial.impact_speed);
-    store(g->frame.speed + 1, 2, &g->site, job->trial.slip);
+    take_impact_speed(args, g);
+    store_line(g->penetration, &g->site, args->trial.penetration);
+    store_line(g->impact_speed, &g->site, args->trial.impact_speed);
+    store(g->frame.speed + 1, 2, &g->site, args->trial.slip);
 }
 
 /* Rings that do not touch keep nothing of the friction law. */
-static inline void keep_bristles(const dmb_wall_job *job, const wall_group *g)
+static inline void keep_bristles(const dmb_wall_args *args, const wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
     const dmb_real z[2] = {dmb_real_select(g->touches, g->bristle[0], zero),
                            dmb_real_select(g->touches, g->bristle[1], zero)};
-    store(z, 2, &g->site, job->trial.bristle);
+    store(z, 2, &g->site, args->trial.bristle);
     for (uint32_t l = 0; l < g->site.used; l++)
-        job->trial.sticks[g->site.first + l] = (int32_t)((g->sticking & g->touching) >> l & 1);
+        args->trial.sticks[g->site.first + l] = (int32_t)((g->sticking & g->touching) >> l & 1);
 }
 
 /* Where friction is not asked for, rings that touch keep what they have. */
-static inline void begin_bristles(const dmb_wall_job *job, wall_group *g)
+static inline void begin_bristles(const dmb_wall_args *args, wall_group *g)
 {
     g->sticking = 0;
     g->bristle[0] = g->bristle[1] = dmb_real_of(0.0);
-    if (g->touching == 0 || (job->friction_law != NULL && job->dynamic)) return;
-    load(job->trial.bristle, 2, 2, &g->site, 0, g->bristle);
+    if (g->touching == 0 || (args->friction_law != NULL && args->dynamic)) return;
+    load(args->trial.bristle, 2, 2, &g->site, 0, g->bristle);
     for (uint32_t l = 0; l < g->site.used; l++)
-        g->sticking |= (job->trial.sticks[g->site.first + l] != 0 ? 1u : 0u) << l;
+        g->sticking |= (args->trial.sticks[g->site.first + l] != 0 ? 1u : 0u) << l;
 }
 
-static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, dmb_real F[2], dmb_real by_speed[4],
+static inline void bristles(const dmb_wall_args *args, wall_group *g, dmb_real N, dmb_real F[2], dmb_real by_speed[4],
                             dmb_real by_normal[2])
 {
     const dmb_real *v = g->frame.speed + 1;
     dmb_real z_old[2], v_old[2], stuck = dmb_real_of(0.0);
-    load(job->now.bristle, 2, 2, &g->site, 0, z_old);
-    load(job->now.slip, 2, 2, &g->site, 0, v_old);
+    load(args->now.bristle, 2, 2, &g->site, 0, z_old);
+    load(args->now.slip, 2, 2, &g->site, 0, v_old);
     for (int l = 0; l < DMB_REAL_LANES; l++)
-        dmb_real_set_lane(&stuck, l, job->now.sticks[place_at(&g->site, (uint32_t)l)] ? 1.0 : 0.0);
+        dmb_real_set_lane(&stuck, l, args->now.sticks[place_at(&g->site, (uint32_t)l)] ? 1.0 : 0.0);
     const dmb_mask sticks =
-        dmb_friction_bristle(g->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), job->step,
+        dmb_friction_bristle(g->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), args->step,
                              g->bristle, F, by_speed, by_normal);
     g->sticking = dmb_mask_bits(sticks);
 }
@@ -272,13 +272,13 @@ static inline void bristles(const dmb_wall_job *job, wall_group *g, dmb_real N, 
 /* In the first evaluation of a step the tangent of rings with a mean force is that under the force N0 to which the
  * ring comes alone, at the predicted slip or, where friction can stop that within the step, at rest: from the slip that
  * is predicted Newton would go to and fro across the steep part of the law. */
-DMB_LANES_CALL void rub_at_start(const dmb_wall_job *job, const wall_group *g, dmb_real N, dmb_real F[2],
+DMB_LANES_CALL void rub_at_start(const dmb_wall_args *args, const wall_group *g, dmb_real N, dmb_real F[2],
                                  dmb_real by_speed[4], dmb_real by_normal[2])
 {
     const dmb_local_friction *law = g->friction_law;
     const dmb_real zero = dmb_real_of(0.0), *v = g->frame.speed + 1;
     const dmb_real N0 = dmb_real_select(g->own, g->pressed, N);
-    const dmb_real per_force = job->slows / (job->own_factor * g->length);
+    const dmb_real per_force = args->slows / (args->own_factor * g->length);
     const dmb_mask stops =
         g->own & dmb_mask_less(dmb_friction_norm(v[0], v[1]), per_force * dmb_friction_most(law) * N0);
     const dmb_real at[2] = {dmb_real_select(stops, zero, v[0]), dmb_real_select(stops, zero, v[1])};
@@ -287,46 +287,46 @@ DMB_LANES_CALL void rub_at_start(const dmb_wall_job *job, const wall_group *g, d
         F[k] = F[k] + by_normal[k] * (N - N0) + by_speed[2 * k] * (v[0] - at[0]) + by_speed[2 * k + 1] * (v[1] - at[1]);
 }
 
-static inline void add_friction(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
+static inline void add_friction(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
-    if (job->friction_law->kind == DMB_FRICTION_BRISTLE && job->dynamic)
-        bristles(job, g, -c->F[0], F, by_speed, by_normal);
-    else if (job->yield > 0.0 && dmb_mask_any(g->own))
-        rub_at_start(job, g, -c->F[0], F, by_speed, by_normal);
+    if (args->friction_law->kind == DMB_FRICTION_BRISTLE && args->dynamic)
+        bristles(args, g, -c->F[0], F, by_speed, by_normal);
+    else if (args->yield > 0.0 && dmb_mask_any(g->own))
+        rub_at_start(args, g, -c->F[0], F, by_speed, by_normal);
     else
         dmb_friction_smooth_at(g->friction_law, -c->F[0], g->frame.speed + 1, F,
-                               job->tangent && job->dynamic ? by_speed : NULL, by_normal);
+                               args->tangent && args->dynamic ? by_speed : NULL, by_normal);
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
 
 /* Takes -K, moved from the rings to their nodes, into the diagonal blocks of the nodes. */
-static inline void subtract_blocks(const dmb_wall_job *job, const wall_group *g, uint32_t touching, int arms,
+static inline void subtract_blocks(const dmb_wall_args *args, const wall_group *g, uint32_t touching, int arms,
                                    dmb_real K[36], double *blocks)
 {
     double *to[DMB_REAL_LANES];
     if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
     for (int i = 0; i < 36; i++) K[i] = -K[i];
     for (int l = 0; l < DMB_REAL_LANES; l++)
-        to[l] = blocks + job->diagonal[g->node.together ? g->node.place[0] + (size_t)l : g->node.place[l]];
+        to[l] = blocks + args->diagonal[g->node.together ? g->node.place[0] + (size_t)l : g->node.place[l]];
     add_lanes(K, 36, touching, to);
 }
 
-static inline void add_tangent(const dmb_wall_job *job, const wall_group *g, uint32_t touching, int arms,
+static inline void add_tangent(const dmb_wall_args *args, const wall_group *g, uint32_t touching, int arms,
                                const dmb_contact_force *c, const dmb_real wrench[6])
 {
-    const int friction = job->friction_law != NULL;
+    const int friction = args->friction_law != NULL;
     dmb_real K[36];
     dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
-    if (!dmb_hole_is_straight(job->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
-    const dmb_real *bend = dmb_hole_is_straight(job->hole) ? NULL : g->bend;
-    if (has_sections(job)) dmb_section_pose_tangent(&g->frame, c, &g->section, bend, friction, K);
-    subtract_blocks(job, g, touching, arms, K, job->stiffness);
-    if (!job->dynamic) return;
-    dmb_contact_velocity_tangent(&g->frame, c, job->velocity_factor, friction, K);
-    if (has_sections(job)) dmb_section_velocity_tangent(&g->frame, c, &g->section, job->velocity_factor, friction, K);
-    subtract_blocks(job, g, touching, arms, K, job->inertia);
+    if (!dmb_hole_is_straight(args->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
+    const dmb_real *bend = dmb_hole_is_straight(args->hole) ? NULL : g->bend;
+    if (has_sections(args)) dmb_section_pose_tangent(&g->frame, c, &g->section, bend, friction, K);
+    subtract_blocks(args, g, touching, arms, K, args->stiffness);
+    if (!args->dynamic) return;
+    dmb_contact_velocity_tangent(&g->frame, c, args->velocity_factor, friction, K);
+    if (has_sections(args)) dmb_section_velocity_tangent(&g->frame, c, &g->section, args->velocity_factor, friction, K);
+    subtract_blocks(args, g, touching, arms, K, args->inertia);
 }
 
 /* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in
@@ -362,18 +362,18 @@ static inline void add_touching(dmb_real x, const wall_group *g, double *to)
 
 /* The powers of a mean force: heat into the wall, friction over the step as the trapezoidal rule counts its end, and
  * what is left (eq:contact.mean). */
-static inline void take_own_powers(const dmb_wall_job *job, const wall_group *g, const dmb_contact_force *c,
+static inline void take_own_powers(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
                                    dmb_real power[3])
 {
     const dmb_real *v = g->frame.speed;
-    const dmb_real rubs = (2.0 / job->own_factor) * power[2];
+    const dmb_real rubs = (2.0 / args->own_factor) * power[2];
     const dmb_real rest = c->F[0] * v[0] - g->heat + (power[2] - rubs);
     power[0] = dmb_real_select(g->own, rest, power[0]);
     power[1] = dmb_real_select(g->own, g->heat, power[1]);
     power[2] = dmb_real_select(g->own, rubs, power[2]);
 }
 
-static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_contact_force *c,
+static inline void add_forces(dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
                               const dmb_real wrench[6])
 {
     const dmb_real *v = g->frame.speed;
@@ -382,17 +382,17 @@ static inline void add_forces(dmb_wall_job *job, const wall_group *g, const dmb_
         force[i] = -wrench[i];
         magnitude[i] = dmb_real_abs(wrench[i]);
     }
-    add_rows(g, force, job->residual);
-    add_rows(g, magnitude, job->scale);
-    add_touching(rounding_of(g, c->by_depth[0]), g, &job->rounding);
-    if (!job->dynamic) return;
+    add_rows(g, force, args->residual);
+    add_rows(g, magnitude, args->scale);
+    add_touching(rounding_of(g, c->by_depth[0]), g, &args->rounding);
+    if (!args->dynamic) return;
     dmb_real power[3] = {-(c->elastic * v[0]), (c->F[0] + c->elastic) * v[0], c->F[1] * v[1] + c->F[2] * v[2]};
-    if (dmb_mask_any(g->own)) take_own_powers(job, g, c, power);
-    if (has_sections(job))
+    if (dmb_mask_any(g->own)) take_own_powers(args, g, c, power);
+    if (has_sections(args))
         power[0] = power[0] - g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
-    add_touching(power[0], g, &job->potential);
-    add_touching(power[1], g, &job->impact);
-    add_touching(power[2], g, &job->friction);
+    add_touching(power[0], g, &args->potential);
+    add_touching(power[1], g, &args->impact);
+    add_touching(power[2], g, &args->friction);
 }
 
 /* ---- Mean force of a step in which rings meet the wall or leave it (system/assemble/bounces.h) --------------------
@@ -408,36 +408,37 @@ static inline dmb_mask those_of(const uint8_t *marks, double least, const wall_g
 
 /* Rings that meet the wall in the step, or another side of it, and do not resolve that, and those in a mode of their
  * own. Pinned rings never open. */
-static inline dmb_mask with_mean_force(const dmb_wall_job *job, const wall_group *g)
+static inline dmb_mask with_mean_force(const dmb_wall_args *args, const wall_group *g)
 {
-    const dmb_real zero = dmb_real_of(0.0), before = load_line(job->now.penetration, &g->site);
+    const dmb_real zero = dmb_real_of(0.0), before = load_line(args->now.penetration, &g->site);
     const dmb_mask meets =
         dmb_mask_less(zero, g->penetration) & (dmb_mask_at_most(before, zero) | dmb_mask_less(g->turned, zero));
-    const dmb_mask own = (meets & those_of(job->coarse, DMB_SITE_COARSE, g)) | those_of(job->mode, 1.0, g);
+    const dmb_mask own = (meets & those_of(args->coarse, DMB_SITE_COARSE, g)) | those_of(args->mode, 1.0, g);
     return own & dmb_mask_less(zero, g->clearance);
 }
 
 /* Of the mean force, with the depth in a hole of sections. */
-static inline dmb_real mean_slope(const dmb_wall_job *job, const wall_group *g)
+static inline dmb_real mean_slope(const dmb_wall_args *args, const wall_group *g)
 {
-    return job->own_factor * dmb_section_mean_slope(&g->section, load_line(job->now.penetration, &g->site),
-                                                    g->penetration, g->impact_speed,
-                                                    those_of(job->coarse, DMB_SITE_PLASTIC, g), job->step);
+    return args->own_factor * dmb_section_mean_slope(&g->section, load_line(args->now.penetration, &g->site),
+                                                     g->penetration, g->impact_speed,
+                                                     those_of(args->coarse, DMB_SITE_PLASTIC, g), args->step);
 }
 
 /* The part along the axis; changes of the laws with the depth. */
-static inline void press_section(const dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, dmb_real wrench[6])
+static inline void press_section(const dmb_wall_args *args, wall_group *g, const dmb_contact_force *c,
+                                 dmb_real wrench[6])
 {
-    const int friction = job->friction_law != NULL;
+    const int friction = args->friction_law != NULL;
     const dmb_real depth = dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION));
     dmb_real slope = dmb_section_normal_slope(&g->section, depth, g->frame.speed[0], g->impact_speed);
-    if (dmb_mask_any(g->own)) slope = dmb_real_select(g->own, mean_slope(job, g), slope);
+    if (dmb_mask_any(g->own)) slope = dmb_real_select(g->own, mean_slope(args, g), slope);
     const dmb_section_ring ring = {.length = g->length,
                                    .penetration = depth,
                                    .normal_slope = slope,
                                    .friction = friction,
                                    .memory =
-                                       job->dynamic && friction && job->friction_law->kind == DMB_FRICTION_BRISTLE};
+                                       args->dynamic && friction && args->friction_law->kind == DMB_FRICTION_BRISTLE};
     dmb_section_force(&g->frame, c, &ring, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
 }
@@ -445,21 +446,21 @@ static inline void press_section(const dmb_wall_job *job, wall_group *g, const d
 /* [-] of the way to where a ring comes to rest: from there on Newton's first steps only halve what is left. */
 #define DMB_MEAN_FAR 3.0
 
-DMB_LANES_CALL void mean_of(const dmb_wall_job *job, const wall_group *g, dmb_real depth, dmb_normal_mean *mean)
+DMB_LANES_CALL void mean_of(const dmb_wall_args *args, const wall_group *g, dmb_real depth, dmb_normal_mean *mean)
 {
-    dmb_normal_mean_at(g->normal_law, load_line(job->now.penetration, &g->site), depth, g->impact_speed,
-                       those_of(job->coarse, DMB_SITE_PLASTIC, g), job->step, mean);
+    dmb_normal_mean_at(g->normal_law, load_line(args->now.penetration, &g->site), depth, g->impact_speed,
+                       those_of(args->coarse, DMB_SITE_PLASTIC, g), args->step, mean);
 }
 
 /* Of rings in free flight, where that is far. */
-static inline void come_to_rest(const dmb_wall_job *job, const wall_group *g, dmb_real *depth)
+static inline void come_to_rest(const dmb_wall_args *args, const wall_group *g, dmb_real *depth)
 {
     enum { CORRECTIONS = 12 };
-    const dmb_real before = load_line(job->now.penetration, &g->site), predicted = *depth;
+    const dmb_real before = load_line(args->now.penetration, &g->site), predicted = *depth;
     for (int k = 0; k < CORRECTIONS; k++) {
         dmb_normal_mean mean;
-        mean_of(job, g, *depth, &mean);
-        dmb_normal_mean_correct(predicted, dmb_real_of(job->yield), &mean, depth);
+        mean_of(args, g, *depth, &mean);
+        dmb_normal_mean_correct(predicted, dmb_real_of(args->yield), &mean, depth);
     }
     const dmb_real way = DMB_MEAN_FAR * dmb_real_abs(*depth - before);
     *depth = dmb_real_select(dmb_mask_less(way, predicted - *depth), *depth, predicted);
@@ -468,51 +469,51 @@ static inline void come_to_rest(const dmb_wall_job *job, const wall_group *g, dm
 /* It stands for the mean force at the end of the step; the wall takes twice its mean power there. Predicted depths are
  * those of free flight: from there Newton would only halve them again and again, so that the tangent is that in the
  * depth to which the ring comes alone. */
-static inline void take_mean_force(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
+static inline void take_mean_force(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     dmb_normal_mean mean;
-    const dmb_real scale = job->own_factor * g->length;
+    const dmb_real scale = args->own_factor * g->length;
     dmb_real depth = g->penetration;
-    if (job->yield > 0.0) come_to_rest(job, g, &depth);
-    mean_of(job, g, depth, &mean);
+    if (args->yield > 0.0) come_to_rest(args, g, &depth);
+    mean_of(args, g, depth, &mean);
     g->pressed = scale * mean.force;
     mean.force = mean.force + mean.d_depth * (g->penetration - depth);
     dmb_contact_take_own(g->own, scale * mean.force, scale * mean.d_depth, c);
-    g->heat = -(2.0 / job->step) * (g->length * mean.taken);
+    g->heat = -(2.0 / args->step) * (g->length * mean.taken);
 }
 
 /* Where the history of the step has a mean force G already, the end of the step stands for what is more than that: of
  * own_factor N it has own_factor (N - G) + G. Friction is that of the whole mean force. */
-static inline void take_off_history(const dmb_wall_job *job, const wall_group *g, dmb_contact_force *c,
+static inline void take_off_history(const dmb_wall_args *args, const wall_group *g, dmb_contact_force *c,
                                     dmb_real wrench[6])
 {
-    const dmb_real zero = dmb_real_of(0.0), carried = dmb_real_max(-load_line(job->site_history, &g->site), zero);
-    const dmb_real off = dmb_real_select(g->own, (job->own_factor - 1.0) * carried, zero);
+    const dmb_real zero = dmb_real_of(0.0), carried = dmb_real_max(-load_line(args->site_history, &g->site), zero);
+    const dmb_real off = dmb_real_select(g->own, (args->own_factor - 1.0) * carried, zero);
     c->F[0] = c->F[0] + off;
     for (int i = 0; i < 3; i++) wrench[i] = wrench[i] + off * g->frame.n[i];
 }
 
-static inline void keep_presses(const dmb_wall_job *job, const wall_group *g, dmb_real force)
+static inline void keep_presses(const dmb_wall_args *args, const wall_group *g, dmb_real force)
 {
     const uint32_t bits = dmb_mask_bits(g->touches & dmb_mask_less(dmb_real_of(0.0), force));
-    for (uint32_t l = 0; l < g->site.used; l++) job->presses[g->site.first + l] = (uint8_t)(bits >> l & 1);
+    for (uint32_t l = 0; l < g->site.used; l++) args->presses[g->site.first + l] = (uint8_t)(bits >> l & 1);
 }
 
 /* Weight of the damping in the steps about touch, and what the rings keep of it. Pinned rings never open. */
-static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_normal_touch *touch,
+static inline void weigh(const dmb_wall_args *args, const wall_group *g, dmb_normal_touch *touch,
                          dmb_real kept[DMB_TOUCH_SIZE])
 {
     const dmb_real zero = dmb_real_of(0.0), one = dmb_real_of(1.0);
     dmb_real was[DMB_TOUCH_SIZE];
-    load(job->now.touch, DMB_TOUCH_SIZE, DMB_TOUCH_SIZE, &g->site, 0, was);
+    load(args->now.touch, DMB_TOUCH_SIZE, DMB_TOUCH_SIZE, &g->site, 0, was);
     for (int i = 0; i < DMB_TOUCH_SIZE; i++) kept[i] = zero;
     kept[DMB_TOUCH_TIME] = was[DMB_TOUCH_TIME];
     touch->weight = one;
     touch->by_depth = zero;
-    if (!job->dynamic || !(job->step > 0.0)) return;
+    if (!args->dynamic || !(args->step > 0.0)) return;
     const dmb_mask opens = g->touches & dmb_mask_not(dmb_mask_at_most(g->clearance, zero));
-    const dmb_real before = load_line(job->now.penetration, &g->site);
-    dmb_normal_touch_at(dmb_real_select(opens, before, one), g->penetration, dmb_real_of(job->step), was, touch, kept);
+    const dmb_real before = load_line(args->now.penetration, &g->site);
+    dmb_normal_touch_at(dmb_real_select(opens, before, one), g->penetration, dmb_real_of(args->step), was, touch, kept);
     if (!dmb_mask_any(g->own)) return;
     touch->weight = dmb_real_select(g->own, one, touch->weight);
     touch->by_depth = dmb_real_select(g->own, zero, touch->by_depth);
@@ -521,7 +522,7 @@ static inline void weigh(const dmb_wall_job *job, const wall_group *g, dmb_norma
 
 /* Rings that do not touch keep nothing but the force, with which the law would pull them: it tells where in the step a
  * contact that opens let go. */
-static inline void keep_touch(const dmb_wall_job *job, wall_group *g)
+static inline void keep_touch(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_local_normal *law = g->normal_law;
     const dmb_real zero = dmb_real_of(0.0);
@@ -533,66 +534,66 @@ static inline void keep_touch(const dmb_wall_job *job, wall_group *g)
     }
     for (int i = 0; g->touching != 0 && i < DMB_TOUCH_SIZE; i++)
         kept[i] = dmb_real_select(g->touches, g->kept[i], kept[i]);
-    store(kept, DMB_TOUCH_SIZE, &g->site, job->trial.touch);
+    store(kept, DMB_TOUCH_SIZE, &g->site, args->trial.touch);
 }
 
 /* Normal force, its damping weighted where that jumps at touch. */
-static inline void press_normally(const dmb_wall_job *job, wall_group *g, dmb_contact_force *c)
+static inline void press_normally(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     const dmb_local_normal *law = g->normal_law;
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
-    if (!job->touches) {
+    if (!args->touches) {
         dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
-        if (dmb_mask_any(g->own)) take_mean_force(job, g, c);
+        if (dmb_mask_any(g->own)) take_mean_force(args, g, c);
         return;
     }
     dmb_normal_touch touch;
-    weigh(job, g, &touch, g->kept);
+    weigh(args, g, &touch, g->kept);
     at.touch = &touch;
     dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
     g->kept[DMB_TOUCH_FORCE] = c->whole;
-    if (has_sections(job)) g->section.damping_slope = g->section.damping_slope * touch.weight;
-    if (dmb_mask_any(g->own)) take_mean_force(job, g, c);
+    if (has_sections(args)) g->section.damping_slope = g->section.damping_slope * touch.weight;
+    if (dmb_mask_any(g->own)) take_mean_force(args, g, c);
 }
 
-static inline void press(dmb_wall_job *job, wall_group *g)
+static inline void press(dmb_wall_args *args, wall_group *g)
 {
-    const int friction = job->friction_law != NULL;
+    const int friction = args->friction_law != NULL;
     const int arms =
         dmb_mask_any(dmb_mask_less(g->offset, dmb_real_of(0.0)) | dmb_mask_less(dmb_real_of(0.0), g->offset));
     dmb_contact_force c;
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
-    press_normally(job, g, &c);
-    if (friction) add_friction(job, g, &c);
-    if (job->bounces) keep_presses(job, g, -c.F[0]);
+    press_normally(args, g, &c);
+    if (friction) add_friction(args, g, &c);
+    if (args->bounces) keep_presses(args, g, -c.F[0]);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
-    if (has_sections(job)) press_section(job, g, &c, wrench);
-    if (dmb_mask_any(g->own)) take_off_history(job, g, &c, wrench);
-    if (job->tangent) add_tangent(job, g, g->touching, arms, &c, wrench);
+    if (has_sections(args)) press_section(args, g, &c, wrench);
+    if (dmb_mask_any(g->own)) take_off_history(args, g, &c, wrench);
+    if (args->tangent) add_tangent(args, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
-    add_forces(job, g, &c, wrench);
+    add_forces(args, g, &c, wrench);
 }
 
-static void walls(dmb_wall_job *job)
+static void walls(dmb_wall_args *args)
 {
-    const wall_laws laws = laws_of(job);
-    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+    const wall_laws laws = laws_of(args);
+    for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         wall_group g;
-        g.site = group_at(first, job->count);
-        place_rings(job, &laws, &g);
+        g.site = group_at(first, args->count);
+        place_rings(args, &laws, &g);
         const dmb_real zero = dmb_real_of(0.0);
         g.own = dmb_mask_less(zero, zero);
-        if (job->bounces) g.own = with_mean_force(job, &g);
+        if (args->bounces) g.own = with_mean_force(args, &g);
         g.touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero) | g.own;
         g.touching = dmb_mask_bits(g.touches) & lanes_used(&g.site);
-        if (job->bristles) begin_bristles(job, &g);
+        if (args->bristles) begin_bristles(args, &g);
         if (g.touching)
-            press(job, &g);
-        else if (job->bounces)
-            keep_presses(job, &g, zero);
-        if (job->bristles) keep_bristles(job, &g);
-        if (job->touches) keep_touch(job, &g);
+            press(args, &g);
+        else if (args->bounces)
+            keep_presses(args, &g, zero);
+        if (args->bristles) keep_bristles(args, &g);
+        if (args->touches) keep_touch(args, &g);
     }
 }
 

@@ -35,7 +35,7 @@
 #define DMB_BLOCK_PIVOT_MIN 1e-300
 /* A pivot smaller than this fraction of its block (or of stiffness and inertia of its row) is rounding: the unknown is
  * unconstrained. A cantilever of 10000 elements still has 1e-13, 100 m of unsupported pipe 1e-9. */
-#define DMB_LOOSE_PIVOT 1e-14
+#define DMB_UNCONSTRAINED_PIVOT 1e-14
 
 /* Report of the weakest pivot: a small ratio means that the unknown is almost unconstrained. */
 typedef struct dmb_block_weakest {

@@ -79,7 +79,7 @@ static double take_line(const dmb_motor *motor, dmb_drive_def *drive)
 }
 
 /* G(w0 - w) = T(w): points in reverse. It brakes along its last line, to where that has the torque at stall. */
-static double take_table(const dmb_motor *motor, dmb_drive_def *drive)
+static double read_table(const dmb_motor *motor, dmb_drive_def *drive)
 {
     const uint32_t n = motor->table_count, more = motor->brakes ? 1 : 0;
     const double fast = motor->table_flow > 0.0 ? motor->flow / motor->table_flow : 1.0;
@@ -120,7 +120,7 @@ int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no
     made.integral_gain = 0.0;
     made.gain_count = 0;
     made.limit_low = -DMB_FORCE_MAX;
-    const double speed = (read.table_count > 0 ? take_table : take_line)(&read, &made);
+    const double speed = (read.table_count > 0 ? read_table : take_line)(&read, &made);
     if (!read.brakes && read.table_count == 0) made.limit_low = 0.0;
     status = dmb_drive_def_write(drive, &made);
     if (status >= 0) *no_load_speed = speed;

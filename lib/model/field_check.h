@@ -47,8 +47,8 @@
 #define DMB_REST_ROTATION_MAX 2.5
 
 enum {
-    DMB_PARTS_MAX = (1 << 24) - 1, /* of one kind: their numbers have 24 bits in an id */
-    DMB_NODES_MAX = 1 << 24,       /* so that the storage of 6x6 blocks is counted in 32 bits */
+    DMB_CHUNKS_MAX = (1 << 24) - 1, /* of one kind: their numbers have 24 bits in an id */
+    DMB_NODES_MAX = 1 << 24,        /* so that the storage of 6x6 blocks is counted in 32 bits */
     DMB_SPARSE_NODES = 6, /* nodes from which on a cluster is not solved by dense matrices: where both cost alike */
     DMB_CLUSTER_COLUMNS_MAX = 1200, /* coordinates of a cluster with dense matrices: analyses make them of any */
     DMB_CLUSTER_ROWS_MAX = 4800     /* equations on them, room for locking included */

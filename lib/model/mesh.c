@@ -28,7 +28,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .added_masses = {.item_size = sizeof(dmb_added_mass)},
         .sites = {.item_size = sizeof(dmb_site)},
         .inside = {.item_size = sizeof(dmb_scene_point)},
-        .path_sites = {.item_size = sizeof(dmb_path_site)},
+        .axial_torsional_sites = {.item_size = sizeof(dmb_axial_torsional_site)},
         .drives = {.item_size = sizeof(dmb_scene_drive)},
         .actuators = {.item_size = sizeof(dmb_actuator_law)},
         .gain_tables = {.item_size = sizeof(dmb_gain_table)},
@@ -63,16 +63,47 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {
-        &mesh->stations,    &mesh->pieces,    &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
-        &mesh->elements,    &mesh->types,     &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
-        &mesh->path_sites,  &mesh->drives,    &mesh->loads,         &mesh->actuators,    &mesh->bits,
-        &mesh->joints,      &mesh->couplings, &mesh->callbacks,     &mesh->laws,         &mesh->driven,
-        &mesh->constraints, &mesh->clusters,  &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
-        &mesh->bodies,      &mesh->inputs,    &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
-        &mesh->events,      &mesh->forces,    &mesh->ring_order,    &mesh->divisions,    &mesh->rings,
-        &mesh->inside,      &mesh->stuck,     &mesh->flow_pieces,   &mesh->gain_tables,  &mesh->added_masses,
-        &mesh->rotors};
+    dmb_vector *const all[] = {&mesh->stations,
+                               &mesh->pieces,
+                               &mesh->run_order,
+                               &mesh->run_start,
+                               &mesh->nodes,
+                               &mesh->elements,
+                               &mesh->types,
+                               &mesh->batches,
+                               &mesh->rigid_masses,
+                               &mesh->sites,
+                               &mesh->axial_torsional_sites,
+                               &mesh->drives,
+                               &mesh->loads,
+                               &mesh->actuators,
+                               &mesh->bits,
+                               &mesh->joints,
+                               &mesh->couplings,
+                               &mesh->callbacks,
+                               &mesh->laws,
+                               &mesh->driven,
+                               &mesh->constraints,
+                               &mesh->clusters,
+                               &mesh->cluster_nodes,
+                               &mesh->strings,
+                               &mesh->pipes,
+                               &mesh->bodies,
+                               &mesh->inputs,
+                               &mesh->load_points,
+                               &mesh->springs,
+                               &mesh->spring_points,
+                               &mesh->events,
+                               &mesh->forces,
+                               &mesh->ring_order,
+                               &mesh->divisions,
+                               &mesh->rings,
+                               &mesh->inside,
+                               &mesh->stuck,
+                               &mesh->flow_pieces,
+                               &mesh->gain_tables,
+                               &mesh->added_masses,
+                               &mesh->rotors};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 
@@ -101,24 +132,25 @@ uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id)
 
 /* ---- Pipes of a string ------------------------------------------------------------------------------------------- */
 
-dmb_pipe_walk dmb_pipe_walk_of(const dmb_mesh *mesh, uint32_t string)
+dmb_pipe_iterator dmb_pipe_iterator_of(const dmb_mesh *mesh, uint32_t string)
 {
-    dmb_pipe_walk walk = {.mesh = mesh, .string = string, .number = DMB_NONE};
-    walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
-    walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
-    return walk;
+    dmb_pipe_iterator iterator = {.mesh = mesh, .string = string, .number = DMB_NONE};
+    iterator.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
+    iterator.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
+    return iterator;
 }
 
-bool dmb_pipe_walk_next(dmb_pipe_walk *walk)
+bool dmb_pipe_iterator_next(dmb_pipe_iterator *iterator)
 {
-    if (walk->run != NULL && walk->within == walk->run->count) {
-        ++walk->place;
-        walk->within = 0;
+    if (iterator->run != NULL && iterator->within == iterator->run->count) {
+        ++iterator->place;
+        iterator->within = 0;
     }
-    if (walk->place == walk->end) return false;
-    walk->run = dmb_mesh_run_at(walk->mesh, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, walk->place));
-    ++walk->within;
-    ++walk->number; /* the first one becomes 0 */
+    if (iterator->place == iterator->end) return false;
+    iterator->run =
+        dmb_mesh_run_at(iterator->mesh, *DMB_VECTOR_AT(uint32_t, &iterator->mesh->run_order, iterator->place));
+    ++iterator->within;
+    ++iterator->number; /* the first one becomes 0 */
     return true;
 }
 
@@ -250,7 +282,7 @@ int32_t dmb_mesh_features(const dmb_mesh *mesh)
 
 /* From what was described to the scene that a step works on. */
 
-static int32_t take_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
+static int32_t read_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
 {
     dmb_check check = dmb_check_of(&model->message, "compile options", DMB_NONE);
     *read = dmb_compile_options_default();
@@ -275,7 +307,7 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     mesh->features = dmb_mesh_features(mesh);
     for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
     if (status < 0) return status;
-    status = dmb_mesh_freeze(mesh, scene);
+    status = dmb_mesh_finalise(mesh, scene);
     if (status == DMB_ERR_UNSUPPORTED && !dmb_has_cholmod())
         dmb_message_set(&mesh->model->message,
                         "compile: joints need the order of elimination of CHOLMOD, which could not be "
@@ -290,7 +322,7 @@ static void warn(dmb_model *model, const dmb_scene *scene)
     const dmb_message counts = model->message;
     dmb_message text;
     int first = 1;
-    for (uint32_t i = dmb_held_ring(scene, 0, &text); i != DMB_NONE; i = dmb_held_ring(scene, i + 1, &text)) {
+    for (uint32_t i = dmb_supported_ring(scene, 0, &text); i != DMB_NONE; i = dmb_supported_ring(scene, i + 1, &text)) {
         dmb_log_text(&log, DMB_LOG_WARNING, text.text);
         if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
         first = 0;
@@ -320,7 +352,7 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
     int32_t status = dmb_describe_open(model, "compile", model);
     if (status < 0) return status;
     status = dmb_refused_check(&model->refused, &model->message);
-    if (status >= 0) status = take_options(model, options, &read);
+    if (status >= 0) status = read_options(model, options, &read);
     if (status >= 0) {
         dmb_mesh_init(&mesh, model, &read);
         status = make_scene(&mesh, &scene);

@@ -1,6 +1,6 @@
 /* The scene while it is being made. Each step of dmb_model_compile fills some of it from the model and from what
- * earlier steps have left; mesh_freeze.c then moves it into one block. Held in growable arrays, so that nothing has to
- * be known in advance; all of it goes when the compile step ends.
+ * earlier steps have left; mesh_finalise.c then moves it into one block. Held in growable arrays, so that nothing has
+ * to be known in advance; all of it goes when the compile step ends.
  *
  *   step            reads                      fills
  *   count           runs                       run_order, room in nodes and elements
@@ -12,7 +12,7 @@
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
  *   types           runs, elements             types, elements (type, kernel), batches
  *   masses          runs, bodies, bits         rigid_masses, added_masses, nodes (weight, damped)
- *   sites           pipes, bodies              sites, path_sites
+ *   sites           pipes, bodies              sites, axial_torsional_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
  *   forces          springs, forces            springs, spring_points, forces
@@ -47,7 +47,7 @@ typedef struct dmb_mesh_node {
     uint32_t body;
     uint32_t rigid_mass; /* in rigid_masses; DMB_NONE: none */
     uint32_t added_mass; /* in added_masses; DMB_NONE: none */
-    uint8_t size;        /* DMB_NODE_FULL or DMB_NODE_PATH */
+    uint8_t size;        /* DMB_NODE_SIX_DOF or DMB_NODE_AXIAL_TORSIONAL */
     uint8_t free;        /* mask of free components; of a PATH node X and RX count */
     uint8_t prescribed;  /* mask of components moved by MOTION drives */
     uint8_t rigid;       /* 1: carries a rigid body */
@@ -86,49 +86,49 @@ typedef struct dmb_mesh {
     dmb_compile_options options;
     int32_t features;
     int32_t has_hole;
-    dmb_hole hole;            /* its stations stand in `stations` */
-    dmb_vector stations;      /* dmb_hole_station */
-    dmb_vector pieces;        /* dmb_hole_piece, which the hole points to */
-    dmb_vector run_order;     /* uint32_t: runs sorted by string, in each by pipe */
-    dmb_vector run_start;     /* uint32_t: where in run_order each string begins, one more at the end */
-    dmb_vector nodes;         /* dmb_mesh_node */
-    dmb_vector elements;      /* dmb_mesh_element */
-    dmb_vector types;         /* dmb_element_type */
-    dmb_vector batches;       /* dmb_batch */
-    dmb_vector rigid_masses;  /* dmb_rigid_mass */
-    dmb_vector added_masses;  /* dmb_added_mass */
-    dmb_vector sites;         /* dmb_site */
-    dmb_vector inside;        /* dmb_scene_point: of the last of them */
-    dmb_vector path_sites;    /* dmb_path_site */
-    dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
-    dmb_vector actuators;     /* dmb_actuator_law */
-    dmb_vector gain_tables;   /* dmb_gain_table */
-    dmb_vector loads;         /* dmb_scene_load */
-    dmb_vector bits;          /* dmb_scene_bit */
-    dmb_vector inputs;        /* dmb_scene_input */
-    dmb_vector load_points;   /* dmb_scene_point */
-    dmb_vector springs;       /* dmb_scene_spring */
-    dmb_vector spring_points; /* dmb_spring_point */
-    dmb_vector events;        /* dmb_scene_event */
-    dmb_vector forces;        /* dmb_scene_force */
-    dmb_vector stuck;         /* dmb_scene_stuck */
-    dmb_vector flow_pieces;   /* dmb_flow_piece */
-    dmb_vector joints;        /* dmb_scene_joint */
-    dmb_vector rotors;        /* dmb_mesh_rotor, by node */
-    dmb_vector couplings;     /* dmb_scene_coupling */
-    dmb_vector callbacks;     /* dmb_scene_callback */
-    dmb_vector laws;          /* dmb_joint_law */
-    dmb_vector driven;        /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
-    dmb_vector constraints;   /* dmb_constraint, sorted by cluster */
-    dmb_vector clusters;      /* dmb_cluster */
-    dmb_vector cluster_nodes; /* uint32_t */
-    dmb_vector strings;       /* dmb_string_map */
-    dmb_vector pipes;         /* dmb_pipe_map */
-    dmb_vector bodies;        /* dmb_body_map: bodies, then bits, then rings */
-    dmb_vector ring_order;    /* dmb_mesh_ring: by string, pipe and place */
-    dmb_vector divisions;     /* dmb_mesh_ring: the same with the points of forces inside pipes */
-    dmb_vector rings;         /* dmb_ring_map, in the order of ring_order */
-    uint32_t tool_joints;     /* pipes that have one */
+    dmb_hole hole;                    /* its stations stand in `stations` */
+    dmb_vector stations;              /* dmb_hole_station */
+    dmb_vector pieces;                /* dmb_hole_piece, which the hole points to */
+    dmb_vector run_order;             /* uint32_t: runs sorted by string, in each by pipe */
+    dmb_vector run_start;             /* uint32_t: where in run_order each string begins, one more at the end */
+    dmb_vector nodes;                 /* dmb_mesh_node */
+    dmb_vector elements;              /* dmb_mesh_element */
+    dmb_vector types;                 /* dmb_element_type */
+    dmb_vector batches;               /* dmb_batch */
+    dmb_vector rigid_masses;          /* dmb_rigid_mass */
+    dmb_vector added_masses;          /* dmb_added_mass */
+    dmb_vector sites;                 /* dmb_site */
+    dmb_vector inside;                /* dmb_scene_point: of the last of them */
+    dmb_vector axial_torsional_sites; /* dmb_axial_torsional_site */
+    dmb_vector drives;                /* dmb_scene_drive; row is filled by freeze */
+    dmb_vector actuators;             /* dmb_actuator_law */
+    dmb_vector gain_tables;           /* dmb_gain_table */
+    dmb_vector loads;                 /* dmb_scene_load */
+    dmb_vector bits;                  /* dmb_scene_bit */
+    dmb_vector inputs;                /* dmb_scene_input */
+    dmb_vector load_points;           /* dmb_scene_point */
+    dmb_vector springs;               /* dmb_scene_spring */
+    dmb_vector spring_points;         /* dmb_spring_point */
+    dmb_vector events;                /* dmb_scene_event */
+    dmb_vector forces;                /* dmb_scene_force */
+    dmb_vector stuck;                 /* dmb_scene_stuck */
+    dmb_vector flow_pieces;           /* dmb_flow_piece */
+    dmb_vector joints;                /* dmb_scene_joint */
+    dmb_vector rotors;                /* dmb_mesh_rotor, by node */
+    dmb_vector couplings;             /* dmb_scene_coupling */
+    dmb_vector callbacks;             /* dmb_scene_callback */
+    dmb_vector laws;                  /* dmb_joint_law */
+    dmb_vector driven;                /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
+    dmb_vector constraints;           /* dmb_constraint, sorted by cluster */
+    dmb_vector clusters;              /* dmb_cluster */
+    dmb_vector cluster_nodes;         /* uint32_t */
+    dmb_vector strings;               /* dmb_string_map */
+    dmb_vector pipes;                 /* dmb_pipe_map */
+    dmb_vector bodies;                /* dmb_body_map: bodies, then bits, then rings */
+    dmb_vector ring_order;            /* dmb_mesh_ring: by string, pipe and place */
+    dmb_vector divisions;             /* dmb_mesh_ring: the same with the points of forces inside pipes */
+    dmb_vector rings;                 /* dmb_ring_map, in the order of ring_order */
+    uint32_t tool_joints;             /* pipes that have one */
     uint32_t history_count;
     uint32_t delays;   /* drives with a delay line */
     dmb_mud_flow flow; /* with flow_pieces */
@@ -189,18 +189,18 @@ double dmb_ring_reach(const dmb_pipe_def *def);
 uint32_t dmb_mesh_element_along(const dmb_mesh *mesh, const dmb_pipe_map *pipe, double along, double *fraction);
 
 /* The pipes of a string one after the other.
- *     dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
- *     while (dmb_pipe_walk_next(&walk)) ... walk.run, walk.number ... */
-typedef struct dmb_pipe_walk {
+ *     dmb_pipe_iterator walk = dmb_pipe_iterator_of(mesh, string);
+ *     while (dmb_pipe_iterator_next(&walk)) ... walk.run, walk.number ... */
+typedef struct dmb_pipe_iterator {
     const dmb_mesh *mesh;
     const dmb_pipe_run *run;
     uint32_t place, end; /* in run_order */
     uint32_t within;     /* pipes of the run that are done */
     uint32_t number;     /* of the pipe along the string */
     uint32_t string;
-} dmb_pipe_walk;
-dmb_pipe_walk dmb_pipe_walk_of(const dmb_mesh *mesh, uint32_t string);
-bool dmb_pipe_walk_next(dmb_pipe_walk *walk);
+} dmb_pipe_iterator;
+dmb_pipe_iterator dmb_pipe_iterator_of(const dmb_mesh *mesh, uint32_t string);
+bool dmb_pipe_iterator_next(dmb_pipe_iterator *iterator);
 
 void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options);
 void dmb_mesh_release(dmb_mesh *mesh);
@@ -244,7 +244,7 @@ int32_t dmb_mesh_inputs(dmb_mesh *mesh);
 /* DMB_FEATURE_... that are asked for and described. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh);
 /* Moves everything into one block of the model's allocator. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
-int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **scene);
+int32_t dmb_mesh_finalise(const dmb_mesh *mesh, dmb_scene **scene);
 
 /* Places of parts that move rigidly with a node. */
 
@@ -302,13 +302,13 @@ typedef struct dmb_scene_storage {
 /* Free rows, and rows that MOTION drives move, as bits of the node's own rows. */
 static inline uint8_t dmb_free_rows(const dmb_mesh_node *node)
 {
-    if (node->size == DMB_NODE_FULL) return node->free;
+    if (node->size == DMB_NODE_SIX_DOF) return node->free;
     return (uint8_t)((node->free >> DMB_X & 1) | (node->free >> DMB_RX & 1) << 1);
 }
 
 static inline uint8_t dmb_prescribed_rows(const dmb_mesh_node *node)
 {
-    if (node->size == DMB_NODE_FULL) return node->prescribed;
+    if (node->size == DMB_NODE_SIX_DOF) return node->prescribed;
     return (uint8_t)((node->prescribed >> DMB_X & 1) | (node->prescribed >> DMB_RX & 1) << 1);
 }
 

@@ -26,7 +26,7 @@ static uint32_t driven_node(const dmb_mesh *mesh, dmb_id part)
 /* A PATH node has no other components than those along and about its axis. */
 static bool is_free(const dmb_mesh_node *node, int32_t component)
 {
-    const int32_t mask = node->size == DMB_NODE_PATH ? node->free & DMB_FREE_CYLINDRICAL : node->free;
+    const int32_t mask = node->size == DMB_NODE_AXIAL_TORSIONAL ? node->free & DMB_FREE_CYLINDRICAL : node->free;
     return (mask >> component & 1) != 0;
 }
 
@@ -175,7 +175,7 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
 static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     if (!(def->side_cutting > 0.0) || (mesh->features & DMB_FEATURE_ROCK) == 0) return DMB_OK;
-    if (dmb_mesh_node_at(mesh, bit->node)->size != DMB_NODE_FULL) {
+    if (dmb_mesh_node_at(mesh, bit->node)->size != DMB_NODE_SIX_DOF) {
         dmb_message_set(
             &mesh->model->message,
             "bit %u: side_cutting = %g, must be 0 behind axial-torsional pipes, which do not move sideways; "

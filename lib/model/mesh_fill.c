@@ -49,8 +49,8 @@ static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32
         scene->free_row[first + k] = (uint8_t)(open >> k & 1);
         scene->solved_row[first + k] = (uint8_t)((open & ~moved) >> k & 1);
         if (scene->solved_row[first + k]) continue;
-        scene->held_node[*held] = i;
-        scene->held_component[*held] = k;
+        scene->constrained_node[*held] = i;
+        scene->constrained_component[*held] = k;
         ++*held;
     }
 }
@@ -64,7 +64,7 @@ static void string_velocity(const dmb_mesh *mesh, const dmb_mesh_node *node, dou
     const double *given = dmb_mesh_string_def(mesh, node->string)->velocity;
     double q[4], R[9], x[3];
     dmb_vec6_copy(given, v);
-    if (node->size == DMB_NODE_PATH) return;
+    if (node->size == DMB_NODE_AXIAL_TORSIONAL) return;
     dmb_quat_between(start->quaternion, node->quaternion, q);
     dmb_quat_to_matrix(q, R);
     dmb_vec3_sub(node->position, start->position, x);
@@ -82,7 +82,7 @@ static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
         return;
     }
     string_velocity(mesh, node, v);
-    if (node->size == DMB_NODE_FULL) {
+    if (node->size == DMB_NODE_SIX_DOF) {
         dmb_vec6_copy(v, row);
         return;
     }
@@ -131,7 +131,7 @@ static void fill_free_rigids(dmb_scene *scene)
     for (uint32_t i = 0; i < scene->rigid_mass_count && scene->free_rigid_count > 0; ++i) {
         const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
         const uint32_t row = scene->layout.row[rigid_mass->node];
-        int is_free = scene->layout.size[rigid_mass->node] == DMB_NODE_FULL && is_alone(scene, rigid_mass->node);
+        int is_free = scene->layout.size[rigid_mass->node] == DMB_NODE_SIX_DOF && is_alone(scene, rigid_mass->node);
         for (uint32_t k = 0; k < scene->layout.size[rigid_mass->node]; ++k)
             is_free = is_free && scene->solved_row[row + k];
         if (!is_free) continue;
@@ -220,7 +220,7 @@ static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
         dmb_scene_drive *drive = scene->drives + i;
         if (drive->node == DMB_NONE) continue; /* it drives a joint */
-        const bool path = scene->layout.size[drive->node] == DMB_NODE_PATH;
+        const bool path = scene->layout.size[drive->node] == DMB_NODE_AXIAL_TORSIONAL;
         const uint32_t component = (uint32_t)drive->component;
         drive->row = scene->layout.row[drive->node] + (path ? component / (uint32_t)DMB_RX : component);
     }
@@ -262,7 +262,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     copy_items(&mesh->sites, scene->sites);
     scene->sites_in_order = sites_in_order(scene);
-    copy_items(&mesh->path_sites, scene->path_sites);
+    copy_items(&mesh->axial_torsional_sites, scene->axial_torsional_sites);
     copy_items(&mesh->inside, scene->inside);
     copy_items(&mesh->actuators, scene->actuators);
     copy_items(&mesh->gain_tables, scene->gain_tables);

@@ -9,13 +9,13 @@
 #include "model/model.h"
 #include "model/section.h"
 
-typedef struct flow_walk {
+typedef struct flow_iterator {
     dmb_mesh *mesh;
     const dmb_pipe_def *pipe;
     double start;        /* [m] measured depth of the rig end */
     dmb_flow_piece last; /* zeros before the first */
     uint32_t number;     /* of the pipe */
-} flow_walk;
+} flow_iterator;
 
 static int32_t refuse(const dmb_mesh *mesh, int32_t status, const char *text)
 {
@@ -25,22 +25,22 @@ static int32_t refuse(const dmb_mesh *mesh, int32_t status, const char *text)
 }
 
 /* The laws of eccentric annuli have a range of diameters. */
-static int32_t check_ratio(const flow_walk *walk, const char *part, double ratio, double from)
+static int32_t check_ratio(const flow_iterator *iterator, const char *part, double ratio, double from)
 {
-    if (!(walk->mesh->flow.eccentricity > 0.0)) return DMB_OK;
+    if (!(iterator->mesh->flow.eccentricity > 0.0)) return DMB_OK;
     if (ratio >= DMB_FLOW_ECCENTRIC_RATIO_MIN && ratio <= DMB_FLOW_ECCENTRIC_RATIO_MAX) return DMB_OK;
-    dmb_message_set(&walk->mesh->model->message,
+    dmb_message_set(&iterator->mesh->model->message,
                     "%s: outer diameter over that of the hole = %g at %g m of the string, must be from %g to %g with a "
                     "flow_eccentricity of the environment, the range of its law; leave the eccentricity out",
                     part, ratio, from, DMB_FLOW_ECCENTRIC_RATIO_MIN, DMB_FLOW_ECCENTRIC_RATIO_MAX);
     return DMB_ERR_GEOMETRY;
 }
 
-static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, double hole)
+static int32_t check_duct(const flow_iterator *iterator, const dmb_flow_piece *piece, double hole)
 {
-    dmb_message *message = &walk->mesh->model->message, part;
+    dmb_message *message = &iterator->mesh->model->message, part;
     const double *d = piece->diameter;
-    (void)dmb_model_pipe_text(walk->mesh->model, 0, walk->number, &part);
+    (void)dmb_model_pipe_text(iterator->mesh->model, 0, iterator->number, &part);
     if (!(d[1] > 0.0)) {
         dmb_message_set(message,
                         "%s: inner diameter = %g m at %g m, must be > 0 with a flow_rate of the environment; "
@@ -48,7 +48,7 @@ static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, do
                         part.text, d[1], piece->from);
         return DMB_ERR_GEOMETRY;
     }
-    if (hole - d[0] > 1e-4 * hole) return check_ratio(walk, part.text, d[0] / hole, piece->from);
+    if (hole - d[0] > 1e-4 * hole) return check_ratio(iterator, part.text, d[0] / hole, piece->from);
     dmb_message_set(message,
                     "%s: outer diameter = %g m at %g m of the string, must leave the mud an annulus in the hole "
                     "of %g m there, with a flow_rate of the environment; widen the hole",
@@ -87,17 +87,17 @@ static const char *rate_text(const dmb_input_def *by, const char *bound, dmb_mes
 }
 
 /* It grows with the rate. */
-static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece)
+static int32_t check_reynolds(const flow_iterator *iterator, const dmb_flow_piece *piece)
 {
     const dmb_input_def *by;
-    dmb_mud_flow flow = walk->mesh->flow;
+    dmb_mud_flow flow = iterator->mesh->flow;
     dmb_message text;
-    flow.rate = rate_at(walk->mesh, 1, &by);
+    flow.rate = rate_at(iterator->mesh, 1, &by);
     const double bore = dmb_bore_loss(&flow, piece->diameter[1]).reynolds;
     const double annulus = dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, &piece->shape).reynolds;
     const double most = bore > annulus ? bore : annulus;
     if (most <= DMB_FLOW_REYNOLDS_MAX) return DMB_OK;
-    dmb_message_set(&walk->mesh->model->message,
+    dmb_message_set(&iterator->mesh->model->message,
                     "%s = %g m3/s: the Reynolds number at %g m of the string is %g, must be <= %g, up to "
                     "which the law of friction was measured; lower the rate, or raise the consistency",
                     rate_text(by, "high", &text), flow.rate, piece->from, most, DMB_FLOW_REYNOLDS_MAX);
@@ -105,10 +105,10 @@ static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece
 }
 
 /* Of equal diameters the shape, which takes the time, is that of the piece before. */
-static void take_losses(flow_walk *walk, double hole, dmb_flow_piece *piece)
+static void take_losses(flow_iterator *iterator, double hole, dmb_flow_piece *piece)
 {
-    const dmb_mud_flow *flow = &walk->mesh->flow;
-    const dmb_flow_piece *last = &walk->last;
+    const dmb_mud_flow *flow = &iterator->mesh->flow;
+    const dmb_flow_piece *last = &iterator->last;
     const bool same = dmb_same_numbers(piece->diameter, last->diameter, 2);
     piece->hole = hole;
     piece->shape = same && dmb_same_numbers(&hole, &last->hole, 1)
@@ -131,44 +131,45 @@ static void take_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
     piece->lever[1] = piece->from + L - L / 6.0 - dmb_mesh_node_at(mesh, node + 1)->at;
 }
 
-static int32_t add_piece(flow_walk *walk, dmb_flow_piece *piece, int in_tool_joint)
+static int32_t add_piece(flow_iterator *iterator, dmb_flow_piece *piece, int in_tool_joint)
 {
-    const double middle = walk->start + piece->from + 0.5 * piece->length;
-    take_levers(walk->mesh, piece);
-    const double hole = 2.0 * dmb_hole_radius(&walk->mesh->hole, middle);
-    dmb_pipe_diameters(walk->pipe, in_tool_joint, piece->diameter);
-    int32_t status = check_duct(walk, piece, hole);
+    const double middle = iterator->start + piece->from + 0.5 * piece->length;
+    take_levers(iterator->mesh, piece);
+    const double hole = 2.0 * dmb_hole_radius(&iterator->mesh->hole, middle);
+    dmb_pipe_diameters(iterator->pipe, in_tool_joint, piece->diameter);
+    int32_t status = check_duct(iterator, piece, hole);
     if (status < 0) return status;
-    take_losses(walk, hole, piece);
-    status = check_reynolds(walk, piece);
-    walk->last = *piece;
-    return status < 0 ? status : dmb_vector_append(&walk->mesh->flow_pieces, &walk->mesh->model->allocator, piece, 1);
+    take_losses(iterator, hole, piece);
+    status = check_reynolds(iterator, piece);
+    iterator->last = *piece;
+    return status < 0 ? status
+                      : dmb_vector_append(&iterator->mesh->flow_pieces, &iterator->mesh->model->allocator, piece, 1);
 }
 
-static int32_t add_pipe(flow_walk *walk, const dmb_pipe_map *pipe, double from)
+static int32_t add_pipe(flow_iterator *iterator, const dmb_pipe_map *pipe, double from)
 {
-    const dmb_mesh *mesh = walk->mesh;
+    const dmb_mesh *mesh = iterator->mesh;
     dmb_pipe_section section;
-    dmb_flow_piece piece = {.from = from, .poisson = walk->pipe->poisson_ratio, .element = DMB_NONE};
+    dmb_flow_piece piece = {.from = from, .poisson = iterator->pipe->poisson_ratio, .element = DMB_NONE};
     int32_t status = DMB_OK;
-    dmb_section_of(walk->pipe, &section);
+    dmb_section_of(iterator->pipe, &section);
     piece.node = pipe->node;
-    piece.length = dmb_pipe_body_length(walk->pipe);
-    if (pipe->elements == 0) status = add_piece(walk, &piece, 0);
+    piece.length = dmb_pipe_body_length(iterator->pipe);
+    if (pipe->elements == 0) status = add_piece(iterator, &piece, 0);
     for (uint32_t e = pipe->element; e < pipe->element + pipe->elements && status >= 0; ++e) {
         piece.element = e;
         piece.length = dmb_mesh_element_at(mesh, e)->length;
         piece.steel = section.stiffness[0];
-        status = add_piece(walk, &piece, 0);
+        status = add_piece(iterator, &piece, 0);
         piece.from += piece.length;
         piece.node = dmb_mesh_element_at(mesh, e)->node + 1;
     }
-    if (status < 0 || !(walk->pipe->joint_length > 0.0)) return status;
-    piece.from = from + dmb_pipe_body_length(walk->pipe);
-    piece.length = walk->pipe->joint_length;
+    if (status < 0 || !(iterator->pipe->joint_length > 0.0)) return status;
+    piece.from = from + dmb_pipe_body_length(iterator->pipe);
+    piece.length = iterator->pipe->joint_length;
     piece.steel = 0.0;
     piece.element = DMB_NONE;
-    return add_piece(walk, &piece, 1);
+    return add_piece(iterator, &piece, 1);
 }
 
 /* [Pa] Inside over outside at the rig end, as described, at a rate. */
@@ -237,11 +238,11 @@ static void take_flow(dmb_mesh *mesh)
 }
 
 /* An open end: no loss, but the thrust of what leaves it. */
-static int32_t take_end(flow_walk *walk)
+static int32_t take_end(flow_iterator *iterator)
 {
-    dmb_mud_flow *flow = &walk->mesh->flow;
-    if (flow->open) flow->nozzle_area = dmb_ring_area(walk->last.diameter[1], 0.0);
-    return check_pump(walk->mesh);
+    dmb_mud_flow *flow = &iterator->mesh->flow;
+    if (flow->open) flow->nozzle_area = dmb_ring_area(iterator->last.diameter[1], 0.0);
+    return check_pump(iterator->mesh);
 }
 
 /* The environment is checked for its own rate; an input may come to it that makes the mud flow. */
@@ -292,7 +293,7 @@ static int32_t check_motors(const dmb_mesh *mesh)
 
 int32_t dmb_mesh_flow(dmb_mesh *mesh)
 {
-    flow_walk walk = {.mesh = mesh};
+    flow_iterator iterator = {.mesh = mesh};
     int32_t status = DMB_OK;
     double from = 0.0;
     if (!(mesh->model->environment.flow_rate > 0.0) && input_of(mesh->model) == NULL) return DMB_OK;
@@ -307,13 +308,14 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
                       "flow, or cut_spacing of the wall");
     status = check_motors(mesh);
     take_flow(mesh);
-    walk.start = dmb_mesh_string_def(mesh, 0)->start_depth;
-    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, 0);
-    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
-        walk.pipe = &pipes.run->def;
-        walk.number = pipes.number;
-        status = add_pipe(&walk, dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, 0)->first_pipe + pipes.number), from);
-        from += walk.pipe->length;
+    iterator.start = dmb_mesh_string_def(mesh, 0)->start_depth;
+    dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, 0);
+    while (status >= 0 && dmb_pipe_iterator_next(&pipes)) {
+        iterator.pipe = &pipes.run->def;
+        iterator.number = pipes.number;
+        status =
+            add_pipe(&iterator, dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, 0)->first_pipe + pipes.number), from);
+        from += iterator.pipe->length;
     }
-    return status < 0 ? status : take_end(&walk);
+    return status < 0 ? status : take_end(&iterator);
 }

@@ -86,7 +86,7 @@ static void section_of(const dmb_mesh *mesh, const dmb_scene_point *point, const
     dmb_section_shape shape;
     double Rb[9], d[6];
     dmb_quat_to_matrix(dmb_mesh_node_at(mesh, point->node + 1)->quaternion, Rb);
-    dmb_section_shape_at(type, point->fraction, element->kernel != DMB_KERNEL_PATH, &shape);
+    dmb_section_shape_at(type, point->fraction, element->kernel != DMB_KERNEL_AXIAL_TORSIONAL, &shape);
     dmb_section_ends(type, Ra, Rb, element->span, d);
     dmb_section_pose(type, &shape, d, Q, r);
 }
@@ -195,7 +195,7 @@ static void check_sideways(dmb_check *check, const dmb_mesh *mesh, const dmb_stu
                            const dmb_scene_point *point)
 {
     if (check->status < 0 || (def->holds & DMB_STUCK_LATERAL) == 0) return;
-    if (dmb_mesh_node_at(mesh, point->node)->size == DMB_NODE_FULL) return;
+    if (dmb_mesh_node_at(mesh, point->node)->size == DMB_NODE_SIX_DOF) return;
     check->status = DMB_ERR_UNSUPPORTED;
     dmb_message_set(check->message,
                     "%s: holds = %d, must be without DMB_STUCK_LATERAL (4) on axial-torsional pipes, which do not move "

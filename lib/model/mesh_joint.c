@@ -118,7 +118,7 @@ void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *fie
                          uint32_t node)
 {
     dmb_message name;
-    if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_FULL || !mesh->has_hole || dmb_hole_is_straight(&mesh->hole))
+    if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_SIX_DOF || !mesh->has_hole || dmb_hole_is_straight(&mesh->hole))
         return;
     dmb_message_set(&name, "%s.pipe", field);
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, name.text, place->pipe,

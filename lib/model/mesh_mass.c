@@ -318,19 +318,20 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
 static int32_t add_string(dmb_mesh *mesh, uint32_t string)
 {
     const bool eccentric = (mesh->features & DMB_FEATURE_ECCENTRICITY) != 0;
-    dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
+    dmb_pipe_iterator iterator = dmb_pipe_iterator_of(mesh, string);
     run_mass mass = {0};
     int32_t status = DMB_OK;
-    while (status >= 0 && dmb_pipe_walk_next(&walk)) {
-        const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + walk.number);
+    while (status >= 0 && dmb_pipe_iterator_next(&iterator)) {
+        const dmb_pipe_map *pipe =
+            dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + iterator.number);
         double offset[2], *e = NULL;
-        if (mass.def != &walk.run->def) run_mass_of(mesh, walk.run, &mass);
-        if (eccentric && dmb_pipe_is_eccentric(&walk.run->def)) {
-            dmb_pipe_offset(&walk.run->def, walk.number, offset);
+        if (mass.def != &iterator.run->def) run_mass_of(mesh, iterator.run, &mass);
+        if (eccentric && dmb_pipe_is_eccentric(&iterator.run->def)) {
+            dmb_pipe_offset(&iterator.run->def, iterator.number, offset);
             e = offset;
         }
         status = pipe->elements > 0 ? add_elastic_pipe(mesh, pipe, &mass, e) : add_rigid_pipe(mesh, pipe, &mass, e);
-        if (status >= 0 && mesh->ring_order.count > 0) status = add_rings_of(mesh, mass.def, string, walk.number);
+        if (status >= 0 && mesh->ring_order.count > 0) status = add_rings_of(mesh, mass.def, string, iterator.number);
     }
     return status;
 }

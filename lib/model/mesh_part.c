@@ -81,10 +81,10 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
 
 static int32_t kernel_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
 {
-    const bool a = dmb_mesh_node_at(mesh, element->node)->size == DMB_NODE_FULL;
-    const bool b = dmb_mesh_node_at(mesh, element->node + 1)->size == DMB_NODE_FULL;
+    const bool a = dmb_mesh_node_at(mesh, element->node)->size == DMB_NODE_SIX_DOF;
+    const bool b = dmb_mesh_node_at(mesh, element->node + 1)->size == DMB_NODE_SIX_DOF;
     if (a && b) return DMB_KERNEL_BEAM;
-    return a || b ? DMB_KERNEL_MIXED : DMB_KERNEL_PATH;
+    return a || b ? DMB_KERNEL_MIXED : DMB_KERNEL_AXIAL_TORSIONAL;
 }
 
 /* A batch ends where the kernel or the kind of mass changes, or the chain ends. */
@@ -106,7 +106,7 @@ int32_t dmb_mesh_types(dmb_mesh *mesh)
     for (uint32_t e = 0; e < mesh->elements.count && status >= 0; ++e) {
         dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
         element->kernel = kernel_of(mesh, element);
-        element->curved = element->kernel != DMB_KERNEL_PATH && dmb_mesh_is_curved(mesh, element);
+        element->curved = element->kernel != DMB_KERNEL_AXIAL_TORSIONAL && dmb_mesh_is_curved(mesh, element);
         status = find_type(mesh, element, e > 0 ? element - 1 : NULL);
         if (status >= 0) status = add_to_batch(mesh, e);
     }
@@ -116,7 +116,7 @@ int32_t dmb_mesh_types(dmb_mesh *mesh)
 /* Nodes and elements of the strings. A string is walked from its rig end in pieces: a stretch of rigid pipes, which is
  * one body with one node, or a run of elastic pipes, where every element brings one more node. */
 
-typedef struct string_walk {
+typedef struct string_iterator {
     dmb_mesh *mesh;
     dmb_string_map *map;
     uint32_t string;
@@ -124,34 +124,35 @@ typedef struct string_walk {
     uint32_t node;       /* last node so far; DMB_NONE: none yet */
     double at;           /* [m] from the rig end */
     double arm;          /* [m] from the last node to here along its x axis */
-} string_walk;
+} string_iterator;
 
-static const dmb_pipe_run *run_at(const string_walk *walk, uint32_t place)
+static const dmb_pipe_run *run_at(const string_iterator *iterator, uint32_t place)
 {
-    return dmb_mesh_run_at(walk->mesh, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, place));
+    return dmb_mesh_run_at(iterator->mesh, *DMB_VECTOR_AT(uint32_t, &iterator->mesh->run_order, place));
 }
 
 /* Room was reserved for all of them by the counting step. */
-static uint32_t push_node(string_walk *walk, uint8_t size, double at)
+static uint32_t push_node(string_iterator *iterator, uint8_t size, double at)
 {
     const dmb_mesh_node node = {.at = at,
-                                .string = walk->string,
+                                .string = iterator->string,
                                 .rigid_mass = DMB_NONE,
                                 .added_mass = DMB_NONE,
                                 .size = size,
                                 .free = DMB_FREE_ALL};
-    (void)dmb_vector_append(&walk->mesh->nodes, &walk->mesh->model->allocator, &node, 1);
-    return (uint32_t)walk->mesh->nodes.count - 1;
+    (void)dmb_vector_append(&iterator->mesh->nodes, &iterator->mesh->model->allocator, &node, 1);
+    return (uint32_t)iterator->mesh->nodes.count - 1;
 }
 
-static void push_element(string_walk *walk, uint32_t run, double length, double far_arm)
+static void push_element(string_iterator *iterator, uint32_t run, double length, double far_arm)
 {
-    const dmb_mesh_element element = {.arm = {walk->arm, far_arm}, .length = length, .node = walk->node, .run = run};
-    (void)dmb_vector_append(&walk->mesh->elements, &walk->mesh->model->allocator, &element, 1);
-    walk->arm = 0.0;
+    const dmb_mesh_element element = {
+        .arm = {iterator->arm, far_arm}, .length = length, .node = iterator->node, .run = run};
+    (void)dmb_vector_append(&iterator->mesh->elements, &iterator->mesh->model->allocator, &element, 1);
+    iterator->arm = 0.0;
 }
 
-static void push_pipe(string_walk *walk, const dmb_pipe_run *run, double start, uint32_t node, uint32_t element)
+static void push_pipe(string_iterator *iterator, const dmb_pipe_run *run, double start, uint32_t node, uint32_t element)
 {
     const bool rigid = element == DMB_NONE;
     const dmb_pipe_map pipe = {.start = start,
@@ -160,30 +161,31 @@ static void push_pipe(string_walk *walk, const dmb_pipe_run *run, double start, 
                                .node = node,
                                .element = element,
                                .elements = rigid ? 0 : run->def.elements,
-                               .kind = dmb_mesh_kind(walk->mesh, run)};
-    (void)dmb_vector_append(&walk->mesh->pipes, &walk->mesh->model->allocator, &pipe, 1);
-    if (run->def.joint_length > 0.0) ++walk->mesh->tool_joints;
+                               .kind = dmb_mesh_kind(iterator->mesh, run)};
+    (void)dmb_vector_append(&iterator->mesh->pipes, &iterator->mesh->model->allocator, &pipe, 1);
+    if (run->def.joint_length > 0.0) ++iterator->mesh->tool_joints;
 }
 
 /* ---- Elastic pipes ----------------------------------------------------------------------------------------------- */
 
 /* A pipe in the walk. */
-typedef struct pipe_walk {
+typedef struct pipe_iterator {
     double near; /* [m] from the rig end to the pipe's near end */
     uint32_t run, number;
     uint8_t size; /* of its nodes */
-} pipe_walk;
+} pipe_iterator;
 
 /* Nodes of rings and forces inside one of the pipe's equal elements, which goes from `from` to `to` [m] of the pipe.
  * Returns the place of the last node before `to`. */
-static double divide(string_walk *walk, const pipe_walk *pipe, double from, double to, dmb_ring_range *places)
+static double divide(string_iterator *iterator, const pipe_iterator *pipe, double from, double to,
+                     dmb_ring_range *places)
 {
-    const double reach = dmb_ring_reach(&dmb_mesh_run_at(walk->mesh, pipe->run)->def);
+    const double reach = dmb_ring_reach(&dmb_mesh_run_at(iterator->mesh, pipe->run)->def);
     for (; places->count > 0 && places->first->along < to; ++places->first, --places->count) {
         const double at = places->first->along;
         if (at - from <= reach || to - at <= reach) continue;
-        push_element(walk, pipe->run, at - from, 0.0);
-        walk->node = push_node(walk, pipe->size, pipe->near + at);
+        push_element(iterator, pipe->run, at - from, 0.0);
+        iterator->node = push_node(iterator, pipe->size, pipe->near + at);
         from = at;
     }
     return from;
@@ -191,146 +193,147 @@ static double divide(string_walk *walk, const pipe_walk *pipe, double from, doub
 
 /* Equal elements, divided where rings and forces have nodes of their own, and the tool joint as the far arm of the last
  * one. */
-static void mesh_pipe(string_walk *walk, const pipe_walk *pipe)
+static void mesh_pipe(string_iterator *iterator, const pipe_iterator *pipe)
 {
-    const dmb_pipe_def *def = &dmb_mesh_run_at(walk->mesh, pipe->run)->def;
+    const dmb_pipe_def *def = &dmb_mesh_run_at(iterator->mesh, pipe->run)->def;
     const double length = (def->length - def->joint_length) / def->elements;
-    dmb_ring_range places = dmb_mesh_divisions_of(walk->mesh, walk->string, pipe->number);
+    dmb_ring_range places = dmb_mesh_divisions_of(iterator->mesh, iterator->string, pipe->number);
     for (uint32_t e = 1; e <= def->elements; ++e) {
         const bool last = e == def->elements;
         const double start = (e - 1) * length, end = e * length;
-        const double from = places.count > 0 ? divide(walk, pipe, start, end, &places) : start;
-        push_element(walk, pipe->run, from > start ? end - from : length, last ? def->joint_length : 0.0);
-        walk->node = push_node(walk, pipe->size, last ? pipe->near + def->length : pipe->near + e * length);
+        const double from = places.count > 0 ? divide(iterator, pipe, start, end, &places) : start;
+        push_element(iterator, pipe->run, from > start ? end - from : length, last ? def->joint_length : 0.0);
+        iterator->node = push_node(iterator, pipe->size, last ? pipe->near + def->length : pipe->near + e * length);
     }
 }
 
-static void mesh_and_count(string_walk *walk, const pipe_walk *pipe)
+static void mesh_and_count(string_iterator *iterator, const pipe_iterator *pipe)
 {
-    const uint32_t before = (uint32_t)walk->mesh->elements.count;
-    mesh_pipe(walk, pipe);
-    dmb_pipe_map *map = dmb_mesh_pipe_at(walk->mesh, (uint32_t)walk->mesh->pipes.count - 1);
-    const uint32_t elements = (uint32_t)walk->mesh->elements.count - before;
+    const uint32_t before = (uint32_t)iterator->mesh->elements.count;
+    mesh_pipe(iterator, pipe);
+    dmb_pipe_map *map = dmb_mesh_pipe_at(iterator->mesh, (uint32_t)iterator->mesh->pipes.count - 1);
+    const uint32_t elements = (uint32_t)iterator->mesh->elements.count - before;
     map->divided = elements != map->elements;
     map->elements = elements;
 }
 
 /* A node stays a PATH node while all its neighbours are axial-torsional. */
-static void mesh_elastic_run(string_walk *walk, uint32_t run_index)
+static void mesh_elastic_run(string_iterator *iterator, uint32_t run_index)
 {
-    const dmb_pipe_run *run = dmb_mesh_run_at(walk->mesh, run_index);
-    const bool path = dmb_mesh_kind(walk->mesh, run) == DMB_PIPE_AXIAL_TORSIONAL;
-    const uint8_t size = path ? DMB_NODE_PATH : DMB_NODE_FULL;
-    if (walk->node == DMB_NONE) {
-        walk->node = push_node(walk, size, 0.0);
-        walk->map->start_node = walk->node;
+    const dmb_pipe_run *run = dmb_mesh_run_at(iterator->mesh, run_index);
+    const bool path = dmb_mesh_kind(iterator->mesh, run) == DMB_PIPE_AXIAL_TORSIONAL;
+    const uint8_t size = path ? DMB_NODE_AXIAL_TORSIONAL : DMB_NODE_SIX_DOF;
+    if (iterator->node == DMB_NONE) {
+        iterator->node = push_node(iterator, size, 0.0);
+        iterator->map->start_node = iterator->node;
     } else if (!path) {
-        dmb_mesh_node_at(walk->mesh, walk->node)->size = DMB_NODE_FULL;
+        dmb_mesh_node_at(iterator->mesh, iterator->node)->size = DMB_NODE_SIX_DOF;
     }
     for (uint32_t i = 0; i < run->count; ++i) {
-        push_pipe(walk, run, 0.0, walk->node, (uint32_t)walk->mesh->elements.count);
-        const pipe_walk pipe = {walk->at + i * run->def.length, run_index, run->first + i, size};
-        mesh_and_count(walk, &pipe);
+        push_pipe(iterator, run, 0.0, iterator->node, (uint32_t)iterator->mesh->elements.count);
+        const pipe_iterator pipe = {iterator->at + i * run->def.length, run_index, run->first + i, size};
+        mesh_and_count(iterator, &pipe);
     }
-    walk->at += run->count * run->def.length;
+    iterator->at += run->count * run->def.length;
 }
 
 /* ---- Rigid pipes ------------------------------------------------------------------------------------------------- */
 
 /* True if the support or a drive at the rig end acts on components that differ along the body's axis. */
-static bool start_is_pinned(const string_walk *walk)
+static bool start_is_pinned(const string_iterator *iterator)
 {
-    const dmb_model *model = walk->mesh->model;
-    if (!dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->start_free)) return true;
+    const dmb_model *model = iterator->mesh->model;
+    if (!dmb_mask_is_axial(dmb_mesh_string_def(iterator->mesh, iterator->string)->start_free)) return true;
     for (uint32_t i = 0; i < model->drives.count; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
         const bool on_body = dmb_model_part_index(model, drive->part, DMB_PART_BODY) != DMB_NONE;
-        if (on_body || dmb_mesh_string_of(walk->mesh, drive->part) != walk->string) continue;
+        if (on_body || dmb_mesh_string_of(iterator->mesh, drive->part) != iterator->string) continue;
         if (drive->component != DMB_X && drive->component != DMB_RX) return true;
     }
     return false;
 }
 
-static bool end_is_pinned(const string_walk *walk)
+static bool end_is_pinned(const string_iterator *iterator)
 {
-    return !dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->end_free);
+    return !dmb_mask_is_axial(dmb_mesh_string_def(iterator->mesh, iterator->string)->end_free);
 }
 
 /* The place of the node of a stretch of rigid pipes. A support acts at the node, so a body with a pinned end has it
  * there; otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
-static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *near)
+static int32_t choose_near_end(const string_iterator *iterator, uint32_t next, bool *near)
 {
-    const bool first = walk->node == DMB_NONE, last = next == walk->end;
-    const bool hold_start = first && start_is_pinned(walk), hold_end = last && end_is_pinned(walk);
+    const bool first = iterator->node == DMB_NONE, last = next == iterator->end;
+    const bool hold_start = first && start_is_pinned(iterator), hold_end = last && end_is_pinned(iterator);
     dmb_message string;
     *near = hold_start || (last && !hold_end);
     if (!hold_start || !hold_end) return DMB_OK;
-    dmb_message_set(&walk->mesh->model->message,
+    dmb_message_set(&iterator->mesh->model->message,
                     "%s: start_free (or a drive) and end_free hold both ends of one rigid body at points, must "
                     "be one of them",
-                    dmb_model_part_text(walk->mesh->model, DMB_PART_STRING, walk->string, &string));
+                    dmb_model_part_text(iterator->mesh->model, DMB_PART_STRING, iterator->string, &string));
     return DMB_ERR_UNSUPPORTED;
 }
 
 /* The node, at the near or the far end of the stretch; one that is there already moves. */
-static void place_rigid_node(string_walk *walk, double length, bool near)
+static void place_rigid_node(string_iterator *iterator, double length, bool near)
 {
     const double ahead = near ? 0.0 : length;
-    if (walk->node == DMB_NONE) {
-        walk->node = push_node(walk, DMB_NODE_FULL, ahead);
-        walk->map->start_node = walk->node;
-        walk->map->start_arm = 0.0 - ahead;
+    if (iterator->node == DMB_NONE) {
+        iterator->node = push_node(iterator, DMB_NODE_SIX_DOF, ahead);
+        iterator->map->start_node = iterator->node;
+        iterator->map->start_arm = 0.0 - ahead;
     } else {
-        dmb_mesh_node *node = dmb_mesh_node_at(walk->mesh, walk->node);
-        node->size = DMB_NODE_FULL;
-        node->at = walk->at + ahead;
-        dmb_mesh_element_at(walk->mesh, (uint32_t)walk->mesh->elements.count - 1)->arm[1] += ahead;
+        dmb_mesh_node *node = dmb_mesh_node_at(iterator->mesh, iterator->node);
+        node->size = DMB_NODE_SIX_DOF;
+        node->at = iterator->at + ahead;
+        dmb_mesh_element_at(iterator->mesh, (uint32_t)iterator->mesh->elements.count - 1)->arm[1] += ahead;
     }
-    dmb_mesh_node_at(walk->mesh, walk->node)->rigid = 1;
-    walk->arm = length - ahead;
+    dmb_mesh_node_at(iterator->mesh, iterator->node)->rigid = 1;
+    iterator->arm = length - ahead;
 }
 
 /* Runs [place, next) are rigid and make one body. */
-static int32_t mesh_rigid_stretch(string_walk *walk, uint32_t next)
+static int32_t mesh_rigid_stretch(string_iterator *iterator, uint32_t next)
 {
     double length = 0.0, start;
     bool near;
-    int32_t status = choose_near_end(walk, next, &near);
+    int32_t status = choose_near_end(iterator, next, &near);
     if (status < 0) return status;
-    for (uint32_t i = walk->place; i < next; ++i) length += run_at(walk, i)->count * run_at(walk, i)->def.length;
-    place_rigid_node(walk, length, near);
-    start = walk->arm - length;
-    for (uint32_t i = walk->place; i < next; ++i) {
-        const dmb_pipe_run *run = run_at(walk, i);
+    for (uint32_t i = iterator->place; i < next; ++i)
+        length += run_at(iterator, i)->count * run_at(iterator, i)->def.length;
+    place_rigid_node(iterator, length, near);
+    start = iterator->arm - length;
+    for (uint32_t i = iterator->place; i < next; ++i) {
+        const dmb_pipe_run *run = run_at(iterator, i);
         for (uint32_t k = 0; k < run->count; ++k) {
-            push_pipe(walk, run, start + k * run->def.length, walk->node, DMB_NONE);
+            push_pipe(iterator, run, start + k * run->def.length, iterator->node, DMB_NONE);
         }
         start += run->count * run->def.length;
     }
-    walk->at += length;
+    iterator->at += length;
     return DMB_OK;
 }
 
 /* ---- Strings ----------------------------------------------------------------------------------------------------- */
 
-static bool is_rigid(const string_walk *walk, uint32_t place)
+static bool is_rigid(const string_iterator *iterator, uint32_t place)
 {
-    return dmb_mesh_kind(walk->mesh, run_at(walk, place)) == DMB_PIPE_RIGID;
+    return dmb_mesh_kind(iterator->mesh, run_at(iterator, place)) == DMB_PIPE_RIGID;
 }
 
-static int32_t mesh_pieces(string_walk *walk)
+static int32_t mesh_pieces(string_iterator *iterator)
 {
-    while (walk->place < walk->end) {
-        uint32_t next = walk->place;
-        while (next < walk->end && is_rigid(walk, next)) ++next;
-        if (next > walk->place) {
-            const int32_t status = mesh_rigid_stretch(walk, next);
+    while (iterator->place < iterator->end) {
+        uint32_t next = iterator->place;
+        while (next < iterator->end && is_rigid(iterator, next)) ++next;
+        if (next > iterator->place) {
+            const int32_t status = mesh_rigid_stretch(iterator, next);
             if (status < 0) return status;
         } else {
-            mesh_elastic_run(walk, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, next));
+            mesh_elastic_run(iterator, *DMB_VECTOR_AT(uint32_t, &iterator->mesh->run_order, next));
             ++next;
         }
-        walk->place = next;
+        iterator->place = next;
     }
     return DMB_OK;
 }
@@ -339,19 +342,19 @@ static int32_t mesh_string(dmb_mesh *mesh, uint32_t string)
 {
     const dmb_string_def *def = dmb_mesh_string_def(mesh, string);
     dmb_string_map *map = dmb_mesh_string_at(mesh, string);
-    string_walk walk = {.mesh = mesh, .map = map, .string = string, .node = DMB_NONE};
+    string_iterator iterator = {.mesh = mesh, .map = map, .string = string, .node = DMB_NONE};
     int32_t status;
-    walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
-    walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
+    iterator.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
+    iterator.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
     map->first_pipe = (uint32_t)mesh->pipes.count;
     map->first_node = (uint32_t)mesh->nodes.count;
-    status = mesh_pieces(&walk);
+    status = mesh_pieces(&iterator);
     if (status < 0) return status;
     map->pipe_count = (uint32_t)mesh->pipes.count - map->first_pipe;
     map->node_count = (uint32_t)mesh->nodes.count - map->first_node;
-    map->end_node = walk.node;
-    map->end_arm = walk.arm;
-    map->length = walk.at;
+    map->end_node = iterator.node;
+    map->end_arm = iterator.arm;
+    map->length = iterator.at;
     dmb_mesh_node_at(mesh, map->start_node)->free &= (uint8_t)def->start_free;
     dmb_mesh_node_at(mesh, map->end_node)->free &= (uint8_t)def->end_free;
     return DMB_OK;
@@ -373,7 +376,7 @@ static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def
                                 .body = body,
                                 .rigid_mass = DMB_NONE,
                                 .added_mass = DMB_NONE,
-                                .size = DMB_NODE_FULL,
+                                .size = DMB_NODE_SIX_DOF,
                                 .free = (uint8_t)def->free_mask,
                                 .rigid = 1};
     (void)dmb_vector_append(&mesh->nodes, &mesh->model->allocator, &node, 1); /* room was reserved */

@@ -78,7 +78,8 @@ static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_no
     dmb_quat_copy(frame, node->quaternion);
     if (before == NULL) return;
     dmb_quat_copy(before->quaternion, node->quaternion);
-    if (node->size == DMB_NODE_PATH && before->size == DMB_NODE_PATH && !dmb_hole_is_straight(&mesh->hole))
+    if (node->size == DMB_NODE_AXIAL_TORSIONAL && before->size == DMB_NODE_AXIAL_TORSIONAL &&
+        !dmb_hole_is_straight(&mesh->hole))
         carry(mesh, before->depth, node->depth, node->quaternion);
     else
         turn_to(tangent, node->quaternion);

@@ -222,7 +222,7 @@ static bool may_spin(const dmb_mesh *mesh, uint32_t i)
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const bool alone = node->string == DMB_NONE || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
     const bool is_free = node->free == DMB_FREE_ALL && mesh->clusters.count > 0;
-    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != DMB_NONE && node->prescribed == 0 &&
+    return alone && node->size == DMB_NODE_SIX_DOF && node->rigid_mass != DMB_NONE && node->prescribed == 0 &&
            (is_free || node->free == DMB_FREE_SPHERICAL) && mass_of(mesh, i)->mass > 0.0;
 }
 

@@ -85,60 +85,60 @@ static int32_t check_place(const dmb_mesh *mesh, const dmb_hole_section *all, ui
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
 
 /* Goes along: what the values are and how fast they change. */
-typedef struct section_walk {
+typedef struct section_iterator {
     dmb_mesh *mesh;
     section_values at; /* at the end of the last piece */
     section_values slope;
     double depth; /* [m] where that is */
-} section_walk;
+} section_iterator;
 
-static int32_t push(section_walk *walk, const dmb_hole_piece *piece)
+static int32_t push(section_iterator *iterator, const dmb_hole_piece *piece)
 {
-    const dmb_wall_def *wall = &walk->mesh->model->wall;
+    const dmb_wall_def *wall = &iterator->mesh->model->wall;
     dmb_hole_piece added = *piece;
     added.factor = dmb_normal_law_of((dmb_normal_law){.kind = wall->normal_law}, piece->value[DMB_WALL_RESTITUTION]).mu;
-    return dmb_vector_append(&walk->mesh->pieces, &walk->mesh->model->allocator, &added, 1);
+    return dmb_vector_append(&iterator->mesh->pieces, &iterator->mesh->model->allocator, &added, 1);
 }
 
 /* From the present values, changing by `slope` at first, to those with the slope `to` at h beyond. */
-static int32_t push_parabola(section_walk *walk, double h, const section_values *to)
+static int32_t push_parabola(section_iterator *iterator, double h, const section_values *to)
 {
-    dmb_hole_piece piece = {.depth = walk->depth};
+    dmb_hole_piece piece = {.depth = iterator->depth};
     for (int k = 0; k < DMB_WALL_COUNT; k++) {
-        piece.value[k] = walk->at.v[k];
-        piece.slope[k] = walk->slope.v[k];
-        piece.bend[k] = 0.5 * (to->v[k] - walk->slope.v[k]) / h;
-        walk->at.v[k] += 0.5 * h * (walk->slope.v[k] + to->v[k]);
+        piece.value[k] = iterator->at.v[k];
+        piece.slope[k] = iterator->slope.v[k];
+        piece.bend[k] = 0.5 * (to->v[k] - iterator->slope.v[k]) / h;
+        iterator->at.v[k] += 0.5 * h * (iterator->slope.v[k] + to->v[k]);
     }
-    walk->slope = *to;
-    walk->depth += h;
-    return push(walk, &piece);
+    iterator->slope = *to;
+    iterator->depth += h;
+    return push(iterator, &piece);
 }
 
-static int32_t push_straight(section_walk *walk, double end)
+static int32_t push_straight(section_iterator *iterator, double end)
 {
-    dmb_hole_piece piece = {.depth = walk->depth};
+    dmb_hole_piece piece = {.depth = iterator->depth};
     for (int k = 0; k < DMB_WALL_COUNT; k++) {
-        piece.value[k] = walk->at.v[k];
-        piece.slope[k] = walk->slope.v[k];
-        walk->at.v[k] += (end - walk->depth) * walk->slope.v[k];
+        piece.value[k] = iterator->at.v[k];
+        piece.slope[k] = iterator->slope.v[k];
+        iterator->at.v[k] += (end - iterator->depth) * iterator->slope.v[k];
     }
-    walk->depth = end;
-    return push(walk, &piece);
+    iterator->depth = end;
+    return push(iterator, &piece);
 }
 
 /* Over the transition of a section with these values and slopes behind it. */
-static int32_t pass_transition(section_walk *walk, const dmb_hole_section *s, const section_values *values,
+static int32_t pass_transition(section_iterator *iterator, const dmb_hole_section *s, const section_values *values,
                                const section_values *slope)
 {
     const double h = 0.5 * s->transition;
     section_values middle, end;
     for (int k = 0; k < DMB_WALL_COUNT; k++) {
         end.v[k] = values->v[k] + h * slope->v[k];
-        middle.v[k] = (end.v[k] - walk->at.v[k]) / h - 0.5 * (walk->slope.v[k] + slope->v[k]);
+        middle.v[k] = (end.v[k] - iterator->at.v[k]) / h - 0.5 * (iterator->slope.v[k] + slope->v[k]);
     }
     if (fabs(middle.v[DMB_WALL_RADIUS]) > DMB_HOLE_SLOPE_MAX) {
-        dmb_model *model = walk->mesh->model;
+        dmb_model *model = iterator->mesh->model;
         dmb_message_set(&model->message,
                         "hole section %u: its radius changes by %g m/m within the transition, must be <= %g; give a "
                         "longer transition",
@@ -146,9 +146,9 @@ static int32_t pass_transition(section_walk *walk, const dmb_hole_section *s, co
                         fabs(middle.v[DMB_WALL_RADIUS]), DMB_HOLE_SLOPE_MAX);
         return DMB_ERR_GEOMETRY;
     }
-    int32_t status = push_parabola(walk, h, &middle);
-    if (status >= 0) status = push_parabola(walk, h, slope);
-    walk->at = end; /* without the rounding of the way */
+    int32_t status = push_parabola(iterator, h, &middle);
+    if (status >= 0) status = push_parabola(iterator, h, slope);
+    iterator->at = end; /* without the rounding of the way */
     return status;
 }
 
@@ -161,17 +161,17 @@ static section_values slope_behind(const dmb_wall_def *wall, const dmb_hole_sect
     return slope;
 }
 
-static int32_t pass_section(section_walk *walk, uint32_t i, uint32_t count)
+static int32_t pass_section(section_iterator *iterator, uint32_t i, uint32_t count)
 {
-    const dmb_wall_def *wall = &walk->mesh->model->wall;
-    const dmb_hole_section *all = walk->mesh->model->sections.items, *s = all + i;
+    const dmb_wall_def *wall = &iterator->mesh->model->wall;
+    const dmb_hole_section *all = iterator->mesh->model->sections.items, *s = all + i;
     const section_values values = of_section(wall, s);
-    int32_t status = check_place(walk->mesh, all, i, count);
-    if (status >= 0) status = check_constants(walk->mesh, i, s, &values);
+    int32_t status = check_place(iterator->mesh, all, i, count);
+    if (status >= 0) status = check_constants(iterator->mesh, i, s, &values);
     if (status < 0) return status;
     const section_values slope = slope_behind(wall, s, &values);
-    status = push_straight(walk, s->depth - 0.5 * s->transition);
-    return status < 0 ? status : pass_transition(walk, s, &values, &slope);
+    status = push_straight(iterator, s->depth - 0.5 * s->transition);
+    return status < 0 ? status : pass_transition(iterator, s, &values, &slope);
 }
 
 int32_t dmb_mesh_sections(dmb_mesh *mesh)
@@ -184,10 +184,10 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh)
         dmb_message_set(&mesh->model->message, "hole sections: there are %u and no wall; add a wall", count);
         return DMB_ERR_ORDER;
     }
-    section_walk walk = {.mesh = mesh, .at = of_wall(&mesh->model->wall)};
-    if (count > 0) walk.depth = all->depth - all->transition; /* without any, one piece that cutters may widen */
-    for (uint32_t i = 0; i < count && status >= 0; i++) status = pass_section(&walk, i, count);
-    if (status >= 0) status = push_straight(&walk, walk.depth);
+    section_iterator iterator = {.mesh = mesh, .at = of_wall(&mesh->model->wall)};
+    if (count > 0) iterator.depth = all->depth - all->transition; /* without any, one piece that cutters may widen */
+    for (uint32_t i = 0; i < count && status >= 0; i++) status = pass_section(&iterator, i, count);
+    if (status >= 0) status = push_straight(&iterator, iterator.depth);
     mesh->hole.piece = mesh->pieces.items;
     mesh->hole.pieces = (uint32_t)mesh->pieces.count;
     return status;
@@ -235,12 +235,12 @@ static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_
 /* Pipes that follow the hole all along, others at their near ends. */
 static int32_t check_string(const dmb_mesh *mesh, uint32_t string)
 {
-    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
+    dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, string);
     const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
     const bool follows = dmb_mesh_follows_hole(mesh, string);
     double at = dmb_mesh_string_def(mesh, string)->start_depth;
     int32_t status = DMB_OK;
-    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+    while (status >= 0 && dmb_pipe_iterator_next(&pipes)) {
         const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
         const double length = pipes.run->def.length;
         if (!follows) at = dmb_mesh_node_at(mesh, pipe->node)->depth;

@@ -44,7 +44,7 @@ int32_t dmb_mesh_hole(dmb_mesh *mesh)
  * the contact per metre. */
 
 /* The place between the last stretch and the next one. */
-typedef struct site_walk {
+typedef struct site_iterator {
     dmb_mesh *mesh;
     dmb_id part;
     uint32_t node;
@@ -56,7 +56,7 @@ typedef struct site_walk {
     uint32_t ring;   /* next one in rings */
     double inside;   /* [m] of the next stretch that points inside its element stand for */
     double joint;    /* [m] of it that its far end stands for alone */
-} site_walk;
+} site_iterator;
 
 /* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
 static bool moves_sideways(const dmb_mesh_node *node, double offset)
@@ -79,15 +79,15 @@ static int32_t push_site(dmb_mesh *mesh, const dmb_site *site)
     return dmb_vector_append(&mesh->sites, &mesh->model->allocator, &added, 1);
 }
 
-static int32_t push_path_site(const site_walk *walk)
+static int32_t push_axial_torsional_site(const site_iterator *iterator)
 {
-    const dmb_path_site site = {.radius = 0.5 * walk->diameter,
-                                .length = walk->length,
-                                .part = walk->part,
-                                .pipe = walk->pipe,
-                                .node = walk->node};
-    if ((walk->mesh->features & DMB_FEATURE_FRICTION) == 0) return DMB_OK;
-    return dmb_vector_append(&walk->mesh->path_sites, &walk->mesh->model->allocator, &site, 1);
+    const dmb_axial_torsional_site site = {.radius = 0.5 * iterator->diameter,
+                                           .length = iterator->length,
+                                           .part = iterator->part,
+                                           .pipe = iterator->pipe,
+                                           .node = iterator->node};
+    if ((iterator->mesh->features & DMB_FEATURE_FRICTION) == 0) return DMB_OK;
+    return dmb_vector_append(&iterator->mesh->axial_torsional_sites, &iterator->mesh->model->allocator, &site, 1);
 }
 
 static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length,
@@ -97,64 +97,64 @@ static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diamete
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
     const dmb_site site = {
         .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
-    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH) return DMB_OK;
-    map->held_ring = !moves_sideways(node, site.offset);
-    if (map->held_ring) return DMB_OK;
+    if (!(diameter > 0.0) || node->size == DMB_NODE_AXIAL_TORSIONAL) return DMB_OK;
+    map->supported_ring = !moves_sideways(node, site.offset);
+    if (map->supported_ring) return DMB_OK;
     map->site = (uint32_t)mesh->sites.count;
     return push_site(mesh, &site);
 }
 
 /* Rings on nodes up to that of the present place, which meet the wall first; a PATH node rubs at their diameter. */
-static int32_t pass_rings(site_walk *walk)
+static int32_t pass_rings(site_iterator *iterator)
 {
-    const dmb_mesh *mesh = walk->mesh;
+    const dmb_mesh *mesh = iterator->mesh;
     int32_t status = DMB_OK;
-    for (; walk->ring < mesh->rings.count && status >= 0; walk->ring++) {
-        const dmb_ring_map *ring = DMB_VECTOR_AT(const dmb_ring_map, &mesh->rings, walk->ring);
+    for (; iterator->ring < mesh->rings.count && status >= 0; iterator->ring++) {
+        const dmb_ring_map *ring = DMB_VECTOR_AT(const dmb_ring_map, &mesh->rings, iterator->ring);
         const uint32_t index = ring->body - mesh->model->bodies.count - mesh->model->bits.count;
         const dmb_stabiliser_def *def = DMB_LIST_AT(const dmb_stabiliser_def, mesh->model->rings, index);
         const uint32_t node = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, ring->body)->node;
-        if (ring->string != walk->string || node > walk->node) break;
-        if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_PATH)
-            walk->diameter = fmax(walk->diameter, def->outer_diameter);
+        if (ring->string != iterator->string || node > iterator->node) break;
+        if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_AXIAL_TORSIONAL)
+            iterator->diameter = fmax(iterator->diameter, def->outer_diameter);
         else
-            status = add_stabiliser(walk->mesh, ring->body, def->outer_diameter, 0.0, def->length,
+            status = add_stabiliser(iterator->mesh, ring->body, def->outer_diameter, 0.0, def->length,
                                     dmb_model_id(mesh->model, DMB_PART_STABILISER, index));
     }
     return status;
 }
 
 /* Ends the present place. */
-static int32_t finish_place(site_walk *walk)
+static int32_t finish_place(site_iterator *iterator)
 {
-    const dmb_mesh_node *node = dmb_mesh_node_at(walk->mesh, walk->node);
-    const int32_t status = pass_rings(walk);
+    const dmb_mesh_node *node = dmb_mesh_node_at(iterator->mesh, iterator->node);
+    const int32_t status = pass_rings(iterator);
     if (status < 0) return status;
-    const dmb_site site = {.offset = walk->offset,
-                           .radius = 0.5 * walk->diameter,
-                           .length = walk->length,
-                           .part = walk->part,
-                           .pipe = walk->pipe,
-                           .node = walk->node};
-    if (node->size == DMB_NODE_PATH) return push_path_site(walk);
-    return moves_sideways(node, walk->offset) ? push_site(walk->mesh, &site) : DMB_OK;
+    const dmb_site site = {.offset = iterator->offset,
+                           .radius = 0.5 * iterator->diameter,
+                           .length = iterator->length,
+                           .part = iterator->part,
+                           .pipe = iterator->pipe,
+                           .node = iterator->node};
+    if (node->size == DMB_NODE_AXIAL_TORSIONAL) return push_axial_torsional_site(iterator);
+    return moves_sideways(node, iterator->offset) ? push_site(iterator->mesh, &site) : DMB_OK;
 }
 
 /* Goes on over a stretch of the given length and diameter; the next place begins at its far end. */
-static int32_t pass_stretch(site_walk *walk, double length, double diameter, uint32_t node, double offset,
+static int32_t pass_stretch(site_iterator *iterator, double length, double diameter, uint32_t node, double offset,
                             uint32_t pipe)
 {
-    const double half = 0.5 * (length - walk->inside - walk->joint);
+    const double half = 0.5 * (length - iterator->inside - iterator->joint);
     int32_t status;
-    walk->length += half;
-    walk->diameter = fmax(walk->diameter, diameter);
-    status = finish_place(walk);
-    walk->node = node;
-    walk->offset = offset;
-    walk->pipe = pipe;
-    walk->diameter = diameter;
-    walk->length = half + walk->joint;
-    walk->inside = walk->joint = 0.0;
+    iterator->length += half;
+    iterator->diameter = fmax(iterator->diameter, diameter);
+    status = finish_place(iterator);
+    iterator->node = node;
+    iterator->offset = offset;
+    iterator->pipe = pipe;
+    iterator->diameter = diameter;
+    iterator->length = half + iterator->joint;
+    iterator->inside = iterator->joint = 0.0;
     return status;
 }
 
@@ -166,47 +166,48 @@ static double share_inside(const dmb_pipe_def *def)
 }
 
 /* The far node of a pipe may stand behind rigid pipes, and its end before it. */
-static int32_t pass_elastic_pipe(site_walk *walk, const dmb_pipe_map *pipe, const dmb_pipe_def *def, uint32_t number)
+static int32_t pass_elastic_pipe(site_iterator *iterator, const dmb_pipe_map *pipe, const dmb_pipe_def *def,
+                                 uint32_t number)
 {
-    const dmb_mesh_element *element = dmb_mesh_element_at(walk->mesh, pipe->element);
+    const dmb_mesh_element *element = dmb_mesh_element_at(iterator->mesh, pipe->element);
     const dmb_mesh_element *last = element + pipe->elements - 1;
     int32_t status = DMB_OK;
     for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
-        walk->inside = share_inside(def) * element[e].length;
-        status = pass_stretch(walk, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
+        iterator->inside = share_inside(def) * element[e].length;
+        status = pass_stretch(iterator, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
     }
     if (status < 0) return status;
-    walk->inside = share_inside(def) * last->length;
-    walk->joint = walk->inside > 0.0 ? pipe->joint : 0.0;
-    return pass_stretch(walk, last->length + pipe->joint, def->outer_diameter, last->node + 1,
+    iterator->inside = share_inside(def) * last->length;
+    iterator->joint = iterator->inside > 0.0 ? pipe->joint : 0.0;
+    return pass_stretch(iterator, last->length + pipe->joint, def->outer_diameter, last->node + 1,
                         pipe->joint - last->arm[1], number);
 }
 
 static int32_t pass_string(dmb_mesh *mesh, uint32_t string, uint32_t *ring)
 {
     const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
-    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
-    site_walk walk = {.mesh = mesh,
-                      .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
-                      .node = map->start_node,
-                      .pipe = DMB_NONE,
-                      .offset = map->start_arm,
-                      .string = string,
-                      .ring = *ring};
+    dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, string);
+    site_iterator iterator = {.mesh = mesh,
+                              .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
+                              .node = map->start_node,
+                              .pipe = DMB_NONE,
+                              .offset = map->start_arm,
+                              .string = string,
+                              .ring = *ring};
     int32_t status = DMB_OK;
-    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+    while (status >= 0 && dmb_pipe_iterator_next(&pipes)) {
         const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
         const dmb_pipe_def *def = &pipes.run->def;
         if (pipe->elements > 0) {
-            status = pass_elastic_pipe(&walk, pipe, def, pipes.number);
+            status = pass_elastic_pipe(&iterator, pipe, def, pipes.number);
         } else {
-            status = pass_stretch(&walk, pipe->length, def->outer_diameter, pipe->node, pipe->start + pipe->length,
+            status = pass_stretch(&iterator, pipe->length, def->outer_diameter, pipe->node, pipe->start + pipe->length,
                                   pipes.number);
         }
-        walk.diameter = fmax(walk.diameter, dmb_joint_diameter(def));
+        iterator.diameter = fmax(iterator.diameter, dmb_joint_diameter(def));
     }
-    if (status >= 0) status = finish_place(&walk);
-    *ring = walk.ring;
+    if (status >= 0) status = finish_place(&iterator);
+    *ring = iterator.ring;
     return status;
 }
 
@@ -236,7 +237,7 @@ static int32_t add_inside(dmb_mesh *mesh, const dmb_pipe_def *def, uint32_t e, d
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node), *b = a + 1;
-    if (a->size != DMB_NODE_FULL || b->size != DMB_NODE_FULL) return DMB_OK;
+    if (a->size != DMB_NODE_SIX_DOF || b->size != DMB_NODE_SIX_DOF) return DMB_OK;
     if (!moves_sideways(a, 1.0) && !moves_sideways(b, 1.0)) return DMB_OK;
     site.node = element->node;
     for (int i = 1; i + 1 < rule->count; ++i) {
@@ -252,10 +253,10 @@ static int32_t add_inside(dmb_mesh *mesh, const dmb_pipe_def *def, uint32_t e, d
 
 static int32_t add_string_inside(dmb_mesh *mesh, uint32_t string)
 {
-    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
+    dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, string);
     const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
     int32_t status = DMB_OK;
-    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+    while (status >= 0 && dmb_pipe_iterator_next(&pipes)) {
         const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
         const dmb_pipe_def *def = &pipes.run->def;
         const dmb_site site = {.radius = 0.5 * def->outer_diameter,

@@ -167,7 +167,7 @@ uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
 
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
 {
-    const uint32_t index = id.index & (uint32_t)DMB_PARTS_MAX;
+    const uint32_t index = id.index & (uint32_t)DMB_CHUNKS_MAX;
     if (id.generation != model->stamp || id.index >> DMB_KIND_SHIFT != kind) return DMB_NONE;
     return index < dmb_model_part_count(model, kind) ? index : DMB_NONE;
 }
@@ -276,7 +276,7 @@ int32_t dmb_list_append(dmb_list *list, const dmb_allocator *allocator, const vo
 {
     dmb_vector vector = vector_of(list, item_size);
     int32_t status;
-    if (list->count >= (uint32_t)DMB_PARTS_MAX) return DMB_ERR_TOO_LARGE;
+    if (list->count >= (uint32_t)DMB_CHUNKS_MAX) return DMB_ERR_TOO_LARGE;
     status = dmb_vector_append(&vector, allocator, item, 1);
     if (status < 0) return status;
     list->items = vector.items;

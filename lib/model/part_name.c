@@ -144,7 +144,7 @@ const char *dmb_pipes_text(dmb_message *text, uint32_t string, const dmb_pipe_de
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
 /* Kind and index of an id of this model. DMB_ERR_ID. */
-static int32_t take_id(const dmb_model *model, dmb_id id, uint32_t *kind, uint32_t *index)
+static int32_t read_id(const dmb_model *model, dmb_id id, uint32_t *kind, uint32_t *index)
 {
     *kind = id.index >> DMB_KIND_SHIFT;
     *index = dmb_model_part_index(model, id, *kind);
@@ -182,7 +182,7 @@ int32_t dmb_model_set_name(dmb_model *model, dmb_id part, const char *name)
     uint32_t kind, index;
     int32_t status = dmb_describe_open(model, "name", model);
     if (status < 0) return status;
-    status = name == NULL ? DMB_ERR_NULL : take_id(model, part, &kind, &index);
+    status = name == NULL ? DMB_ERR_NULL : read_id(model, part, &kind, &index);
     for (size_t i = 0; status >= 0 && i < sizeof padded && (i == 0 || padded[i - 1] != '\0'); ++i) padded[i] = name[i];
     if (status >= 0) status = check_new_name(model, kind, index, padded);
     if (status >= 0) status = put_name(model, kind, index, padded);
@@ -195,7 +195,7 @@ int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *name, uint
     if (model == NULL || name == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
     if (size < DMB_NAME_SIZE) return dmb_model_told(model, "model", DMB_ERR_VALUE);
-    const int32_t status = take_id(model, part, &kind, &index);
+    const int32_t status = read_id(model, part, &kind, &index);
     if (status < 0) return dmb_model_told(model, "model", status);
     const char *own = name_of(model, kind, index);
     memcpy(name, own, strlen(own) + 1);

@@ -67,7 +67,7 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
 /* Name of the support or joint that holds the ring: "its support", a joint by name, or NULL. */
 static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_message *text)
 {
-    if (body->held_ring) return "the support (free_mask; start_free or end_free of its string)";
+    if (body->supported_ring) return "the support (free_mask; start_free or end_free of its string)";
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         const dmb_scene_joint *joint = &scene->joints[j];
         if (is_on_axis(scene, body, joint)) return dmb_part_text(text, "joint", j, joint->name, sizeof joint->name);
@@ -75,7 +75,7 @@ static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_
     return NULL;
 }
 
-uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
+uint32_t dmb_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
     const uint32_t rings = scene->body_count - scene->ring_count, bodies = rings - scene->bit_count;
     dmb_message part;
@@ -122,7 +122,7 @@ int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene
     }
     scene->dense_count = dense;
     scene->square_count = square;
-    scene->full_count = full;
+    scene->six_dof_count = full;
     return 1;
 }
 
@@ -143,7 +143,7 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *scene)
     *to = *scene;
     to->clusters = DMB_ARENA_ARRAY(arena, dmb_cluster, scene->cluster_count);
     to->node_block = DMB_ARENA_ARRAY(arena, uint32_t, scene->node_count);
-    to->link_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * (size_t)scene->node_count);
+    to->off_diagonal_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * (size_t)scene->node_count);
     return made;
 }
 
@@ -163,7 +163,7 @@ int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator)
     memset(&dense->pattern, 0, sizeof dense->pattern);
     dense->bytes = bytes;
     const int32_t status = dmb_scene_place_storage(dense->cluster_count, dense->clusters, dense)
-                               ? dmb_scene_link(dense, allocator)
+                               ? dmb_scene_number_blocks(dense, allocator)
                                : DMB_ERR_TOO_LARGE;
     if (status < 0)
         dmb_release(allocator, block, bytes);

@@ -30,22 +30,22 @@
 #include "model/scene_constraint.h"
 #include "model/section.h"
 
-enum { DMB_NODE_PATH = 2, DMB_NODE_FULL = 6 };
+enum { DMB_NODE_AXIAL_TORSIONAL = 2, DMB_NODE_SIX_DOF = 6 };
 /* Kernels of an element. */
 enum {
-    DMB_KERNEL_BEAM = 0, /* two FULL nodes */
-    DMB_KERNEL_PATH = 1, /* two PATH nodes: stretch and torsion only */
-    DMB_KERNEL_MIXED = 2 /* a beam with one FULL and one PATH node */
+    DMB_KERNEL_BEAM = 0,            /* two FULL nodes */
+    DMB_KERNEL_AXIAL_TORSIONAL = 1, /* two PATH nodes: stretch and torsion only */
+    DMB_KERNEL_MIXED = 2            /* a beam with one FULL and one PATH node */
 };
 
 /* A PATH node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved holes. */
-typedef struct dmb_path_site {
+typedef struct dmb_axial_torsional_site {
     double radius; /* [m] */
     double length; /* [m] it stands for */
     dmb_id part;
     uint32_t pipe;
     uint32_t node;
-} dmb_path_site;
+} dmb_axial_torsional_site;
 
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
@@ -130,9 +130,9 @@ typedef struct dmb_string_map {
 
 typedef struct dmb_body_map {
     uint32_t node;
-    uint32_t site;      /* its contact point; DMB_NONE: none */
-    double arm;         /* [m] along body x from the node to its reference point */
-    uint32_t held_ring; /* 1: it would have a contact point if its node moved sideways */
+    uint32_t site;           /* its contact point; DMB_NONE: none */
+    double arm;              /* [m] along body x from the node to its reference point */
+    uint32_t supported_ring; /* 1: it would have a contact point if its node moved sideways */
     uint32_t reserved;
     char name[24];
 } dmb_body_map;
@@ -238,26 +238,26 @@ typedef struct dmb_scene {
     uint32_t added_mass_count, added_reserved;
     uint32_t inside_count;   /* of the sites the last ones, inside elements */
     uint32_t sites_in_order; /* of the sites on nodes the first ones, in the order of these */
-    uint32_t site_count, path_site_count, drive_count, load_count, bit_count, time_function_count;
+    uint32_t site_count, axial_torsional_site_count, drive_count, load_count, bit_count, time_function_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */
-    uint32_t free_count, prescribed_count, held_count;
+    uint32_t free_count, prescribed_count, constrained_count;
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count, rotor_count;
     uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
     uint32_t unilateral_count; /* laws of joints, then springs, where any of them may open; else 0 */
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
-    uint32_t constraint_row_count;                /* room of all constraints */
-    uint32_t constraint_node_count;               /* length of cluster_nodes */
-    uint32_t cluster_column_count;                /* length of cluster_columns */
-    uint32_t reduced_count;                       /* nodes of jointed chains */
-    uint32_t sparse_count;                        /* sparse clusters */
-    uint32_t block_count;                         /* blocks of the pattern */
-    uint32_t jacobian_count, tangent_count;       /* lengths of constraint_jacobian and constraint_tangent */
-    size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
-    double gravity[3];                            /* [m/s2]; 0 when left out */
-    double mass, length;                          /* [kg], [m] in all */
+    uint32_t constraint_row_count;                   /* room of all constraints */
+    uint32_t constraint_node_count;                  /* length of cluster_nodes */
+    uint32_t cluster_column_count;                   /* length of cluster_columns */
+    uint32_t reduced_count;                          /* nodes of jointed chains */
+    uint32_t sparse_count;                           /* sparse clusters */
+    uint32_t block_count;                            /* blocks of the pattern */
+    uint32_t jacobian_count, tangent_count;          /* lengths of constraint_jacobian and constraint_tangent */
+    size_t dense_count, square_count, six_dof_count; /* lengths of the clusters' dense storage */
+    double gravity[3];                               /* [m/s2]; 0 when left out */
+    double mass, length;                             /* [kg], [m] in all */
     double length_scale;       /* [m] mean element length, or 1: makes moments comparable with forces */
     double fluid_density;      /* [kg/m3] outside of the pipes */
     double inner_density;      /* [kg/m3] inside; < 0: the same */
@@ -277,8 +277,8 @@ typedef struct dmb_scene {
     double *initial_velocity;     /* [m/s, rad/s] as described, shape (velocity_count) */
     uint8_t *free_row;            /* 1 where a row is free to move (drives included), shape (row) */
     uint8_t *solved_row;          /* 1 where a row is an unknown: free and not moved by a MOTION drive, shape (row) */
-    uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
-    uint32_t *held_component;
+    uint32_t *constrained_node;   /* rows with solved_row 0: node and row within its block, shape (constrained_count) */
+    uint32_t *constrained_component;
     double *weight_mass;   /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
     double *weight_moment; /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3), with rigid_masses
                               and the +- rho A L^2/12 of the cubic shape (sum of both sides) */
@@ -312,7 +312,7 @@ typedef struct dmb_scene {
     dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
     dmb_site *sites;
     double site_mobility; /* [m/kg] largest length times mobility of a site */
-    dmb_path_site *path_sites;
+    dmb_axial_torsional_site *axial_torsional_sites;
     uint32_t *near_contact; /* contact point on a node, or the nearest along its chain and across joints, that its depth
                             is known from; DMB_NONE: none; shape (node), of a curved hole */
     dmb_scene_point *inside; /* sections of the sites inside elements, element by element, shape (inside_count) */
@@ -344,15 +344,15 @@ typedef struct dmb_scene {
     dmb_joint_law *laws;         /* shape (law_count): six for each joint that has any */
     dmb_constraint *constraints; /* sorted by cluster */
     dmb_cluster *clusters;
-    uint32_t *cluster_nodes;   /* nodes, cluster by cluster, ascending in each */
-    uint32_t *cluster_columns; /* global row of each column of each cluster, node by node */
-    uint32_t *node_block;      /* block of the pattern that holds the node; DMB_NONE: its chain is not jointed;
-                                  shape (node) if there are clusters */
-    uint32_t *node_place;      /* first column of the node in its cluster; 0 of a node without one, shape (node) */
-    uint32_t *node_cluster;    /* DMB_NONE: none, shape (node) */
-    size_t *link_offset;       /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
-                                  one block, shape (node, 2) */
-    dmb_block_pattern pattern; /* blocks: dense clusters, then the other nodes of jointed chains */
+    uint32_t *cluster_nodes;     /* nodes, cluster by cluster, ascending in each */
+    uint32_t *cluster_columns;   /* global row of each column of each cluster, node by node */
+    uint32_t *node_block;        /* block of the pattern that holds the node; DMB_NONE: its chain is not jointed;
+                                    shape (node) if there are clusters */
+    uint32_t *node_place;        /* first column of the node in its cluster; 0 of a node without one, shape (node) */
+    uint32_t *node_cluster;      /* DMB_NONE: none, shape (node) */
+    size_t *off_diagonal_offset; /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
+                            one block, shape (node, 2) */
+    dmb_block_pattern pattern;   /* blocks: dense clusters, then the other nodes of jointed chains */
     const struct dmb_scene *dense; /* the same with dense clusters only, for analyses that need independent coordinates;
                                       NULL where no cluster is sparse, and where one is too large */
 
@@ -385,9 +385,9 @@ static inline void dmb_node_damping_of(const double damped[3], double axial, dou
 }
 
 /* Global row of number i of what is held. */
-static inline uint32_t dmb_held_row(const dmb_scene *scene, uint32_t i)
+static inline uint32_t dmb_constrained_row(const dmb_scene *scene, uint32_t i)
 {
-    return scene->layout.row[scene->held_node[i]] + scene->held_component[i];
+    return scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i];
 }
 
 /* True if places of contact keep bristles from step to step. */
@@ -435,7 +435,7 @@ void dmb_scene_fill_pulls(dmb_scene *scene);
 /* Places the storage of clusters one after the other, none for sparse ones, and counts it in the scene. False where a
  * size overflows. */
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene);
-/* After dmb_scene_link: scene->dense, NULL without sparse clusters and where one is too large. DMB_OK,
+/* After dmb_scene_number_blocks: scene->dense, NULL without sparse clusters and where one is too large. DMB_OK,
  * DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
 int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator);
 /* NULL is fine. */
@@ -446,7 +446,7 @@ void dmb_scene_release_dense(const dmb_scene *dense, const dmb_allocator *alloca
 /* After everything else of the scene is filled: columns and places of the clusters' nodes, jointed chains, blocks,
  * pattern and links. Does nothing without clusters. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, with no pattern
  * left. */
-int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator);
+int32_t dmb_scene_number_blocks(dmb_scene *scene, const dmb_allocator *allocator);
 
 /* Joints that are bridges: without one of them the parts beyond it hang together with nothing else, neither by joints
  * nor by the ground. */
@@ -460,6 +460,6 @@ int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator
 
 /* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
  * DMB_NONE: none. */
-uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
+uint32_t dmb_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 #endif

@@ -160,7 +160,7 @@ static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
     for (uint32_t b = 0; b < scene->block_count && status >= 0 && scene->sparse_count; ++b) {
         const size_t rows =
             *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/linear/stiffness */
-        if (rows * rows > scene->full_count) scene->full_count = rows * rows;
+        if (rows * rows > scene->six_dof_count) scene->six_dof_count = rows * rows;
     }
     dmb_vector_release(&capacity, allocator);
     dmb_vector_release(&edges, allocator);
@@ -170,7 +170,7 @@ static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
 static void find_links(dmb_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; ++i) {
-        size_t *link = scene->link_offset + 2 * (size_t)i;
+        size_t *link = scene->off_diagonal_offset + 2 * (size_t)i;
         link[0] = link[1] = SIZE_MAX;
         if (!leads_on(scene, i)) continue;
         link[0] = dmb_block_pattern_offset(&scene->pattern, scene->node_block[i], scene->node_block[i + 1]);
@@ -178,7 +178,7 @@ static void find_links(dmb_scene *scene)
     }
 }
 
-int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator)
+int32_t dmb_scene_number_blocks(dmb_scene *scene, const dmb_allocator *allocator)
 {
     if (scene->cluster_count == 0) return DMB_OK;
     for (uint32_t i = 0; i < scene->node_count; ++i) scene->node_cluster[i] = scene->node_block[i] = DMB_NONE;
@@ -214,8 +214,8 @@ static int is_joint(const dmb_constraint *c)
 /* All six of its rows are solved for; others are held by the ground. */
 static int moves_freely(const dmb_scene *scene, uint32_t node)
 {
-    if (scene->layout.size[node] != DMB_NODE_FULL) return 0;
-    for (uint32_t k = 0; k < DMB_NODE_FULL; k++)
+    if (scene->layout.size[node] != DMB_NODE_SIX_DOF) return 0;
+    for (uint32_t k = 0; k < DMB_NODE_SIX_DOF; k++)
         if (!scene->solved_row[scene->layout.row[node] + k]) return 0;
     return 1;
 }
@@ -282,7 +282,7 @@ static void leave(graph *g, uint32_t before, uint32_t v, uint32_t *beyond)
     if (g->low[v] > g->number[before] && is_bridge_kind(g->scene, g->by[v])) beyond[g->by[v]] = v;
 }
 
-static void walk(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
+static void iterator(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
 {
     uint32_t depth = 0, v = root;
     g->by[root] = DMB_NONE;
@@ -316,9 +316,9 @@ int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator
     graph g = {scene, room, room + LISTS * n, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n};
     for (uint32_t i = 0; i < scene->constraint_count; i++) beyond[i] = DMB_NONE;
     list_bridge_edges(&g);
-    walk(&g, ground_of(scene), &count, beyond);
+    iterator(&g, ground_of(scene), &count, beyond);
     for (uint32_t v = 0; v < scene->node_count; v++)
-        if (g.number[v] == 0 && g.start[v] < g.start[v + 1]) walk(&g, v, &count, beyond);
+        if (g.number[v] == 0 && g.start[v] < g.start[v + 1]) iterator(&g, v, &count, beyond);
     dmb_release(allocator, room, bytes);
     return DMB_OK;
 }

@@ -93,7 +93,7 @@ static int32_t write_recorder(const dmb_recorder *recorder, const char *path, dm
 {
     dmb_recorder r;
     dmb_text_file file;
-    int32_t status = dmb_recorder_take_struct(&r, recorder, why);
+    int32_t status = dmb_recorder_read_struct(&r, recorder, why);
     if (status < 0) return status;
     if (path == NULL) return DMB_ERR_NULL;
     status = dmb_text_open(&file, path);

@@ -52,7 +52,7 @@ static int bends_unseen(const dmb_sim *sim, dmb_place place)
     dmb_material_point point;
     if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) return 0;
     (void)dmb_material_point_of(sim, place, &point); /* the place has a section, which has been checked */
-    return scene->layout.size[scene->element_node[point.element]] == DMB_NODE_PATH;
+    return scene->layout.size[scene->element_node[point.element]] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t count)

@@ -11,7 +11,7 @@
 /* ---- Recorders --------------------------------------------------------------------------------------------------- */
 
 /* Copies and checks the caller's struct. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _NOT_FINITE, _VALUE. */
-int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why);
+int32_t dmb_recorder_read_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why);
 
 /* 1 if the next sample is due. Sample times are whole multiples of the interval [s] after the first sample, so that
  * they do not drift with the steps; with an interval of 0 every sample is due. */

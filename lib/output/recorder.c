@@ -30,7 +30,7 @@ static void check_table(dmb_check *check, const double *table, uint64_t row_coun
                        "<= capacity, and capacity one whose table fits into memory; start with row_count 0");
 }
 
-int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why)
+int32_t dmb_recorder_read_struct(dmb_recorder *out, const dmb_recorder *given, dmb_message *why)
 {
     dmb_check check = dmb_check_of(why, "recorder", DMB_NONE);
     if (given == NULL) return DMB_ERR_NULL;
@@ -85,7 +85,7 @@ static int32_t take(dmb_recorder *recorder, const dmb_sim *sim, dmb_message *why
     int32_t status = dmb_sim_check(sim);
     dmb_recorder r;
     double *row;
-    if (status == DMB_OK) status = dmb_recorder_take_struct(&r, recorder, why);
+    if (status == DMB_OK) status = dmb_recorder_read_struct(&r, recorder, why);
     if (status == DMB_OK && r.row_count > 0)
         status = check_order(row_of(&r, r.row_count - 1)[0], dmb_sim_time(sim), "recorder", why);
     if (status < 0) return status;
@@ -126,7 +126,7 @@ static uint64_t width_of(const dmb_profile *profile)
 }
 
 /* Copies both structs and checks them as far as possible without a sim. */
-static int32_t take_structs(const dmb_profile_recorder *given, dmb_profile_recorder *r, dmb_profile *profile,
+static int32_t read_structs(const dmb_profile_recorder *given, dmb_profile_recorder *r, dmb_profile *profile,
                             dmb_message *why)
 {
     dmb_check check = dmb_check_of(why, "profile recorder", DMB_NONE);
@@ -152,7 +152,7 @@ static int32_t take_profile(dmb_profile_recorder *recorder, const dmb_sim *sim, 
     dmb_profile_recorder r;
     dmb_profile profile;
     double *row;
-    if (status == DMB_OK) status = take_structs(recorder, &r, &profile, why);
+    if (status == DMB_OK) status = read_structs(recorder, &r, &profile, why);
     if (status < 0) return status;
     const double time = dmb_sim_time(sim);
     const size_t width = (size_t)width_of(&profile);
@@ -214,7 +214,7 @@ static int32_t write_profiles(const dmb_profile_recorder *recorder, const char *
     dmb_profile_recorder r;
     dmb_profile profile;
     dmb_text_file file;
-    int32_t status = take_structs(recorder, &r, &profile, why);
+    int32_t status = read_structs(recorder, &r, &profile, why);
     if (status < 0) return status;
     if (path == NULL) return DMB_ERR_NULL;
     status = dmb_text_open(&file, path);

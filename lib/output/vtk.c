@@ -164,8 +164,8 @@ static dmb_id string_id(const dmb_sim *sim, uint32_t string)
 }
 
 /* Calls `put` for every point in order: each pipe without its last point, then the end of the string. */
-static void walk_string(dmb_text_file *file, const dmb_sim *sim, uint32_t string, const dmb_vtk_picture *picture,
-                        dmb_vtk_station_fn *put)
+static void put_each_string(dmb_text_file *file, const dmb_sim *sim, uint32_t string, const dmb_vtk_picture *picture,
+                            dmb_vtk_station_fn *put)
 {
     const dmb_string_map *map = &sim->scene->strings[string];
     dmb_vtk_station at = {string, {string_id(sim, string), 0, 0, 0.0}};
@@ -192,9 +192,9 @@ static void put_array(dmb_text_file *file, const dmb_sim *sim, const dmb_vtk_pic
                       const dmb_vtk_array *array)
 {
     dmb_vtk_look(file);
-    for (uint32_t i = 0; i < sim->scene->string_count; i++) walk_string(file, sim, i, picture, array->put);
+    for (uint32_t i = 0; i < sim->scene->string_count; i++) put_each_string(file, sim, i, picture, array->put);
     dmb_vtk_begin_looked(file, array->name, array->components, points_of(sim, picture->per_element));
-    for (uint32_t i = 0; i < sim->scene->string_count; i++) walk_string(file, sim, i, picture, array->put);
+    for (uint32_t i = 0; i < sim->scene->string_count; i++) put_each_string(file, sim, i, picture, array->put);
     dmb_vtk_end_looked(file);
 }
 

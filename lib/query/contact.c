@@ -24,7 +24,7 @@ DMB_DECLARE_STRUCT(dmb_contact_total)
 
 static uint64_t site_count(const dmb_scene *scene)
 {
-    return (uint64_t)scene->site_count + scene->path_site_count;
+    return (uint64_t)scene->site_count + scene->axial_torsional_site_count;
 }
 
 void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force)
@@ -34,19 +34,20 @@ void dmb_contact_force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *for
     if (site < full)
         dmb_site_force_of(scene, &sim->now, site, force);
     else
-        dmb_path_site_force_of(scene, &sim->now, site - full, force);
+        dmb_axial_torsional_site_force(scene, &sim->now, site - full, force);
     dmb_friction_law local;
     dmb_assumed_friction(dmb_contact_friction_law(scene, &sim->now, site, &local), &sim->now,
-                         site < full ? scene->sites[site].radius : scene->path_sites[site - full].radius, force);
+                         site < full ? scene->sites[site].radius : scene->axial_torsional_sites[site - full].radius,
+                         force);
 }
 
 static void describe(const dmb_scene *scene, uint32_t site, dmb_contact *contact)
 {
     const uint32_t full = scene->site_count;
     contact->number = site;
-    contact->part = site < full ? scene->sites[site].part : scene->path_sites[site - full].part;
-    contact->pipe = site < full ? scene->sites[site].pipe : scene->path_sites[site - full].pipe;
-    contact->length = site < full ? scene->sites[site].length : scene->path_sites[site - full].length;
+    contact->part = site < full ? scene->sites[site].part : scene->axial_torsional_sites[site - full].part;
+    contact->pipe = site < full ? scene->sites[site].pipe : scene->axial_torsional_sites[site - full].pipe;
+    contact->length = site < full ? scene->sites[site].length : scene->axial_torsional_sites[site - full].length;
 }
 
 int32_t dmb_answer_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact)
@@ -163,7 +164,7 @@ static void take_wall(const dmb_model *model, const dmb_hole *hole, double depth
            sizeof point->section_name);
 }
 
-static int32_t tell_hole(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
+static int32_t report_hole(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
 {
     dmb_hole_point answer = {0};
     double bend[3];
@@ -184,14 +185,14 @@ int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *poi
     const dmb_hole *hole;
     const int32_t status = hole_of(model, &hole);
     if (status < 0) return dmb_model_told(model, "hole", status);
-    return dmb_model_told(model, "hole", point == NULL ? DMB_ERR_NULL : tell_hole(model, hole, depth, point));
+    return dmb_model_told(model, "hole", point == NULL ? DMB_ERR_NULL : report_hole(model, hole, depth, point));
 }
 
 int32_t dmb_answer_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)
 {
     const int32_t status = dmb_ask(sim, point);
     if (status < 0) return status;
-    return sim->scene->has_hole ? tell_hole(sim->model, &sim->scene->hole, depth, point) : DMB_ERR_UNSUPPORTED;
+    return sim->scene->has_hole ? report_hole(sim->model, &sim->scene->hole, depth, point) : DMB_ERR_UNSUPPORTED;
 }
 
 /* ---- Places that can be stuck ------------------------------------------------------------------------------------ */

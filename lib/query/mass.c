@@ -184,7 +184,7 @@ double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 {
     const double *v = sim->now.velocity + sim->scene->layout.row[share->node];
     double p[6];
-    if (sim->scene->layout.size[share->node] == DMB_NODE_PATH)
+    if (sim->scene->layout.size[share->node] == DMB_NODE_AXIAL_TORSIONAL)
         return 0.5 * (share->mass * v[0] * v[0] + share->inertia[0] * v[1] * v[1]);
     dmb_rigid_mass_times(share, v, p);
     return 0.5 * dmb_vec6_dot(v, p);

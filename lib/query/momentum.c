@@ -22,9 +22,9 @@ typedef struct carrier {
     double velocity[6]; /* body frame */
 } carrier;
 
-static int is_path(const dmb_scene *scene, uint32_t node)
+static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_PATH;
+    return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 static void carrier_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double arm, carrier *out)
@@ -91,7 +91,7 @@ static void add_element(const dmb_scene *scene, const dmb_configuration *c, uint
     carrier A, B;
     carrier_of(scene, c, a, type->arm[0], &A);
     carrier_of(scene, c, b, -type->arm[1], &B);
-    if (is_path(scene, a) && is_path(scene, b)) {
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, b)) {
         keep_rows(A.velocity);
         keep_rows(B.velocity);
     }
@@ -108,7 +108,7 @@ static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, c
     carrier at;
     double p[6];
     carrier_of(scene, c, rigid_mass->node, 0.0, &at);
-    if (is_path(scene, rigid_mass->node)) {
+    if (is_axial_torsional(scene, rigid_mass->node)) {
         memset(p, 0, sizeof p);
         p[0] = rigid_mass->mass * at.velocity[0];
         p[3] = rigid_mass->inertia[0] * at.velocity[3];
@@ -126,7 +126,7 @@ static void add_added_mass(const dmb_scene *scene, const dmb_configuration *c, c
     carrier at;
     double p[6] = {0.0};
     carrier_of(scene, c, added->node, 0.0, &at);
-    if (is_path(scene, added->node))
+    if (is_axial_torsional(scene, added->node))
         p[0] = added->along * at.velocity[0];
     else
         dmb_added_mass_times(added, at.velocity, p);

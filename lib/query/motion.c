@@ -48,7 +48,8 @@ void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *
                               dmb_section_shape *shape)
 {
     const uint32_t a = scene->element_node[material_point->element];
-    const int path = scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
+    const int path =
+        scene->layout.size[a] == DMB_NODE_AXIAL_TORSIONAL && scene->layout.size[a + 1] == DMB_NODE_AXIAL_TORSIONAL;
     dmb_section_shape_at(&scene->types[scene->element_type[material_point->element]], material_point->fraction, !path,
                          shape);
 }
@@ -268,8 +269,8 @@ double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration 
     double depth, point[3], tangent[3];
     if (!scene->has_hole) return 0.0;
     if (material_point->fixed && material_point->arm == 0.0 &&
-        scene->layout.size[material_point->node] == DMB_NODE_PATH)
-        return dmb_path_depth(scene, configuration, material_point->node);
+        scene->layout.size[material_point->node] == DMB_NODE_AXIAL_TORSIONAL)
+        return dmb_axial_torsional_depth(scene, configuration, material_point->node);
     uint32_t segment = dmb_node_segment(scene, configuration, material_point->node, along(scene, material_point), x);
     dmb_hole_project(&scene->hole, x, &depth, &segment, point, tangent);
     return depth;

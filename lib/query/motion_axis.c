@@ -11,7 +11,7 @@ int dmb_is_on_curved_axis(const dmb_scene *scene, const dmb_material_point *mate
 {
     if (material_point->fixed || !scene->has_hole || dmb_hole_is_straight(&scene->hole)) return 0;
     const uint32_t a = scene->element_node[material_point->element];
-    return scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
+    return scene->layout.size[a] == DMB_NODE_AXIAL_TORSIONAL && scene->layout.size[a + 1] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 /* [-] fraction of the distance from node to node, rigid arms included. */
@@ -39,7 +39,8 @@ void dmb_axis_pose_of(const dmb_scene *scene, const dmb_configuration *configura
     const uint32_t a = scene->element_node[material_point->element];
     const double f = fraction_of(scene, material_point);
     const double *x = scene->reference_position + 3 * (size_t)a;
-    const double now[2] = {dmb_path_depth(scene, configuration, a), dmb_path_depth(scene, configuration, a + 1)};
+    const double now[2] = {dmb_axial_torsional_depth(scene, configuration, a),
+                           dmb_axial_torsional_depth(scene, configuration, a + 1)};
     const double torsion[3] = {f * (configuration->turn[a + 1] - configuration->turn[a]), 0.0, 0.0};
     double bow[3], bow_start[3], carried[9], twist[9];
     dmb_end_pose end_a, end_b;
@@ -79,7 +80,8 @@ void dmb_axis_motion_of(const dmb_scene *scene, const dmb_configuration *configu
                         const dmb_material_point *material_point, dmb_material_point_motion *motion)
 {
     const uint32_t a = scene->element_node[material_point->element];
-    const double s_a = dmb_path_depth(scene, configuration, a), s_b = dmb_path_depth(scene, configuration, a + 1);
+    const double s_a = dmb_axial_torsional_depth(scene, configuration, a),
+                 s_b = dmb_axial_torsional_depth(scene, configuration, a + 1);
     const double s = s_a + fraction_of(scene, material_point) * (s_b - s_a);
     dmb_material_point_pose pose;
     dmb_axis_pose_of(scene, configuration, material_point, &pose);

@@ -44,7 +44,7 @@ static int32_t section_of_rig_end(const asked_string *s, int32_t component, doub
     dmb_section section = dmb_section_default();
     if (pipe->kind == DMB_PIPE_AXIAL_TORSIONAL) {
         double load[2];
-        dmb_bar_start_loads(s->sim->scene, &s->sim->now, pipe->element, load);
+        dmb_axial_torsional_start_loads(s->sim->scene, &s->sim->now, pipe->element, load);
         *value = signed_value(sign, load[component == DMB_RX]);
         return DMB_OK;
     }

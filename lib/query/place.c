@@ -141,7 +141,7 @@ static site_owner owner_of(const dmb_scene *scene, uint32_t site)
         const dmb_site *full = &scene->sites[site];
         owner.part = full->part, owner.pipe = full->pipe, owner.node = full->node;
     } else {
-        const dmb_path_site *path = &scene->path_sites[site - scene->site_count];
+        const dmb_axial_torsional_site *path = &scene->axial_torsional_sites[site - scene->site_count];
         owner.part = path->part, owner.pipe = path->pipe, owner.node = path->node;
     }
     return owner;
@@ -183,7 +183,8 @@ static uint32_t site_on_string(const dmb_scene *scene, dmb_id string, uint32_t p
 {
     const uint32_t full = scene->site_count;
     const uint32_t found = search(scene, 0, dmb_node_sites(scene), string, pipe, node);
-    return found != DMB_NONE ? found : search(scene, full, full + scene->path_site_count, string, pipe, node);
+    return found != DMB_NONE ? found
+                             : search(scene, full, full + scene->axial_torsional_site_count, string, pipe, node);
 }
 
 /* Node at the far end of a pipe's first `elements` elements. */
@@ -221,7 +222,7 @@ double dmb_site_normal_force(const dmb_sim *sim, uint32_t site)
     if (site < full)
         dmb_site_force_of(sim->scene, &sim->now, site, &force);
     else
-        dmb_path_site_force_of(sim->scene, &sim->now, site - full, &force);
+        dmb_axial_torsional_site_force(sim->scene, &sim->now, site - full, &force);
     return force.normal_force;
 }
 

@@ -14,49 +14,52 @@ enum { STATIONS_MAX = 1 << 24 };
 /* ---- Stations ---------------------------------------------------------------------------------------------------- */
 
 /* A run of equal pipes of the string, and where it begins. */
-typedef struct station_walk {
+typedef struct station_iterator {
     const dmb_sim *sim;
     const dmb_pipe_run *runs;
     uint32_t run_count, string; /* index */
     uint32_t run;               /* in runs, of this string */
     double start;               /* [m] of the run, from the rig end */
-} station_walk;
+} station_iterator;
 
-static void to_run_from(station_walk *walk, uint32_t first)
+static void to_run_from(station_iterator *iterator, uint32_t first)
 {
-    for (walk->run = first; walk->run < walk->run_count && walk->runs[walk->run].string != walk->string;) walk->run++;
+    for (iterator->run = first;
+         iterator->run < iterator->run_count && iterator->runs[iterator->run].string != iterator->string;)
+        iterator->run++;
 }
 
-static void rewind_walk(station_walk *walk)
+static void rewind_iterator(station_iterator *iterator)
 {
-    walk->start = 0.0;
-    to_run_from(walk, 0);
+    iterator->start = 0.0;
+    to_run_from(iterator, 0);
 }
 
 /* Next run of the string; 0 where this is the last one. */
-static int to_next_run(station_walk *walk)
+static int to_next_run(station_iterator *iterator)
 {
-    const uint32_t here = walk->run;
-    const dmb_pipe_run *run = &walk->runs[here];
-    to_run_from(walk, here + 1);
-    if (walk->run < walk->run_count) {
-        walk->start += run->count * run->def.length;
+    const uint32_t here = iterator->run;
+    const dmb_pipe_run *run = &iterator->runs[here];
+    to_run_from(iterator, here + 1);
+    if (iterator->run < iterator->run_count) {
+        iterator->start += run->count * run->def.length;
         return 1;
     }
-    walk->run = here;
+    iterator->run = here;
     return 0;
 }
 
 /* Pipe and fraction at a distance within the string. */
-static dmb_place place_at(station_walk *walk, dmb_id string, double distance)
+static dmb_place place_at(station_iterator *iterator, dmb_id string, double distance)
 {
     const dmb_pipe_run *run;
     dmb_place place = {.part = string};
     double along;
-    if (distance < walk->start) rewind_walk(walk);
-    run = &walk->runs[walk->run];
-    while (distance - walk->start > run->count * run->def.length && to_next_run(walk)) run = &walk->runs[walk->run];
-    along = (distance - walk->start) / run->def.length;
+    if (distance < iterator->start) rewind_iterator(iterator);
+    run = &iterator->runs[iterator->run];
+    while (distance - iterator->start > run->count * run->def.length && to_next_run(iterator))
+        run = &iterator->runs[iterator->run];
+    along = (distance - iterator->start) / run->def.length;
     place.pipe = along < run->count ? (uint32_t)along : run->count - 1;
     place.fraction = fmin(along - place.pipe, 1.0);
     place.pipe += run->first;
@@ -252,8 +255,8 @@ static double clearance_at(const station *at)
     const uint32_t site = nearest_site(at);
     double radius = 0.5 * at->diameters[0];
     if (site != DMB_NONE)
-        radius =
-            site < scene->site_count ? scene->sites[site].radius : scene->path_sites[site - scene->site_count].radius;
+        radius = site < scene->site_count ? scene->sites[site].radius
+                                          : scene->axial_torsional_sites[site - scene->site_count].radius;
     return fmax(0.0, dmb_hole_radius(&scene->hole, at->values[DMB_PROFILE_DEPTH]) - radius);
 }
 
@@ -389,14 +392,14 @@ static int32_t take_station(station *at, double distance, int32_t groups)
     return fill(at, groups);
 }
 
-static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint32_t i, int32_t groups)
+static int32_t fill_station(station_iterator *iterator, const dmb_profile *profile, uint32_t i, int32_t groups)
 {
-    const double length = walk->sim->scene->strings[walk->string].length;
+    const double length = iterator->sim->scene->strings[iterator->string].length;
     const double distance = distance_of(profile, i, length);
-    station at = {.sim = walk->sim};
+    station at = {.sim = iterator->sim};
     int32_t status;
-    at.place = place_at(walk, profile->string, distance);
-    at.run = &walk->runs[walk->run];
+    at.place = place_at(iterator, profile->string, distance);
+    at.run = &iterator->runs[iterator->run];
     status = take_station(&at, distance, groups);
     for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
         profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
@@ -407,32 +410,32 @@ int32_t dmb_answer_profile(const dmb_sim *sim, const dmb_profile *given)
 {
     int32_t status = dmb_ask(sim, given), groups = 0;
     dmb_profile profile;
-    station_walk walk = {.sim = sim};
+    station_iterator iterator = {.sim = sim};
     if (status == DMB_OK) status = dmb_profile_read(&profile, given);
-    if (status == DMB_OK) status = find_string(sim, &profile.string, &walk.string);
+    if (status == DMB_OK) status = find_string(sim, &profile.string, &iterator.string);
     if (status == DMB_OK) status = check_quantities(&profile, &groups);
-    if (status == DMB_OK) status = check_distances(&profile, sim->scene->strings[walk.string].length);
+    if (status == DMB_OK) status = check_distances(&profile, sim->scene->strings[iterator.string].length);
     if (status == DMB_OK) status = check_strides(&profile);
     if (status < 0) return status;
-    walk.runs = sim->model->runs.items;
-    walk.run_count = sim->model->runs.count;
-    rewind_walk(&walk);
+    iterator.runs = sim->model->runs.items;
+    iterator.run_count = sim->model->runs.count;
+    rewind_iterator(&iterator);
     for (uint32_t i = 0; i < profile.station_count && status >= 0; i++)
-        status = fill_station(&walk, &profile, i, groups);
+        status = fill_station(&iterator, &profile, i, groups);
     return status;
 }
 
 int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity, double *value)
 {
-    station_walk walk = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
+    station_iterator iterator = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
     station at = {.sim = sim, .place = place};
-    walk.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
-    if (walk.string >= sim->scene->string_count) return DMB_ERR_ID;
-    at.run = dmb_pipe_run_of(sim->model, walk.string, place.pipe);
+    iterator.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
+    if (iterator.string >= sim->scene->string_count) return DMB_ERR_ID;
+    at.run = dmb_pipe_run_of(sim->model, iterator.string, place.pipe);
     if (at.run == NULL) return DMB_ERR_VALUE;
-    rewind_walk(&walk);
-    while (&walk.runs[walk.run] != at.run && to_next_run(&walk)) continue;
-    const double distance = walk.start + (place.pipe - at.run->first + place.fraction) * at.run->def.length;
+    rewind_iterator(&iterator);
+    while (&iterator.runs[iterator.run] != at.run && to_next_run(&iterator)) continue;
+    const double distance = iterator.start + (place.pipe - at.run->first + place.fraction) * at.run->def.length;
     const int32_t status = take_station(&at, distance, dmb_profile_groups(quantity));
     if (status >= 0) *value = at.values[quantity];
     return status;

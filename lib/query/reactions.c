@@ -166,15 +166,16 @@ double dmb_joint_violation(const dmb_sim *sim, uint32_t j)
 /* ---- Supported ends: the residual in the rows that are not solved for -------------------------------------------- */
 
 /* Residual of the constrained rows of the node as a wrench; components of free rows are 0. */
-static void held_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
+static void support_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
 {
-    static const uint32_t path_component[2] = {DMB_X, DMB_RX};
+    static const uint32_t axial_torsional_component[2] = {DMB_X, DMB_RX};
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < 6; i++) wrench[i] = 0.0;
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t c = scene->held_component[i];
-        if (scene->held_node[i] != node) continue;
-        wrench[scene->layout.size[node] == DMB_NODE_PATH ? path_component[c] : c] = sim->held_reaction[i];
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t c = scene->constrained_component[i];
+        if (scene->constrained_node[i] != node) continue;
+        wrench[scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL ? axial_torsional_component[c] : c] =
+            sim->support_reaction[i];
     }
 }
 
@@ -195,7 +196,7 @@ int32_t dmb_answer_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
     } else {
         return DMB_ERR_ID;
     }
-    held_wrench(sim, node, reaction);
+    support_wrench(sim, node, reaction);
     dmb_arm_wrench(-arm, reaction); /* from the node to the part's reference point */
     return DMB_OK;
 }
@@ -296,7 +297,7 @@ static int32_t is_driven(const dmb_scene *scene, uint32_t row)
 
 int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
 {
-    static const int32_t path_component[2] = {DMB_X, DMB_RX};
+    static const int32_t axial_torsional_component[2] = {DMB_X, DMB_RX};
     const int32_t status = dmb_ask(sim, answer);
     dmb_row found = {0};
     if (status < 0) return status;
@@ -306,7 +307,8 @@ int32_t dmb_answer_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
     const uint32_t c = row - scene->layout.row[found.node];
     const dmb_owner owner = dmb_owner_of_node(scene, found.node);
     const uint32_t kind = owner.kind[0] == 's' ? DMB_PART_STRING : DMB_PART_BODY;
-    found.component = scene->layout.size[found.node] == DMB_NODE_PATH ? path_component[c] : (int32_t)c;
+    found.component =
+        scene->layout.size[found.node] == DMB_NODE_AXIAL_TORSIONAL ? axial_torsional_component[c] : (int32_t)c;
     found.pipe = owner.pipe;
     found.state = scene->solved_row[row] ? DMB_ROW_FREE : is_driven(scene, row) ? DMB_ROW_DRIVEN : DMB_ROW_HELD;
     found.part = dmb_model_id(sim->model, kind, owner.index);

@@ -185,7 +185,7 @@ static double resting_stretch(const dmb_sim *sim)
     return sum;
 }
 
-static void sum_pieces(const dmb_sim *sim, dmb_flow_state *answer)
+static void sum_chunks(const dmb_sim *sim, dmb_flow_state *answer)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->flow_count; i++) {
@@ -213,7 +213,7 @@ int32_t dmb_answer_flow(const dmb_sim *sim, dmb_flow_state *flow)
     end_position(sim, scene->strings[0].start_node, scene->strings[0].start_arm, top);
     end_position(sim, scene->strings[0].end_node, scene->strings[0].end_arm, bottom);
     dmb_vec3_sub(bottom, top, along);
-    sum_pieces(sim, &answer);
+    sum_chunks(sim, &answer);
     answer.rate = scene->flow.rate;
     answer.bit_loss = dmb_nozzle_loss(&scene->flow);
     answer.thrust = dmb_nozzle_thrust(&scene->flow);

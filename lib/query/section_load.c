@@ -45,7 +45,8 @@ static void host_of(const dmb_sim *sim, uint32_t element, host *h)
     h->element = element;
     h->node = scene->element_node[element];
     h->type = scene->types + scene->element_type[element];
-    h->bending = scene->layout.size[h->node] != DMB_NODE_PATH || scene->layout.size[h->node + 1] != DMB_NODE_PATH;
+    h->bending = scene->layout.size[h->node] != DMB_NODE_AXIAL_TORSIONAL ||
+                 scene->layout.size[h->node + 1] != DMB_NODE_AXIAL_TORSIONAL;
     dmb_end_pose_now(scene, &sim->now, h->node, &a);
     dmb_end_pose_now(scene, &sim->now, h->node + 1, &b);
     dmb_relative_pose(scene, element, &a, &b, h->d);

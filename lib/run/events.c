@@ -27,7 +27,7 @@ typedef struct gaps {
 
 typedef struct hunt {
     dmb_sim *sim;
-    dmb_walk walk;
+    dmb_stepping stepping;
     double end;     /* [s] where the call is to end */
     double wanted;  /* [s] step length of the control */
     gaps before;    /* at the start of the step */
@@ -162,17 +162,17 @@ static dmb_step_end whole_step(const hunt *h, const dmb_clock *reached)
 static int32_t step_again(hunt *h, double length, const dmb_clock *reached, gaps *found)
 {
     dmb_sim *sim = h->sim;
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     dmb_state_restore(sim);
     const dmb_step_end end = reached != NULL ? whole_step(h, reached) : dmb_step_end_after(sim, length);
-    if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", length);
-    int32_t status = dmb_attempt_step(sim, &end, 1, &attempt);
-    if (status == DMB_NOTE_WORK_LIMITED) status = attempt.status = DMB_ERR_NO_CONVERGENCE;
+    if (!(end.time > sim->clock->time)) return dmb_stepping_stuck(sim, "length", length);
+    int32_t status = dmb_trial_step_run(sim, &end, 1, &trial_step);
+    if (status == DMB_NOTE_WORK_LIMITED) status = trial_step.status = DMB_ERR_NO_CONVERGENCE;
     if (status < 0) {
-        dmb_walk_reject(sim, &attempt, &h->walk);
+        dmb_stepping_reject(sim, &trial_step, &h->stepping);
         return status;
     }
-    status = dmb_walk_commit(sim, &attempt, &h->walk);
+    status = dmb_stepping_commit(sim, &trial_step, &h->stepping);
     if (status < 0) return status;
     dmb_advance_propose(sim, h->wanted);
     return ask(sim, found);
@@ -238,15 +238,15 @@ static int32_t try_length(hunt *h, const bracket *b, double *length, gaps *tried
 static int32_t locate(hunt *h, gaps *found)
 {
     const dmb_clock reached = *h->sim->clock;
-    const uint32_t steps = h->walk.report.steps - 1;
+    const uint32_t steps = h->stepping.report.steps - 1;
     bracket b = {.high = reached.step, .at_low = h->before, .at_high = *found, .crossed = crossings(h, found)};
     double last = b.high;
     int32_t status = DMB_OK;
     for (double tolerance; tolerance = tolerance_of(h, b.crossed), status >= 0 && b.high - b.low > tolerance;) {
         gaps tried;
         const double wanted = last = guess(h, &b, tolerance);
-        h->walk.report.steps = steps;
-        h->walk.report.rejected++;
+        h->stepping.report.steps = steps;
+        h->stepping.report.rejected++;
         status = try_length(h, &b, &last, &tried);
         if (status >= 0 && last < wanted && !crossings(h, &tried)) {
             *found = tried;
@@ -257,12 +257,12 @@ static int32_t locate(hunt *h, gaps *found)
     }
     h->located = b.high - b.low;
     if (status >= 0 && last != b.high) {
-        h->walk.report.steps = steps;
+        h->stepping.report.steps = steps;
         status = step_again(h, b.high, b.high == reached.step ? &reached : NULL, found);
     }
     if (status >= 0) return status;
     dmb_state_restore(h->sim);
-    h->walk.report.steps = steps;
+    h->stepping.report.steps = steps;
     return status;
 }
 
@@ -279,7 +279,7 @@ static int32_t go(hunt *h)
     h->located = 0.0;
     if (goal > sim->clock->time) {
         dmb_state_back_up(sim);
-        int32_t status = dmb_advance_once(sim, goal, &h->wanted, &h->walk);
+        int32_t status = dmb_advance_once(sim, goal, &h->wanted, &h->stepping);
         if (status >= 0) status = ask(sim, &now);
         if (status < 0) return status;
         crossed = crossings(h, &now);
@@ -330,8 +330,8 @@ static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_s
     dmb_event_report unused;
     hunt h = {.sim = sim, .end = time};
     int32_t status = event == NULL ? DMB_OK : dmb_event_report_read(&unused, event);
-    if (status >= 0) status = dmb_walk_begin(sim, report, &h.walk);
-    if (status >= 0) status = dmb_walk_check(sim, "time", time, sim->clock->time);
+    if (status >= 0) status = dmb_stepping_begin(sim, report, &h.stepping);
+    if (status >= 0) status = dmb_stepping_check(sim, "time", time, sim->clock->time);
     if (status < 0) return status;
     if (sim->scene->event_count == 0) {
         dmb_message_set(&sim->message, "advance to event: the model has no events; add one, or call dmb_sim_advance");
@@ -342,12 +342,12 @@ static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_s
     if (status < 0) return status;
     look_around(sim, &h.before);
     h.wanted = dmb_advance_first(sim);
-    while (status >= 0 && sim->clock->time < time && !h.walk.stopped && h.told == 0) {
+    while (status >= 0 && sim->clock->time < time && !h.stepping.stopped && h.told == 0) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
         status = go(&h);
-        h.walk.stopped = h.walk.report.steps == sim->options.max_steps && sim->clock->time < time;
+        h.stepping.stopped = h.stepping.report.steps == sim->options.max_steps && sim->clock->time < time;
     }
-    status = dmb_walk_end(sim, status, 0, report, &h.walk);
+    status = dmb_stepping_end(sim, status, 0, report, &h.stepping);
     if (status < 0) return status;
     (void)report_event(&h, event);
     if (h.told == 0) return status;

@@ -6,12 +6,29 @@
 
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
 {
-    const uint32_t counts[] = {s->node_count,       s->row_count,      s->element_count,       s->type_count,
-                               s->rigid_mass_count, s->site_count,     s->path_site_count,     s->drive_count,
-                               s->load_count,       s->bit_count,      s->time_function_count, s->string_count,
-                               s->pipe_count,       s->body_count,     s->history_count,       s->free_count,
-                               s->prescribed_count, s->chain_count,    s->batch_count,         s->joint_count,
-                               s->coupling_count,   s->callback_count, s->constraint_count};
+    const uint32_t counts[] = {s->node_count,
+                               s->row_count,
+                               s->element_count,
+                               s->type_count,
+                               s->rigid_mass_count,
+                               s->site_count,
+                               s->axial_torsional_site_count,
+                               s->drive_count,
+                               s->load_count,
+                               s->bit_count,
+                               s->time_function_count,
+                               s->string_count,
+                               s->pipe_count,
+                               s->body_count,
+                               s->history_count,
+                               s->free_count,
+                               s->prescribed_count,
+                               s->chain_count,
+                               s->batch_count,
+                               s->joint_count,
+                               s->coupling_count,
+                               s->callback_count,
+                               s->constraint_count};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) h = dmb_fnv_word(h, counts[i]);
     h = dmb_fnv_word(h, (uint32_t)s->features);
     h = DMB_NUMBERS(h, s->gravity);
@@ -111,9 +128,9 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_number(h, s->sites[i].radius);
     }
     for (uint32_t i = 0; i < s->inside_count; ++i) h = dmb_fnv_number(h, s->inside[i].fraction);
-    for (uint32_t i = 0; i < s->path_site_count; ++i) {
-        h = dmb_fnv_number(h, s->path_sites[i].length);
-        h = dmb_fnv_number(h, s->path_sites[i].radius);
+    for (uint32_t i = 0; i < s->axial_torsional_site_count; ++i) {
+        h = dmb_fnv_number(h, s->axial_torsional_sites[i].length);
+        h = dmb_fnv_number(h, s->axial_torsional_sites[i].radius);
     }
     return h;
 }

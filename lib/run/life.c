@@ -44,7 +44,7 @@ static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int3
 }
 
 /* The caller's log, even where the rest of the options is refused; none where the struct itself cannot be read. */
-static void tell_refusal(const dmb_sim_options *given, int32_t status, const dmb_message *message)
+static void report_refusal(const dmb_sim_options *given, int32_t status, const dmb_message *message)
 {
     dmb_sim_options read;
     if (given == NULL || dmb_sim_options_read(&read, given) < 0) return;
@@ -83,12 +83,12 @@ static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_option
     int32_t status;
     dmb_message_clear(&c->message);
     status = check_model(model, &c->message);
-    if (status == DMB_OK) status = dmb_sim_options_take(&c->options, options, &c->message);
+    if (status == DMB_OK) status = dmb_sim_options_get(&c->options, options, &c->message);
     if (status == DMB_OK) status = take_allocator(c, model);
     if (status == DMB_OK) status = take_size(c, model);
     if (status >= 0) return status;
     if (dmb_handle_is(model, DMB_HANDLE_MODEL)) (void)dmb_model_fail(model, status, "sim", c->message.text);
-    tell_refusal(options, status, &c->message);
+    report_refusal(options, status, &c->message);
     return status;
 }
 
@@ -268,7 +268,7 @@ static void fill_info(const dmb_scene *scene, dmb_model_info *info)
     info->rigid_bodies = scene->rigid_count;
     info->nodes = scene->node_count;
     info->elements = scene->element_count;
-    info->contact_points = scene->site_count + scene->path_site_count;
+    info->contact_points = scene->site_count + scene->axial_torsional_site_count;
     info->degrees_of_freedom = scene->free_count;
     info->prescribed = scene->prescribed_count;
     info->structural_joints = scene->structural_joint_count;

@@ -389,7 +389,7 @@ static int32_t check_snapshot(dmb_sim *sim, const void *block, size_t size)
 }
 
 /* The fields of these groups, from `from` on; returns where they end. */
-static const unsigned char *take_fields(const dmb_field *fields, size_t count, int32_t first, int32_t last,
+static const unsigned char *read_fields(const dmb_field *fields, size_t count, int32_t first, int32_t last,
                                         const unsigned char *from)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -414,13 +414,13 @@ static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
     status = dmb_snapshot_check(sim, fields, count, from);
     if (status < 0) return status;
     dmb_state_back_up(sim);
-    from = take_fields(fields, count, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
+    from = read_fields(fields, count, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
     status = dmb_snapshot_relations(sim);
     if (status < 0) {
         dmb_state_restore(sim);
         return status;
     }
-    (void)take_fields(fields, count, DMB_GROUP_FACTORS, DMB_GROUP_FACTORS, from);
+    (void)read_fields(fields, count, DMB_GROUP_FACTORS, DMB_GROUP_FACTORS, from);
     dmb_own_scene_update(sim);
     return DMB_OK;
 }

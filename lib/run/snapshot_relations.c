@@ -113,8 +113,8 @@ static int32_t check_at_rest(dmb_sim *sim, const char *field, const double *rows
     const dmb_scene *scene = sim->scene;
     double largest = 0.0;
     for (uint32_t i = 0; i < scene->row_count; i++) largest = fmax(largest, fabs(rows[i]));
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t row = dmb_held_row(scene, i);
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t row = dmb_constrained_row(scene, i);
         if (fabs(rows[row]) <= DMB_REST_ROUNDING * largest || is_driven(scene, row)) continue;
         return refuse(sim, field, row, rows[row], "0, since this row is held");
     }
@@ -144,7 +144,7 @@ static int is_off_support(const dmb_sim *sim, uint32_t node, misfit *found)
     const double *u = sim->now.displacement + 3 * (size_t)node, *q0 = scene->reference_quaternion + 4 * (size_t)node;
     const double far = DMB_ROTATION_ROUNDING * (scene->length_scale + dmb_vec3_norm(u));
     double moved[3], turned[4];
-    if (scene->layout.size[node] == DMB_NODE_PATH)
+    if (scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL)
         return (!open[0] && differs(found, "displacement", 3 * (size_t)node, u[0], far)) ||
                (!open[1] && differs(found, "turn", node, sim->now.turn[node], DMB_ROTATION_ROUNDING));
     dmb_quat_rotate_inverse(q0, u, moved);
@@ -161,8 +161,8 @@ static int is_off_support(const dmb_sim *sim, uint32_t node, misfit *found)
 static int any_off_support(const dmb_sim *sim, misfit *found)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        if (is_off_support(sim, scene->held_node[i], found)) return 1;
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        if (is_off_support(sim, scene->constrained_node[i], found)) return 1;
     return 0;
 }
 
@@ -182,7 +182,7 @@ static int32_t check_supports(dmb_sim *sim)
     return refuse(sim, found.field, found.item, found.value, "0 in the axes of its described pose, since it is held");
 }
 
-static int32_t check_held(dmb_sim *sim)
+static int32_t check_constrained(dmb_sim *sim)
 {
     int32_t status = check_at_rest(sim, "velocity", sim->now.velocity);
     if (status >= 0) status = check_at_rest(sim, "acceleration", sim->now.acceleration);
@@ -382,7 +382,7 @@ static int32_t check_partitions(dmb_sim *sim)
 int32_t dmb_snapshot_relations(dmb_sim *sim)
 {
     int32_t status = check_rotations(sim);
-    if (status >= 0) status = check_held(sim);
+    if (status >= 0) status = check_constrained(sim);
     if (status >= 0) status = check_times(sim);
     if (status >= 0) status = check_settings(sim);
     if (status >= 0) status = check_histories(sim);

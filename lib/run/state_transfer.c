@@ -109,7 +109,7 @@ static void transfer_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *eva
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
     memcpy(sim->trial.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
-    dmb_gather_bits(evaluation);
+    dmb_assemble_bits(evaluation);
     for (uint32_t k = 0; k < scene->bit_count; k++) {
         transfer_bit(sim, k, from);
         dmb_hole_make_room(sim, k, sim->now.bit_bottom[k]); /* of a sim whose cutters did not widen it */
@@ -187,7 +187,7 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
     uint32_t row;
     if (sim->scene->cluster_count == 0) return DMB_OK;
     sim->reduced_mode->row = DMB_NONE;
-    const int32_t status = dmb_clusters_gather(evaluation);
+    const int32_t status = dmb_clusters_assemble(evaluation);
     if (status == DMB_ERR_CALLBACK)
         dmb_message_set(&sim->message, "state transfer: the callback of a constraint failed at time %g",
                         evaluation->time);

@@ -13,9 +13,9 @@
 /* [m, rad] by which the line of axial-torsional pipes may be described differently. */
 #define DMB_SAME_LINE 1e-6
 
-static int is_path(const dmb_scene *scene, uint32_t node)
+static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_PATH;
+    return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 /* [m] along body x from the node to where what is fixed to it ends, towards the far end. */
@@ -43,17 +43,17 @@ static double turn_of(const dmb_scene *scene, uint32_t node, const double q[4], 
 /* ---- Matched nodes ----------------------------------------------------------------------------------------------- */
 
 /* On the way from the far end to the rig end of a string. */
-typedef struct walk {
-    double shift[3];  /* [m] new less old displacement of the last node, world */
-    double offset[3]; /* [m] new less old place of the last node, world: along its arm */
-    double along;     /* [m] the same shift along the axis of PATH nodes */
-    int32_t on_path;  /* 1: the last node was a PATH node */
+typedef struct iterator {
+    double shift[3];             /* [m] new less old displacement of the last node, world */
+    double offset[3];            /* [m] new less old place of the last node, world: along its arm */
+    double along;                /* [m] the same shift along the axis of PATH nodes */
+    int32_t was_axial_torsional; /* 1: the last node was a PATH node */
     int32_t started;
-} walk;
+} iterator;
 
 /* shift_a - shift_b = span - span_old + offset_a - offset_b, from x_b - x_a = span + u_b - u_a in both scenes */
 static void shift_to(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, const double offset[3],
-                     walk *w)
+                     iterator *w)
 {
     const double *to = scene->reference_position + 3 * (size_t)node, *was = from->reference_position + 3 * (size_t)old;
     const double *span = NULL, *span_old = NULL;
@@ -71,8 +71,8 @@ static void shift_to(const dmb_scene *scene, uint32_t node, const dmb_scene *fro
     w->started = 1;
 }
 
-static void transfer_full(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double arm,
-                          const double shift[3])
+static void transfer_six_dof(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double arm,
+                             const double shift[3])
 {
     const double *q = from->now.quaternion + 4 * (size_t)old;
     double *v = sim->now.velocity + sim->scene->layout.row[node];
@@ -86,7 +86,7 @@ static void transfer_full(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint
 }
 
 /* [m] what must be added to the advance of a PATH node to stay where it is; without a hole, along its line. */
-static double path_shift(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old)
+static double axial_torsional_shift(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old)
 {
     const double ex[3] = {1.0, 0.0, 0.0};
     double line[3], between[3];
@@ -107,7 +107,7 @@ static void carried_frame(const dmb_scene *scene, uint32_t node, const dmb_scene
     dmb_quat_mul(turned, q, q);
 }
 
-static void transfer_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double along)
+static void transfer_axial_torsional(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double along)
 {
     const dmb_scene *scene = sim->scene;
     double q[4];
@@ -118,12 +118,12 @@ static void transfer_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint
     carried_frame(scene, node, from->scene, old, q);
     sim->now.turn[node] = turn + turn_of(scene, node, q, 0.0);
     memcpy(sim->now.velocity + scene->layout.row[node], from->now.velocity + from->scene->layout.row[old],
-           DMB_NODE_PATH * sizeof(double));
+           DMB_NODE_AXIAL_TORSIONAL * sizeof(double));
 }
 
 /* The walk goes on from where the node really is now; an error where its line is not the old one. */
 static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, const double R_old[9],
-                           const double u_old[3], uint32_t string, walk *w)
+                           const double u_old[3], uint32_t string, iterator *w)
 {
     const double *to = sim->scene->reference_position + 3 * (size_t)node;
     const double *was = from->scene->reference_position + 3 * (size_t)old;
@@ -144,21 +144,22 @@ static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uin
     return DMB_ERR_VALUE;
 }
 
-static int32_t transfer_node(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, uint32_t string, walk *w)
+static int32_t transfer_node(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, uint32_t string,
+                             iterator *w)
 {
     const double arm = dmb_state_transfer_arm(sim->scene, node, from->scene, old, string);
     double R[9], u[3], offset[3];
     dmb_node_pose(from->scene, &from->now, old, R, u);
     dmb_vec3_set(arm * R[0], arm * R[3], arm * R[6], offset);
-    if (!is_path(sim->scene, node)) {
+    if (!is_axial_torsional(sim->scene, node)) {
         shift_to(sim->scene, node, from->scene, old, offset, w);
-        transfer_full(sim, node, from, old, arm, w->shift);
-        w->on_path = 0;
+        transfer_six_dof(sim, node, from, old, arm, w->shift);
+        w->was_axial_torsional = 0;
         return DMB_OK;
     }
-    if (!w->on_path) w->along = path_shift(sim->scene, node, from->scene, old);
-    transfer_path(sim, node, from, old, w->along);
-    w->on_path = w->started = 1;
+    if (!w->was_axial_torsional) w->along = axial_torsional_shift(sim->scene, node, from->scene, old);
+    transfer_axial_torsional(sim, node, from, old, w->along);
+    w->was_axial_torsional = w->started = 1;
     return follow_path(sim, node, from, old, R, u, string, w);
 }
 
@@ -176,7 +177,7 @@ static void rest_pose(const dmb_element_type *type, double q[4], double x[3])
 }
 
 /* Node a before node b as one rigid body with it: x_a = x_b - R_a x, V_a = Ad V_b. */
-static void add_full(dmb_sim *sim, uint32_t a, const dmb_element_type *type, const double span[3])
+static void add_six_dof(dmb_sim *sim, uint32_t a, const dmb_element_type *type, const double span[3])
 {
     const double *qb = sim->now.quaternion + 4 * ((size_t)a + 1), *ub = sim->now.displacement + 3 * ((size_t)a + 1);
     double *qa = sim->now.quaternion + 4 * (size_t)a, *ua = sim->now.displacement + 3 * (size_t)a;
@@ -200,7 +201,7 @@ static void add_path(dmb_sim *sim, uint32_t a, const dmb_element_type *type)
     dmb_quat_copy(sim->scene->reference_quaternion + 4 * (size_t)a, sim->now.quaternion + 4 * (size_t)a);
     sim->now.turn[a] = sim->now.turn[a + 1] - type->rest[3];
     memcpy(sim->now.velocity + sim->scene->layout.row[a], sim->now.velocity + sim->scene->layout.row[a + 1],
-           DMB_NODE_PATH * sizeof(double));
+           DMB_NODE_AXIAL_TORSIONAL * sizeof(double));
 }
 
 static void add_node(dmb_sim *sim, uint32_t a)
@@ -208,10 +209,10 @@ static void add_node(dmb_sim *sim, uint32_t a)
     const dmb_scene *scene = sim->scene;
     const uint32_t element = scene->node_element[a];
     const dmb_element_type *type = scene->types + scene->element_type[element];
-    if (is_path(scene, a))
+    if (is_axial_torsional(scene, a))
         add_path(sim, a, type);
     else
-        add_full(sim, a, type, scene->element_span + 3 * (size_t)element);
+        add_six_dof(sim, a, type, scene->element_span + 3 * (size_t)element);
 }
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */
@@ -219,7 +220,7 @@ static void add_node(dmb_sim *sim, uint32_t a)
 static int32_t transfer_string(dmb_sim *sim, const dmb_sim *from, uint32_t string)
 {
     const dmb_common_string common = dmb_common_string_of(sim->scene, from->scene, string);
-    walk w = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, 0};
+    iterator w = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, 0};
     int32_t status = DMB_OK;
     for (uint32_t i = common.nodes; i-- > 0 && status >= 0;)
         status = transfer_node(sim, common.to + i, from, common.from + i, string, &w);
@@ -232,7 +233,7 @@ static void transfer_body(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint
     double shift[3];
     dmb_vec3_sub(from->scene->reference_position + 3 * (size_t)old, sim->scene->reference_position + 3 * (size_t)node,
                  shift);
-    transfer_full(sim, node, from, old, 0.0, shift);
+    transfer_six_dof(sim, node, from, old, 0.0, shift);
 }
 
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from)

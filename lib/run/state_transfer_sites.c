@@ -30,13 +30,13 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
     if (dmb_scene_has_touch(sim->scene) && dmb_scene_has_touch(from->scene)) DMB_COPY_SITE(site_touch, DMB_TOUCH_SIZE);
 }
 
-static void transfer_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
+static void transfer_axial_torsional_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
     if (dmb_scene_has_bristles(sim->scene)) { /* the law of friction is the same in both */
-        DMB_COPY_SITE(path_bristle, 2);
-        DMB_COPY_SITE(path_sticks, 1);
+        DMB_COPY_SITE(axial_torsional_bristle, 2);
+        DMB_COPY_SITE(axial_torsional_sticks, 1);
     }
-    if (what == DMB_TRANSFER_ALL) DMB_COPY_SITE(path_slip, 2);
+    if (what == DMB_TRANSFER_ALL) DMB_COPY_SITE(axial_torsional_slip, 2);
 }
 
 /* As at time 0: open; where it is on the axis is found when the others are transferred (place_new_sites). */
@@ -54,12 +54,12 @@ static void begin_site(dmb_sim *sim, uint32_t s)
     sim->now.site_sticks[s] = 0;
 }
 
-static void begin_path_site(dmb_sim *sim, uint32_t s)
+static void begin_axial_torsional_site(dmb_sim *sim, uint32_t s)
 {
-    memset(sim->now.path_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    memset(sim->now.axial_torsional_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
     if (!dmb_scene_has_bristles(sim->scene)) return;
-    memset(sim->now.path_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
-    sim->now.path_sticks[s] = 0;
+    memset(sim->now.axial_torsional_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
+    sim->now.axial_torsional_sticks[s] = 0;
 }
 
 /* ---- Which place was it? ----------------------------------------------------------------------------------------- */
@@ -156,16 +156,18 @@ static void transfer_ring_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     }
 }
 
-static void transfer_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+static void transfer_axial_torsional_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     uint32_t k = 0;
-    for (uint32_t s = 0; s < sim->scene->path_site_count; s++) {
+    for (uint32_t s = 0; s < sim->scene->axial_torsional_site_count; s++) {
         double arm;
-        const uint32_t old = old_node(sim->scene, from->scene, sim->scene->path_sites[s].node, &arm);
-        if (what == DMB_TRANSFER_ALL) begin_path_site(sim, s);
-        while (old != DMB_NONE && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
-        if (k < from->scene->path_site_count && from->scene->path_sites[k].node == old)
-            transfer_path_site(sim, s, from, k, what);
+        const uint32_t old = old_node(sim->scene, from->scene, sim->scene->axial_torsional_sites[s].node, &arm);
+        if (what == DMB_TRANSFER_ALL) begin_axial_torsional_site(sim, s);
+        while (old != DMB_NONE && k < from->scene->axial_torsional_site_count &&
+               from->scene->axial_torsional_sites[k].node < old)
+            k++;
+        if (k < from->scene->axial_torsional_site_count && from->scene->axial_torsional_sites[k].node == old)
+            transfer_axial_torsional_site(sim, s, from, k, what);
     }
 }
 
@@ -218,6 +220,6 @@ void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     transfer_inside_sites(sim, from, what);
     transfer_body_sites(sim, from, what);
     transfer_ring_sites(sim, from, what);
-    transfer_path_sites(sim, from, what);
+    transfer_axial_torsional_sites(sim, from, what);
     if (what == DMB_TRANSFER_ALL) place_new_sites(sim);
 }

@@ -113,7 +113,7 @@ void dmb_progress_at(const dmb_sim *sim, double fraction)
     progress->done = fmax(progress->done, progress->from + (progress->to - progress->from) * part);
 }
 
-int32_t dmb_progress_tell(const dmb_sim *sim)
+int32_t dmb_progress_report(const dmb_sim *sim)
 {
     dmb_progress *progress = sim->progress;
     if (!progress->cancelled) progress->cancelled = progress->function(progress->context, progress->done) != 0;
@@ -162,7 +162,7 @@ static void check_step_control(dmb_check *check, const dmb_sim_options *o)
     dmb_check_at_least(check, "assembly_energy", o->assembly_energy, 0.0);
 }
 
-int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message)
+int32_t dmb_sim_options_get(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message)
 {
     dmb_check check = dmb_check_of(message, "sim options", DMB_NONE);
     dmb_sim_options read = dmb_sim_options_default();

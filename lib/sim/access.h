@@ -51,17 +51,17 @@ void dmb_sim_refuse_re_entry(dmb_sim *sim);
  * ones. dmb_progress_end: that status in the place of one that came of it. sim/access */
 void dmb_progress_begin(dmb_sim *sim);
 void dmb_progress_at(const dmb_sim *sim, double fraction);
-int32_t dmb_progress_tell(const dmb_sim *sim);
+int32_t dmb_progress_report(const dmb_sim *sim);
 int32_t dmb_progress_end(const dmb_sim *sim, int32_t status);
 static inline int32_t dmb_progress_pulse(const dmb_sim *sim)
 {
-    return sim->progress->function == NULL ? DMB_OK : dmb_progress_tell(sim);
+    return sim->progress->function == NULL ? DMB_OK : dmb_progress_report(sim);
 }
 
 /* Options of a sim, read from the caller's struct and checked. */
 
 /* Fills out from given (NULL: all defaults). The message names field, value and bound of the first that is refused.
  * The allocator is checked and copied by the caller. Errors: DMB_ERR_STRUCT_SIZE, _VALUE, _NOT_FINITE. */
-int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message);
+int32_t dmb_sim_options_get(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message);
 
 #endif

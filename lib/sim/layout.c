@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "sim/chunks.h"
 #include "sim/own_scene.h"
-#include "sim/parts.h"
 
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
@@ -63,7 +63,7 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->tangent = scene->tangent_count;
     c->dense = scene->dense_count;
     c->square = scene->square_count;
-    c->full = scene->full_count;
+    c->full = scene->six_dof_count;
     c->block = scene->block_count;
     c->kd = any ? 0 : c->diagonal;
     c->kl = any ? 0 : c->link;
@@ -82,7 +82,7 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
 static uint64_t pieces_of(const dmb_scene *scene)
 {
     const uint32_t most = scene->node_count > scene->site_count ? scene->node_count : scene->site_count;
-    const uint32_t pieces = dmb_pieces_of(most);
+    const uint32_t pieces = dmb_chunks_of(most);
     return pieces > 1 ? pieces : 0;
 }
 
@@ -96,14 +96,14 @@ static field_counts counts_of(const dmb_scene *scene)
     c.u = scene->unilateral_count;
     c.ur = c.u > 0 ? scene->row_count : 0;
     c.ns = c.s > 0 || c.u > 0 ? n : 0;
-    c.held = scene->held_count;
+    c.held = scene->constrained_count;
     c.input = scene->input_count;
     c.event = scene->event_count;
     c.f = scene->free_rigid_count;
     c.ro = scene->rotor_count;
     c.chain = scene->chain_count;
     c.piece = pieces_of(scene);
-    c.p = scene->path_site_count;
+    c.p = scene->axial_torsional_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
     c.pf = scene->friction_law.kind != DMB_FRICTION_NONE ? c.p : 0;
@@ -130,7 +130,7 @@ static field_counts counts_of(const dmb_scene *scene)
 static void *take(dmb_arena *arena, uint64_t count, size_t item_size)
 {
     if (count > SIZE_MAX) arena->overflow = true;
-    return dmb_arena_take(arena, (size_t)count, item_size, DMB_ALIGNMENT);
+    return dmb_arena_allocate(arena, (size_t)count, item_size, DMB_ALIGNMENT);
 }
 
 #define DMB_TAKE_WORK(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
@@ -195,7 +195,7 @@ dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
     if (sim == NULL) return NULL;
     sim->scene = scene;
     sim->progress = &sim->own_progress;
-    sim->parts = &sim->own_parts;
+    sim->chunks = &sim->own_chunks;
     sim->block = block;
     sim->block_size = size;
     return sim;

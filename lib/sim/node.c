@@ -8,7 +8,7 @@
 #include "model/model.h"
 #include "model/scene.h"
 
-double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
+double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
 {
     return scene->reference_depth[node] + configuration->displacement[3 * node];
 }
@@ -29,8 +29,8 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
                           const double x[3])
 {
     if (dmb_hole_is_straight(&scene->hole)) return 0;
-    if (scene->layout.size[node] == DMB_NODE_PATH)
-        return dmb_hole_segment_at(&scene->hole, dmb_path_depth(scene, known, node) + arm);
+    if (scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL)
+        return dmb_hole_segment_at(&scene->hole, dmb_axial_torsional_depth(scene, known, node) + arm);
     const uint32_t s = scene->near_contact[node];
     if (s == DMB_NONE) return segment_without_site(scene, known, node, arm, x);
     const dmb_site *site = scene->sites + s;
@@ -41,8 +41,8 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
 
 /* Carried along the hole's axis without twist from its pose at time 0, and turned by `turn` about the axis; without a
  * hole the line through its pose at time 0. */
-static void path_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
-                      double displacement[3])
+static void axial_torsional_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                                 double rotation[9], double displacement[3])
 {
     const double advance = configuration->displacement[3 * node];
     const double spin[3] = {configuration->turn[node], 0.0, 0.0};
@@ -50,7 +50,7 @@ static void path_pose(const dmb_scene *scene, const dmb_configuration *configura
     dmb_so3_exp(spin, NULL, torsion);
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, frame);
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
-        const double from = scene->reference_depth[node], to = dmb_path_depth(scene, configuration, node);
+        const double from = scene->reference_depth[node], to = dmb_axial_torsional_depth(scene, configuration, node);
         double point[3], start[3], carried[9];
         dmb_hole_frame(&scene->hole, from, start, NULL, NULL);
         dmb_hole_frame(&scene->hole, to, point, NULL, NULL);
@@ -68,22 +68,22 @@ static void path_pose(const dmb_scene *scene, const dmb_configuration *configura
 void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
                    double displacement[3])
 {
-    if (scene->layout.size[node] == DMB_NODE_PATH) {
-        path_pose(scene, configuration, node, rotation, displacement);
+    if (scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL) {
+        axial_torsional_pose(scene, configuration, node, rotation, displacement);
         return;
     }
     dmb_quat_to_matrix(configuration->quaternion + 4 * node, rotation);
     dmb_vec3_copy(configuration->displacement + 3 * node, displacement);
 }
 
-void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
-                      const double rotation[9], double columns[12])
+void dmb_axial_torsional_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                                 const double rotation[9], double columns[12])
 {
     for (int i = 0; i < 12; i++) columns[i] = 0.0;
     columns[0] = columns[9] = 1.0;
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
         double point[3], tangent[3], curvature[3], frame_rate[3];
-        dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
+        dmb_hole_frame(&scene->hole, dmb_axial_torsional_depth(scene, configuration, node), point, tangent, curvature);
         dmb_vec3_cross(tangent, curvature, frame_rate);
         dmb_mat3_tvec(rotation, frame_rate, columns + 3);
     }
@@ -93,13 +93,13 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
                      double vector[6])
 {
     const double *row = rows + scene->layout.row[node];
-    if (scene->layout.size[node] == DMB_NODE_FULL) {
+    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) {
         dmb_vec6_copy(row, vector);
         return;
     }
     double rotation[9], displacement[3], columns[12];
     dmb_node_pose(scene, configuration, node, rotation, displacement);
-    dmb_path_columns(scene, configuration, node, rotation, columns);
+    dmb_axial_torsional_columns(scene, configuration, node, rotation, columns);
     for (int i = 0; i < 6; i++) vector[i] = columns[i] * row[0] + columns[6 + i] * row[1];
 }
 
@@ -108,11 +108,11 @@ int dmb_is_quasi_static(const dmb_configuration *configuration)
     return configuration->friction_slip[0] != 0.0 || configuration->friction_slip[1] != 0.0;
 }
 
-uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node)
+uint32_t dmb_count_six_dof_nodes(const dmb_scene *scene, uint32_t node)
 {
     uint32_t end = node;
-    if (scene->row_count == DMB_NODE_FULL * scene->node_count) return scene->node_count - node;
-    while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_FULL) end++;
+    if (scene->row_count == DMB_NODE_SIX_DOF * scene->node_count) return scene->node_count - node;
+    while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_SIX_DOF) end++;
     return end - node;
 }
 
@@ -188,9 +188,9 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part)
     return callback < scene->callback_count ? scene->callbacks[callback].constraint : DMB_NONE;
 }
 
-uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
+uint32_t dmb_owner_of_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
-    return dmb_held_ring(scene, from, text);
+    return dmb_supported_ring(scene, from, text);
 }
 
 int dmb_coupling_holds(const dmb_sim *sim, const dmb_scene_coupling *coupling)

@@ -19,10 +19,10 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
 int dmb_is_quasi_static(const dmb_configuration *configuration);
 /* Columns of the body-frame motion of a PATH node per unit of its two rows (eq:kinematics.path-velocity), shape (2, 6);
  * rotation is its present one. */
-void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
-                      const double rotation[9], double columns[12]);
+void dmb_axial_torsional_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                                 const double rotation[9], double columns[12]);
 /* [m] measured depth of a PATH node. */
-double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
+double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
 /* Arc of the hole's axis at which the search for the point of it nearest to x starts (dmb_hole_project); x [m] is on or
  * beside the section of a node that is `arm` [m] along body x from it. `known`: configuration whose contact points are
  * found, which follow the axis from step to step: a section is as far from the nearest one as described. Without any
@@ -31,15 +31,15 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
                           const double x[3]);
 
 /* The number of FULL nodes that follow one another from this one on; 0: it is a PATH node. */
-uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node);
-static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
+uint32_t dmb_count_six_dof_nodes(const dmb_scene *scene, uint32_t node);
+static inline uint32_t dmb_six_dof_nodes_at(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_FULL ? dmb_count_full_nodes(scene, node) : 0;
+    return scene->layout.size[node] == DMB_NODE_SIX_DOF ? dmb_count_six_dof_nodes(scene, node) : 0;
 }
 /* The same, of those before `end`. */
-static inline uint32_t dmb_full_nodes_before(const dmb_scene *scene, uint32_t node, uint32_t end)
+static inline uint32_t dmb_six_dof_nodes_before(const dmb_scene *scene, uint32_t node, uint32_t end)
 {
-    const uint32_t count = dmb_full_nodes_at(scene, node);
+    const uint32_t count = dmb_six_dof_nodes_at(scene, node);
     return count < end - node ? count : end - node;
 }
 /* Element before (side 0) or after (side 1) a node; DMB_NONE at the ends of its chain. */
@@ -56,8 +56,8 @@ typedef struct dmb_owner {
 
 dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node);
 dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
-/* The next body or bit whose ring never touches the wall, and what to say of it (model/held_ring). */
-uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
+/* The next body or bit whose ring never touches the wall, and what to say of it (model/supported_ring). */
+uint32_t dmb_owner_of_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 /* "drive 1 (pump)", "load 0". Returns text->text. */
 const char *dmb_string_text(const dmb_scene *scene, uint32_t string, dmb_message *text);
 /* 1 unless a joint of it is open. */

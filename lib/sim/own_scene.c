@@ -21,7 +21,7 @@ dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
     to->segments = DMB_ARENA_ARRAY(arena, dmb_segment, inputs);
     to->references = DMB_ARENA_ARRAY(arena, dmb_reference, inputs);
     if (scene->has_density_input) {
-        to->types = (dmb_element_type *)dmb_arena_take(arena, scene->type_count, sizeof *to->types, DMB_ALIGNMENT);
+        to->types = (dmb_element_type *)dmb_arena_allocate(arena, scene->type_count, sizeof *to->types, DMB_ALIGNMENT);
         to->weight_mass = DOUBLES(arena, n);
         to->weight_moment = DOUBLES(arena, 3 * n);
     }

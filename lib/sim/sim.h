@@ -2,15 +2,15 @@
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
  * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
- * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; pf = p
- * with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u = unilateral_count, ur = r
- * where there are any, else 0; ns = n where there are contact points or any of those, else 0; piece = most pieces of
- * one run (sim/parts); k = bit_count, act = actuator_count, delay = delay_count, load = load_count, force =
- * force_count, stuck = stuck_count, cut = stations at which cutters widen the hole, held = held_count, input =
- * input_count, event = event_count, history = history_count, diagonal and link = lengths of block storage; j =
- * joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with
- * joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced
- * system. */
+ * axial_torsional_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else
+ * 0; pf = p with friction, else 0; law = law_count; st = s with damping that jumps at touch, else 0; u =
+ * unilateral_count, ur = r where there are any, else 0; ns = n where there are contact points or any of those, else 0;
+ * piece = most pieces of one run (sim/chunks); k = bit_count, act = actuator_count, delay = delay_count, load =
+ * load_count, force = force_count, stuck = stuck_count, cut = stations at which cutters widen the hole, held =
+ * constrained_count, input = input_count, event = event_count, history = history_count, diagonal and link = lengths of
+ * block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and
+ * for a scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots =
+ * of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -23,7 +23,7 @@
  * X(type, name, count, check) */
 /* clang-format off */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
-    /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
+    /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/trial_step, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
        by system/constrain/cluster_projection, system/constrain/cluster_assembly, in axes that do not spin with them   \
        by system/constrain/rotor; at the start and at jumps by                                                         \
@@ -48,10 +48,10 @@
     X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */  \
     X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall\
                                             acts as at in a static state; 0: those of the nodes */                    \
-    X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
-    X(double, path_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps system/assemble/ledger_work */ \
-    X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
-    X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
+    X(double, axial_torsional_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
+    X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps system/assemble/ledger_work */ \
+    X(double, axial_torsional_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
+    X(int32_t, axial_torsional_sticks, pb, FLAGS)            /* [-] */                                                           \
     /* system/assemble/drives, from time functions and velocity: */                                                       \
     X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
     X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
@@ -88,10 +88,10 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/attempt, integrator/step, system/start; \
+    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/trial_step, integrator/step, system/start; \
                                      powers: system/assemble/ledger */                                                 \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/ledger */                        \
-    X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/attempt, integrator/step, system/start, \
+    X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/trial_step, integrator/step, system/start, \
                                               system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
                                               system/constrain/cluster */                                              \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
@@ -99,7 +99,7 @@
                                          system/assemble/bounces */                                                  \
     X(uint8_t, site_age, s, AGES)     /* [-] steps since touch, DMB_SITE_OWN more: integrated by itself:               \
                                          system/bounce_end, system/assemble/bounces */                                 \
-    X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
+    X(double, support_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                 \
     X(double, drive_input, d, INPUTS) /* [unit of the time function] value set by the caller; NaN: the time function:         \
@@ -170,7 +170,7 @@
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
                                 analysis/static/static_newton; without free rotations: analysis/static/static_spin;    \
-                                pulls and stretches: analysis/static/static_lay */                                     \
+                                pulls and stretches: analysis/static/static_guess */                                     \
     X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin   \
                                      with: system/assemble/inertia_of_change */                                     \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
@@ -178,12 +178,12 @@
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
     X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force  \
                                   in the history of the step; else 0: system/jump */                                  \
-    X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/follow */  \
+    X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/companion */  \
     X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces */   \
     X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,            \
-                                integrator/follow */                                                                  \
+                                integrator/companion */                                                                  \
     X(uint8_t, site_presses, s) /* 1: with a force > 0 in the trial: system/assemble/wall_contact */                   \
-    X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/follow */                       \
+    X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/companion */                       \
     X(double, bounce_own, u) /* [N, N m] force of the step's own integration: system/assemble/bounces */              \
     X(double, bounce_warmth, u) /* [W] into its damper: system/assemble/bounces */                                    \
     X(uint8_t, bounce_stays, u) /* 1: the next step does so too: system/bounce_end */                                 \
@@ -197,14 +197,14 @@
     X(double, stiffness_upper, link)                                                                                  \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */         \
     X(dmb_seam, seam, piece)            /* of elements made in pieces: system/assemble/elements */                    \
-    X(dmb_piece_sums, piece_sums, piece) /* system/assemble/elements, system/assemble/nodes,                          \
+    X(dmb_chunk_sums, chunk_sums, piece) /* system/assemble/elements, system/assemble/nodes,                          \
                                             system/assemble/wall_contact */                                          \
-    X(dmb_piece_squares, piece_squares, piece) /* system/solve/solve */                                               \
+    X(dmb_chunk_squares, chunk_squares, piece) /* system/solve/solve */                                               \
     X(int64_t, end_singular, 2 * chain) /* first singular block of both ends of chains that are made in parts, or -1: \
                                            system/solve/solve */                                                      \
     X(uint8_t, pivot, r)                /* LU factors only */                                                         \
     X(int32_t, factors, 1)              /* DMB_FACTORS_...: those at hand: system/solve/solve, integrator/newton,     \
-                                           integrator/attempt */                                                      \
+                                           integrator/trial_step */                                                      \
     /* integrator/step_motion, system/constrain/cluster_projection: */                                                \
     X(double, raw_velocity, raw) /* of the trial before it is projected onto the constraints */                       \
     X(double, raw_acceleration, raw)                                                                                  \
@@ -269,14 +269,14 @@ enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 
 /* State of the equations of joints and of the reduced system at present. */
 typedef struct dmb_reduced_mode {
-    int32_t bordered; /* 1: the reduced system made last is over all coordinates and multipliers, else reduced */
-    uint32_t row;     /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
-    uint32_t force;   /* 1 + number of the caller's force that failed last; 0: none */
-    int32_t metric;   /* 1: sparse_value has factors of the rows at hand, for projections */
-    int32_t weak;     /* 1: with rows that those before nearly hold */
-    double violation; /* its violation */
-    double length;    /* [m] longest length of the chains that joints connect: what moves are long or short by */
-    double size;      /* [m] of the numbers that positions are the difference of, at the start */
+    int32_t bordered;       /* 1: the reduced system made last is over all coordinates and multipliers, else reduced */
+    uint32_t row;           /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
+    uint32_t force;         /* 1 + number of the caller's force that failed last; 0: none */
+    int32_t metric;         /* 1: sparse_value has factors of the rows at hand, for projections */
+    int32_t near_redundant; /* 1: with rows that those before nearly hold */
+    double violation;       /* its violation */
+    double length;          /* [m] longest length of the chains that joints connect: what moves are long or short by */
+    double size;            /* [m] of the numbers that positions are the difference of, at the start */
 } dmb_reduced_mode;
 
 typedef struct dmb_clock {
@@ -382,25 +382,25 @@ typedef struct dmb_input_log {
     uint32_t reserved;
 } dmb_input_log;
 
-/* Sums over a piece of a run (sim/parts), and its element that failed; DMB_NONE: none did. */
-typedef struct dmb_piece_sums {
+/* Sums over a piece of a run (sim/chunks), and its element that failed; DMB_NONE: none did. */
+typedef struct dmb_chunk_sums {
     double rounding;                                      /* [N2] */
     double potential, damping, inertia, impact, friction; /* [W] */
     uint32_t failed, reserved;
-} dmb_piece_sums;
+} dmb_chunk_sums;
 
 /* Sums of squares of the residual and of its terms, side by side (kernels->squares). */
-typedef struct dmb_piece_squares {
+typedef struct dmb_chunk_squares {
     double rest[DMB_SQUARES], all[DMB_SQUARES];
-} dmb_piece_squares;
+} dmb_chunk_squares;
 
 /* Makes first .. end - 1 of something. */
 typedef void (*dmb_range_fn)(void *work, uint32_t first, uint32_t end);
 
-enum { DMB_PARALLEL_MAX = 64, DMB_PART_DUE = 0, DMB_PART_BEGUN = 1, DMB_PART_DONE = 2 };
+enum { DMB_PARALLEL_MAX = 64, DMB_CHUNK_DUE = 0, DMB_CHUNK_BEGUN = 1, DMB_CHUNK_DONE = 2 };
 
-/* Work that is being made in parts by threads of the caller's; neither saved nor hashed. sim/parts */
-typedef struct dmb_parts {
+/* Work that is being made in parts by threads of the caller's; neither saved nor hashed. sim/chunks */
+typedef struct dmb_chunks {
     int32_t open;   /* 1: a step is under way that may be made in parts */
     int32_t failed; /* 1: the caller's function did not run all parts, or told that it failed */
     int32_t status; /* what it returned then, and how many parts it ran of those asked for */
@@ -410,14 +410,14 @@ typedef struct dmb_parts {
     dmb_range_fn make;
     void *work;
     uint8_t mark[DMB_PARALLEL_MAX]; /* DMB_PART_... */
-} dmb_parts;
+} dmb_chunks;
 
-struct dmb_attempt;
+struct dmb_trial_step;
 
 /* One who is told of each step before it is accepted, and may refuse it: analysis/sensitivity. Neither saved nor
  * hashed. */
 typedef struct dmb_follower {
-    int32_t (*follow)(void *context, const struct dmb_attempt *attempt);
+    int32_t (*follow)(void *context, const struct dmb_trial_step *trial_step);
     void (*open)(void *context); /* contacts open: of the step tried before it is taken again, sim->increment */
     void *context;
 } dmb_follower;
@@ -440,8 +440,8 @@ struct dmb_sim {
     struct dmb_own_scene *own; /* sim/own_scene: the scene of a sim with inputs; NULL: it is the model's */
     dmb_input_log input_log;
     const dmb_follower *follower; /* NULL: nobody */
-    dmb_parts *parts;             /* own_parts: a step of a sim that is const writes there what its threads are at */
-    dmb_parts own_parts;
+    dmb_chunks *chunks;           /* own_chunks: a step of a sim that is const writes there what its threads are at */
+    dmb_chunks own_chunks;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_FACTOR_LIST(DMB_FIELD)

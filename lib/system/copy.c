@@ -17,7 +17,7 @@ static int32_t choose(dmb_sim *copy)
     evaluation.sim = copy;
     evaluation.time = copy->clock->time;
     evaluation.load_factor = 1.0;
-    const int32_t status = dmb_clusters_gather(&evaluation);
+    const int32_t status = dmb_clusters_assemble(&evaluation);
     if (status >= 0) dmb_clusters_choose(copy);
     return status;
 }

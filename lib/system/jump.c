@@ -213,11 +213,11 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    int32_t status = dmb_clusters_gather(evaluation);
+    int32_t status = dmb_clusters_assemble(evaluation);
     for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++)
         if (holds_anew(scene, scene->constraints + i, j, was)) status = check_rows(sim, scene->constraints + i);
     if (status >= 0) status = dmb_joint_refuse_flip(sim, j);
-    return status < 0 ? status : dmb_joints_refuse_edges(sim, 0, evaluation->time);
+    return status < 0 ? status : dmb_joints_refuse_gimbal_singularity(sim, 0, evaluation->time);
 }
 
 /* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy

@@ -31,9 +31,9 @@ static void described_pose(dmb_sim *sim)
 static void project_speeds(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t size = scene->layout.size[scene->held_node[i]], c = scene->held_component[i];
-        const uint32_t row = scene->layout.row[scene->held_node[i]] + c;
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t size = scene->layout.size[scene->constrained_node[i]], c = scene->constrained_component[i];
+        const uint32_t row = scene->layout.row[scene->constrained_node[i]] + c;
         const double target = sim->trial.velocity[row];
         double *most = sim->counters->projection + (2 * c < size ? 0 : 1);
         *most = fmax(*most, fabs(target - sim->now.velocity[row]));
@@ -42,11 +42,11 @@ static void project_speeds(dmb_sim *sim)
 }
 
 /* Held speeds of the present time into trial.velocity, 0 where no drive moves them. */
-static int32_t held_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
+static int32_t constrained_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t row = scene->layout.row[scene->held_node[i]] + scene->held_component[i];
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t row = scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i];
         sim->trial.velocity[row] = sim->trial.acceleration[row] = sim->trial.pseudo_acceleration[row] = 0.0;
     }
     return dmb_system_prescribe(evaluation);
@@ -120,7 +120,7 @@ static int32_t settle_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
 static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     if (sim->scene->cluster_count == 0) return DMB_OK;
-    const int32_t status = dmb_clusters_gather(evaluation);
+    const int32_t status = dmb_clusters_assemble(evaluation);
     if (status >= 0) dmb_clusters_choose(sim);
     return status;
 }
@@ -132,7 +132,7 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
-    dmb_system_take_reactions(sim, &sim->trial);
+    dmb_system_get_reactions(sim, &sim->trial);
     return DMB_OK;
 }
 
@@ -141,14 +141,14 @@ static int32_t present(dmb_sim *sim, dmb_evaluation *evaluation)
     set_up(sim, evaluation);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->trial.acceleration, 0, sim->scene->row_count * sizeof(double));
-    return held_speeds(sim, evaluation);
+    return constrained_speeds(sim, evaluation);
 }
 
 int32_t dmb_system_restart(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
     int32_t status = present(sim, &evaluation);
-    if (status >= 0 && sim->scene->joint_count) status = dmb_joints_refuse_edges(sim, 0, evaluation.time);
+    if (status >= 0 && sim->scene->joint_count) status = dmb_joints_refuse_gimbal_singularity(sim, 0, evaluation.time);
     if (status >= 0) {
         dmb_drives_take_targets(sim);
         project_speeds(sim);

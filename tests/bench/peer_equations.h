@@ -55,7 +55,7 @@ typedef struct equations {
     double *scaled; /* shape (node, 13) */
 } equations;
 
-static int is_held(const dmb_scene *compiled, uint32_t node)
+static int is_constrained(const dmb_scene *compiled, uint32_t node)
 {
     return !compiled->solved_row[compiled->layout.row[node]];
 }
@@ -131,7 +131,7 @@ static void equations_start(const equations *e, double *y, double *dy)
         dmb_vec3_copy(now->displacement + 3 * (size_t)i, y + PEER_U);
         dmb_quat_copy(now->quaternion + 4 * (size_t)i, y + PEER_Q);
         dmb_vec6_copy(now->velocity + row, y + PEER_V);
-        if (is_held(e->scene, i)) continue;
+        if (is_constrained(e->scene, i)) continue;
         dmb_vec6_copy(now->acceleration + row, dy + PEER_V);
         kinematics(y, dy);
     }
@@ -152,8 +152,8 @@ static int32_t put_trial(equations *e, double time, const double *y, const doubl
 {
     dmb_sim *sim = e->sim;
     const dmb_scene *compiled = e->scene;
-    for (uint32_t i = 0; i < compiled->held_count; i++) {
-        const uint32_t row = compiled->layout.row[compiled->held_node[i]] + compiled->held_component[i];
+    for (uint32_t i = 0; i < compiled->constrained_count; i++) {
+        const uint32_t row = compiled->layout.row[compiled->constrained_node[i]] + compiled->constrained_component[i];
         sim->trial.velocity[row] = sim->trial.acceleration[row] = sim->increment[row] = 0.0;
     }
     e->evaluation.time = time;
@@ -161,7 +161,7 @@ static int32_t put_trial(equations *e, double time, const double *y, const doubl
     const int32_t status = dmb_system_prescribe(&e->evaluation);
     for (uint32_t i = 0; i < compiled->node_count; i++, y += PEER_NODE, dy += PEER_NODE) {
         const uint32_t row = compiled->layout.row[i];
-        if (is_held(compiled, i)) {
+        if (is_constrained(compiled, i)) {
             put_held_node(sim, i);
             continue;
         }
@@ -184,7 +184,7 @@ static int32_t equations_residual(equations *e, double time, const double *y, co
     for (uint32_t i = 0; i < e->scene->node_count; i++, y += PEER_NODE, dy += PEER_NODE, F += PEER_NODE) {
         double k[7];
         memcpy(F, dy, PEER_NODE * sizeof(double)); /* a held node: y' = 0 */
-        if (is_held(e->scene, i)) continue;
+        if (is_constrained(e->scene, i)) continue;
         kinematics(y, k);
         for (int j = 0; j < 7; j++) F[j] -= k[j];
         dmb_vec6_copy(e->sim->residual + e->scene->layout.row[i], F + PEER_V);
@@ -292,7 +292,7 @@ static int32_t equations_factor(equations *e, double time, double rate, const do
         turning_of(rate, y + (size_t)PEER_NODE * i + PEER_V, e->turning + 36 * (size_t)i);
     for (uint32_t i = 0; i < nodes; i++) reduce_node(e, i);
     for (uint32_t i = 0; i < nodes; i++)
-        if (is_held(e->scene, i)) hold_node(e, i);
+        if (is_constrained(e->scene, i)) hold_node(e, i);
     dmb_block_matrix matrix = reduced_matrix(e->sim);
     return dmb_block_factor(&e->scene->layout, &matrix, 0, nodes) < 0 ? DMB_OK : DMB_ERR_SINGULAR;
 }
@@ -340,7 +340,7 @@ static void equations_solve(equations *e, const double *b, double *x)
     double eta[4];
     for (uint32_t i = 0; i < nodes; i++) {
         const size_t at = (size_t)PEER_NODE * i;
-        if (is_held(e->scene, i))
+        if (is_constrained(e->scene, i))
             memset(e->shift + layout->row[i], 0, 6 * sizeof(double));
         else
             pose_change(e->rate, e->factored_pose + at, b + at, NULL, e->shift + layout->row[i], eta);
@@ -349,11 +349,11 @@ static void equations_solve(equations *e, const double *b, double *x)
     for (uint32_t i = 0; i < nodes; i++)
         for (uint32_t k = 0; k < 6; k++)
             e->force[layout->row[i] + k] =
-                is_held(e->scene, i) ? 0.0 : b[PEER_NODE * i + PEER_V + k] - e->force[layout->row[i] + k];
+                is_constrained(e->scene, i) ? 0.0 : b[PEER_NODE * i + PEER_V + k] - e->force[layout->row[i] + k];
     dmb_block_solve(layout, &matrix, 0, nodes, e->force);
     for (uint32_t i = 0; i < nodes; i++) {
         const size_t at = (size_t)PEER_NODE * i;
-        if (!is_held(e->scene, i))
+        if (!is_constrained(e->scene, i))
             unreduce_node(e, e->factored_pose + at, b + at, e->force + layout->row[i], x + at);
         else
             for (int k = 0; k < PEER_NODE; k++) x[at + (size_t)k] = b[at + (size_t)k] / e->rate;
@@ -394,7 +394,7 @@ static int32_t equations_mass(equations *e, const double *y)
         memcpy(kinds[k]->lower, sim->stiffness_lower, link * sizeof(double));
         memcpy(kinds[k]->upper, sim->stiffness_upper, link * sizeof(double));
         for (uint32_t i = 0; i < nodes; i++)
-            if (is_held(e->scene, i)) hold_node(e, i);
+            if (is_constrained(e->scene, i)) hold_node(e, i);
     }
     if (status < 0) return status;
     return dmb_block_factor(layout, &e->mass_factors, 0, nodes) < 0 ? DMB_OK : DMB_ERR_SINGULAR;
@@ -411,11 +411,11 @@ static int32_t equations_rates(equations *e, double time, const double *y, doubl
     if (status < 0) return status;
     for (uint32_t i = 0; i < nodes; i++)
         for (uint32_t k = 0; k < 6; k++)
-            e->force[layout->row[i] + k] = is_held(e->scene, i) ? 0.0 : -e->sim->residual[layout->row[i] + k];
+            e->force[layout->row[i] + k] = is_constrained(e->scene, i) ? 0.0 : -e->sim->residual[layout->row[i] + k];
     dmb_block_solve(layout, &e->mass_factors, 0, nodes, e->force);
     for (uint32_t i = 0; i < nodes; i++, y += PEER_NODE, f += PEER_NODE) {
         memset(f, 0, PEER_NODE * sizeof(double));
-        if (is_held(e->scene, i)) continue;
+        if (is_constrained(e->scene, i)) continue;
         kinematics(y, f);
         dmb_vec6_copy(e->force + layout->row[i], f + PEER_V);
     }
@@ -433,7 +433,8 @@ static void equations_solve_explicit(equations *e, const double *b, double *x)
     }
     dmb_block_multiply(layout, &e->mass, 0, nodes, e->shift, e->force);
     for (uint32_t i = 0; i < nodes; i++)
-        if (!is_held(e->scene, i)) dmb_vec6_copy(e->force + layout->row[i], e->scaled + (size_t)PEER_NODE * i + PEER_V);
+        if (!is_constrained(e->scene, i))
+            dmb_vec6_copy(e->force + layout->row[i], e->scaled + (size_t)PEER_NODE * i + PEER_V);
     equations_solve(e, e->scaled, x);
 }
 

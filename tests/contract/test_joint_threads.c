@@ -58,7 +58,7 @@ static void *work(void *context)
     return NULL;
 }
 
-static job job_of(int i, pthread_barrier_t *start)
+static job args_of(int i, pthread_barrier_t *start)
 {
     job j;
     memset(&j, 0, sizeof j);
@@ -76,7 +76,7 @@ static void sims_of_one_model_are_as_alone(void **state)
     joint_scene_open(&scene, NULL);
     assert_int_equal(pthread_barrier_init(&start, NULL, THREADS), 0);
     for (int i = 0; i < THREADS; i++) {
-        alone[i] = jobs[i] = job_of(i, &start);
+        alone[i] = jobs[i] = args_of(i, &start);
         run(&alone[i]);
     }
     for (int i = 0; i < THREADS; i++) assert_int_equal(pthread_create(&jobs[i].thread, NULL, work, &jobs[i]), 0);

@@ -3,8 +3,8 @@
  * not run the parts as they are told. By threads: test_parallel_threads.c. */
 #include "kernel/kernels.h"
 #include "parallel_scene.h"
+#include "sim/chunks.h"
 #include "sim/layout.h"
-#include "sim/parts.h"
 
 /* ---- Functions that do something else ---------------------------------------------------------------------------- */
 
@@ -200,7 +200,7 @@ static void shorten_runs(dmb_scene *scene)
     enum { RUNS = 8 };
     static dmb_batch runs[RUNS];
     const dmb_batch whole = scene->batches[0];
-    assert_true(scene->batch_count == 1 && whole.count >= 2000 && whole.count / RUNS < DMB_PIECES_FROM / 2);
+    assert_true(scene->batch_count == 1 && whole.count >= 2000 && whole.count / RUNS < DMB_CHUNKS_FROM / 2);
     for (uint32_t i = 0; i < RUNS; i++) {
         runs[i] = whole;
         runs[i].first = whole.first + whole.count * i / RUNS;

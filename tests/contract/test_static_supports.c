@@ -74,7 +74,7 @@ static void describe_feed(dmb_model *model, dmb_id string, int32_t support)
 }
 
 /* The rig end's way and turn, in the axes that it is described in, where the support holds them. */
-static void check_held(const dmb_sim *sim, dmb_id string, const dmb_pose *before, int32_t held)
+static void check_constrained(const dmb_sim *sim, dmb_id string, const dmb_pose *before, int32_t held)
 {
     dmb_pose pose = dmb_pose_default();
     must(dmb_query_pose(sim, dmb_station(string, 0, 0.0), &pose));
@@ -107,7 +107,7 @@ static int run(int32_t support, int askew, int kind)
     options.slip_axial = kind == SLIDING || kind == BOTH ? -0.1 : 0.0;
     options.slip_rotation = kind == TURNING || kind == BOTH ? 10.0 : 0.0;
     const int32_t status = dmb_analysis_static(sim, &options, NULL);
-    if (status >= 0) check_held(sim, string, &before, ~support);
+    if (status >= 0) check_constrained(sim, string, &before, ~support);
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);
     return status >= 0;

@@ -85,7 +85,7 @@ static void factors_that_pull_at_what_is_held(void **state)
     subject s = open_cantilever();
     const dmb_scene *scene = s.sim->scene;
     const uint32_t n = scene->node_count;
-    assert_true(scene->site_count == 0 && scene->held_count == 6 && got(&s, "reuse", 0) > 0.0);
+    assert_true(scene->site_count == 0 && scene->constrained_count == 6 && got(&s, "reuse", 0) > 0.0);
     for (size_t which = 0; which < 3; which++)
         for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
             const uint32_t count = which == 0 ? scene->layout.diag[n] : scene->layout.link[n - 1];
@@ -94,9 +94,10 @@ static void factors_that_pull_at_what_is_held(void **state)
             if (restore(&s) < 0) continue; /* refused is as good */
             const dmb_configuration *now = &s.sim->now;
             for (int i = 0; i < 5; i++) assert_int_equal(dmb_sim_step(s.sim, 2e-4, NULL), DMB_OK);
-            for (uint32_t i = 0; i < scene->held_count; i++)
-                if (now->velocity[dmb_held_row(scene, i)] != 0.0 || now->acceleration[dmb_held_row(scene, i)] != 0.0)
-                    fail_msg("%s + %g: held row %u moves", fields[which], values[k], dmb_held_row(scene, i));
+            for (uint32_t i = 0; i < scene->constrained_count; i++)
+                if (now->velocity[dmb_constrained_row(scene, i)] != 0.0 ||
+                    now->acceleration[dmb_constrained_row(scene, i)] != 0.0)
+                    fail_msg("%s + %g: held row %u moves", fields[which], values[k], dmb_constrained_row(scene, i));
             for (int i = 0; i < 3; i++)
                 if (now->displacement[i] != 0.0)
                     fail_msg("%s + %g: what is held is displaced by %g", fields[which], values[k],

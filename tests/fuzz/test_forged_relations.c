@@ -69,7 +69,7 @@ static void held_rows_stand_still(void **state)
 {
     (void)state;
     subject s = open_supportd();
-    const uint32_t row = dmb_held_row(s.sim->scene, 0);
+    const uint32_t row = dmb_constrained_row(s.sim->scene, 0);
     put(&s, "velocity", row, 0.1);
     refused(&s, "velocity");
     put(&s, "acceleration", row, -1.0);

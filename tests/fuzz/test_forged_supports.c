@@ -126,7 +126,7 @@ static void strings_stay_where_they_are_held(void **state)
     assert_int_equal(restore(&s), DMB_OK);
     close_subject(&s);
     s = open_string(DMB_PIPE_AXIAL_TORSIONAL);
-    assert_int_equal(s.sim->scene->layout.size[0], DMB_NODE_PATH);
+    assert_int_equal(s.sim->scene->layout.size[0], DMB_NODE_AXIAL_TORSIONAL);
     put(&s, "displacement", 0, 1e-4);
     refused(&s, "displacement");
     put(&s, "turn", 0, 0.1);

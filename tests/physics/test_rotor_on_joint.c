@@ -147,7 +147,7 @@ static course run(int kind, double per_step, double radius)
     return c;
 }
 
-static void check_course(int kind, double per_step, double radius)
+static void check_convergence(int kind, double per_step, double radius)
 {
     const course c = run(kind, per_step, radius);
     const double p = precession_of(kind), ph = p * per_step / SPIN;
@@ -165,8 +165,8 @@ static void precession_does_not_depend_on_the_spin_a_step(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (double radius = 0.8; radius < 1.1; radius += 0.2)
-            for (int i = 0; i < 5; i++) check_course(kind, (const double[]){0.1, 0.3, 1.0, 2.0, 3.0}[i], radius);
-    check_course(IN_CARRIER, 0.01, 0.8);
+            for (int i = 0; i < 5; i++) check_convergence(kind, (const double[]){0.1, 0.3, 1.0, 2.0, 3.0}[i], radius);
+    check_convergence(IN_CARRIER, 0.01, 0.8);
 }
 
 static void precession_is_of_second_order(void **state)

@@ -23,7 +23,7 @@
 DMB_DECLARE_STRUCT(dmb_buckling_options)
 DMB_DECLARE_STRUCT(dmb_buckling_info)
 
-static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
+static int32_t read_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NONE);
     (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
@@ -208,7 +208,7 @@ static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckli
     const int32_t judged = flutter.off ? DMB_OK : dmb_flutter_of_pose(&flutter, buckling->work, to, through);
     dmb_flutter_conclude(&flutter);
     dmb_flutter_close(&flutter);
-    return judged < 0 ? judged : dmb_buckling_tell_flutter(buckling, sim, &flutter.message, status);
+    return judged < 0 ? judged : dmb_buckling_report_flutter(buckling, sim, &flutter.message, status);
 }
 
 /* Flutter of the present state. Beyond it flutter is not assessed without path following; the result already has a
@@ -262,7 +262,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
 {
     dmb_buckling_options taken;
     dmb_load_pattern pattern;
-    int32_t status = take_options(sim, options, &taken);
+    int32_t status = read_options(sim, options, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "buckling");
     if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
     if (status < 0) return status;

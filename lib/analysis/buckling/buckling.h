@@ -160,7 +160,7 @@ typedef struct dmb_pencil {
     uint32_t reserved;
     uint8_t *pivot;          /* (rows) */
     uint32_t *reduced_pivot; /* (rows of the pattern) */
-    double *room;            /* workspace (square of the largest cluster) */
+    double *workspace;       /* workspace (square of the largest cluster) */
     double *image;           /* (unknowns) G x */
 } dmb_pencil;
 
@@ -210,9 +210,9 @@ void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x);
  * W^-T A_trial W^-1. */
 
 typedef struct dmb_frames {
-    double *turn;    /* (values of the pattern) W^-1 of each block, at the position of its diagonal in the pattern */
-    double *room;    /* workspace (2, square of the largest block) */
-    uint32_t *pivot; /* (rows of the largest block) */
+    double *turn;      /* (values of the pattern) W^-1 of each block, at the position of its diagonal in the pattern */
+    double *workspace; /* workspace (2, square of the largest block) */
+    uint32_t *pivot;   /* (rows of the largest block) */
 } dmb_frames;
 
 void dmb_frames_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_frames *frames);
@@ -253,7 +253,7 @@ int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_b
 int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message);
 /* Final status, with a message in sim: DMB_NOTE_FLUTTER if a mode grows along the path, DMB_NOTE_INCOMPLETE if growth
  * was not assessed; else `status`. `why`: reason if modes could not be computed. */
-int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status);
+int32_t dmb_buckling_report_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status);
 /* Scales a shape to a largest displacement of 1 m, or rotation of 1 rad if nothing else moves; its largest component is
  * positive. */
 void dmb_buckling_normalise(const dmb_scene *scene, double *x);

@@ -326,7 +326,7 @@ static int32_t walk(follower *f)
     return say_lost(f, DMB_ERR_NO_CONVERGENCE);
 }
 
-int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status)
+int32_t dmb_buckling_report_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status)
 {
     const dmb_buckling_info *info = &buckling->info;
     if (info->stiffness != DMB_STIFFNESS_UNSYMMETRIC || info->flutter == DMB_FLUTTER_NONE) return status;
@@ -460,5 +460,5 @@ int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buck
     }
     if (status >= 0 && buckling->count > 0) buckling->info.sinusoidal_share = dmb_dip_sinusoidal_share(buckling->work);
     dmb_flutter_close(&f.flutter);
-    return status < 0 ? status : dmb_buckling_tell_flutter(buckling, sim, &f.flutter.message, status);
+    return status < 0 ? status : dmb_buckling_report_flutter(buckling, sim, &f.flutter.message, status);
 }

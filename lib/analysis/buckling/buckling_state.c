@@ -38,7 +38,7 @@ static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
     const uint8_t *solved = sim->scene->solved_row + sim->scene->layout.row[node];
     double now[9], trial[9], Q[9], part[9];
     for (uint32_t i = 0; i < size * size; i++) T[i] = i % (size + 1) == 0;
-    if (size != DMB_NODE_FULL) return;
+    if (size != DMB_NODE_SIX_DOF) return;
     dmb_quat_to_matrix(sim->now.quaternion + 4 * (size_t)node, now);
     dmb_quat_to_matrix(sim->trial.quaternion + 4 * (size_t)node, trial);
     for (uint32_t i = 0; i < 3; i++)
@@ -59,7 +59,7 @@ typedef struct square {
 } square;
 
 /* A (n x m) <- X A Y^T, X (n x n), Y (m x m); transposed: X^T A Y. room: workspace of n m */
-static void congruence(square left, square right, int transposed, double *A, double *room)
+static void congruence(square left, square right, int transposed, double *A, double *workspace)
 {
     const uint32_t n = left.size, m = right.size;
     const double *X = left.values, *Y = right.values;
@@ -68,13 +68,13 @@ static void congruence(square left, square right, int transposed, double *A, dou
             double sum = 0.0;
             for (uint32_t k = 0; k < n; k++)
                 sum += (transposed ? X[(size_t)n * k + i] : X[(size_t)n * i + k]) * A[(size_t)m * k + j];
-            room[(size_t)m * i + j] = sum;
+            workspace[(size_t)m * i + j] = sum;
         }
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < m; j++) {
             double sum = 0.0;
             for (uint32_t k = 0; k < m; k++)
-                sum += room[(size_t)m * i + k] * (transposed ? Y[(size_t)m * k + j] : Y[(size_t)m * j + k]);
+                sum += workspace[(size_t)m * i + k] * (transposed ? Y[(size_t)m * k + j] : Y[(size_t)m * j + k]);
             A[(size_t)m * i + j] = sum;
         }
 }
@@ -83,7 +83,7 @@ void dmb_frames_turn_chains(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_layout *layout = &scene->layout;
-    double T[2][36], room[36];
+    double T[2][36], workspace[36];
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const uint32_t first = scene->chains[c].first, end = first + scene->chains[c].count;
         if (scene->chains[c].jointed) continue;
@@ -91,11 +91,11 @@ void dmb_frames_turn_chains(dmb_sim *sim)
         for (uint32_t i = first; i < end; i++) {
             const square x = {T[i % 2], layout->size[i]};
             const square y = {T[(i + 1) % 2], i + 1 < end ? layout->size[i + 1] : 0};
-            congruence(x, x, 0, sim->stiffness_diagonal + layout->diag[i], room);
+            congruence(x, x, 0, sim->stiffness_diagonal + layout->diag[i], workspace);
             if (y.size == 0) continue;
             turn_of_node(sim, i + 1, T[(i + 1) % 2]);
-            congruence(x, y, 0, sim->stiffness_upper + layout->link[i], room);
-            congruence(y, x, 0, sim->stiffness_lower + layout->link[i], room);
+            congruence(x, y, 0, sim->stiffness_upper + layout->link[i], workspace);
+            congruence(y, x, 0, sim->stiffness_lower + layout->link[i], workspace);
         }
     }
 }
@@ -104,7 +104,7 @@ void dmb_frames_turn_chains(dmb_sim *sim)
 
 static uint32_t largest_block(const dmb_scene *scene)
 {
-    uint32_t largest = DMB_NODE_FULL;
+    uint32_t largest = DMB_NODE_SIX_DOF;
     for (uint32_t k = 0; k < scene->cluster_count; k++)
         if (scene->clusters[k].columns > largest) largest = scene->clusters[k].columns;
     return largest;
@@ -114,7 +114,7 @@ void dmb_frames_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_frames *fr
 {
     const size_t largest = scene->cluster_count ? largest_block(scene) : 0;
     frames->turn = DMB_ARENA_DOUBLES(arena, scene->cluster_count ? scene->pattern.values : 0);
-    frames->room = DMB_ARENA_DOUBLES(arena, 2 * largest * largest);
+    frames->workspace = DMB_ARENA_DOUBLES(arena, 2 * largest * largest);
     frames->pivot = DMB_ARENA_ARRAY(arena, uint32_t, largest);
 }
 
@@ -166,7 +166,8 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
 {
     const dmb_block_pattern *pattern = &sim->scene->pattern;
     const uint32_t largest = largest_block(sim->scene);
-    double *values = sim->reduced_value, *W = frames->room, *room = frames->room + (size_t)largest * largest;
+    double *values = sim->reduced_value, *W = frames->workspace,
+           *workspace = frames->workspace + (size_t)largest * largest;
     for (uint32_t k = 0; k < pattern->n; k++) {
         const uint32_t n = sim->reduced_size[pattern->order[k]];
         double *V = frames->turn + pattern->diagonal[k];
@@ -177,12 +178,12 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
     }
     for (uint32_t k = 0; k < pattern->n; k++) {
         const square v = {frames->turn + pattern->diagonal[k], sim->reduced_size[pattern->order[k]]};
-        congruence(v, v, 1, values + pattern->diagonal[k], room);
+        congruence(v, v, 1, values + pattern->diagonal[k], workspace);
         for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
             const uint32_t later = pattern->later[e];
             const square z = {frames->turn + pattern->diagonal[later], sim->reduced_size[pattern->order[later]]};
-            congruence(v, z, 1, values + pattern->upper[e], room);
-            congruence(z, v, 1, values + pattern->lower[e], room);
+            congruence(v, z, 1, values + pattern->upper[e], workspace);
+            congruence(z, v, 1, values + pattern->lower[e], workspace);
         }
     }
     return 1;
@@ -215,7 +216,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     int64_t bad = -1;
     const int32_t status = dmb_stability_judge(search, 0, &weakest, &bad, &found);
     if (status < 0) return status;
-    if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
+    if (bad >= 0 || weakest.ratio < DMB_UNCONSTRAINED_PIVOT)
         return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);
     buckling->info.stiffness = found.stiffness;
     /* along the path pairs of negative ones may arise from a complex pair, although det K has not passed 0 */

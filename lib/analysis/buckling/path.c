@@ -17,7 +17,7 @@
 DMB_DECLARE_STRUCT(dmb_path_options)
 DMB_DECLARE_STRUCT(dmb_path_report)
 
-static int32_t take_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
+static int32_t read_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NONE);
     (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
@@ -104,7 +104,7 @@ static int32_t begin(dmb_path *path)
     status = dmb_path_evaluate(path, 1);
     if (status >= 0) status = dmb_stiffness_balanced(path->sim, "path", &path->search.evaluation);
     if (status >= 0) status = dmb_path_tangent(path, path->next.tangent); /* 0: along an increasing factor */
-    if (status >= 0 && path->weakest < DMB_LOOSE_PIVOT) status = DMB_ERR_SINGULAR;
+    if (status >= 0 && path->weakest < DMB_UNCONSTRAINED_PIVOT) status = DMB_ERR_SINGULAR;
     if (status < 0) return status;
     const double sense = path->options->factor_end < 0.0 ? -1.0 : 1.0;
     path->next.rate *= sense;
@@ -319,7 +319,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     if (report != NULL && dmb_path_report_read(&path.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
     (void)dmb_path_report_init(&path.report, (uint32_t)sizeof path.report);
     path.report.first_limit = path.report.first_bifurcation = (double)NAN;
-    int32_t status = take_options(sim, options, &taken);
+    int32_t status = read_options(sim, options, &taken);
     if (status >= 0) status = check_place(sim, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);

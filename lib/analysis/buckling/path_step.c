@@ -145,7 +145,7 @@ int32_t dmb_path_tangent(dmb_path *path, const double *towards)
     if (status >= 0) status = solve_both(path, 1);
     if (status < 0) return status;
     double length = sqrt(dmb_path_dot(path, path->loaded, path->loaded));
-    if (!(length > 0.0) && path->weakest >= DMB_LOOSE_PIVOT)
+    if (!(length > 0.0) && path->weakest >= DMB_UNCONSTRAINED_PIVOT)
         dmb_message_set(&path->sim->message, "path: the factor moves nothing");
     if (!(length > 0.0) || !isfinite(length)) return DMB_ERR_SINGULAR;
     if (dmb_path_dot(path, path->loaded, towards) < 0.0) length = -length;

@@ -49,7 +49,7 @@ void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pe
     lay_out_matrix(arena, scene, &pencil->work);
     pencil->pivot = DMB_ARENA_ARRAY(arena, uint8_t, scene->row_count);
     pencil->reduced_pivot = DMB_ARENA_ARRAY(arena, uint32_t, reduced_rows(scene));
-    pencil->room = DMB_ARENA_DOUBLES(arena, largest * largest);
+    pencil->workspace = DMB_ARENA_DOUBLES(arena, largest * largest);
     pencil->image = DMB_ARENA_DOUBLES(arena, pencil->unknowns);
 }
 
@@ -87,7 +87,7 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
     if (scene->cluster_count == 0) return 1;
     dmb_block_sparse matrix = sparse_of(pencil, &pencil->work);
     if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return 0;
-    *negative += dmb_block_sparse_negative(&scene->pattern, &matrix, pencil->room);
+    *negative += dmb_block_sparse_negative(&scene->pattern, &matrix, pencil->workspace);
     return 1;
 }
 

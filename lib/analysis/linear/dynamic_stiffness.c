@@ -5,7 +5,7 @@
  * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
  *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
- * coordinates where joints connect chains (dynamic_stiffness_links.c). Rows that supports hold do not move. Rows that
+ * coordinates where joints connect chains (dynamic_stiffness_chains.c). Rows that supports hold do not move. Rows that
  * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
  * p. */
 #include <math.h>
@@ -25,7 +25,8 @@ static dmb_complex_array take(dmb_arena *arena, size_t count)
     return array;
 }
 
-static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size links, dmb_dynamic_stiffness *out)
+static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size links,
+                    dmb_dynamic_stiffness *out)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
     out->factors.diagonal = take(arena, layout->diag[layout->n]);
@@ -33,12 +34,12 @@ static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size l
     out->factors.upper = take(arena, layout->link[layout->n - 1]);
     out->factors.pivot = DMB_ARENA_ARRAY(arena, uint32_t, linear->rows);
     out->told = take(arena, linear->rows);
-    dmb_dynamic_links_lay_out(arena, linear, links, &out->links);
+    dmb_jointed_chains_lay_out(arena, linear, links, &out->links);
 }
 
 int32_t dmb_dynamic_stiffness_make(const dmb_linear *linear, double structural_damping, dmb_dynamic_stiffness *out)
 {
-    const dmb_links_size links = dmb_dynamic_links_size(linear);
+    const dmb_jointed_chains_size links = dmb_jointed_chains_sizes(linear);
     dmb_arena arena;
     memset(out, 0, sizeof *out);
     out->linear = linear;
@@ -50,7 +51,7 @@ int32_t dmb_dynamic_stiffness_make(const dmb_linear *linear, double structural_d
     if (out->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, out->block, out->block_size);
     lay_out(&arena, linear, links, out);
-    dmb_dynamic_links_number(linear, links, &out->links);
+    dmb_jointed_chains_number(linear, links, &out->links);
     return DMB_OK;
 }
 
@@ -85,24 +86,24 @@ static void assemble(dmb_dynamic_stiffness *s)
     assemble_array(s, diagonal, M->diagonal, C->diagonal, K->diagonal, A->diagonal);
     assemble_array(s, link, M->lower, C->lower, K->lower, A->lower);
     assemble_array(s, link, M->upper, C->upper, K->upper, A->upper);
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t node = scene->held_node[i];
-        A->diagonal.re[layout->diag[node] + (layout->size[node] + 1u) * scene->held_component[i]] = 1.0;
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t node = scene->constrained_node[i];
+        A->diagonal.re[layout->diag[node] + (layout->size[node] + 1u) * scene->constrained_component[i]] = 1.0;
     }
 }
 
 /* ---- Factors and solution ---------------------------------------------------------------------------------------- */
 
 /* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots stand on the diagonal. */
-static int64_t loose_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain)
+static int64_t unconstrained_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain)
 {
     const dmb_block_layout *layout = &s->linear->scene.layout;
     const double *M = s->linear->mass.diagonal, *K = s->linear->stiffness.diagonal;
     for (uint32_t node = chain->first; node < chain->first + chain->count; node++)
         for (uint32_t c = 0; c < layout->size[node]; c++) {
             const uint32_t at = layout->diag[node] + (layout->size[node] + 1u) * c;
-            if (dmb_dynamic_is_loose(s, s->factors.diagonal.re[at], s->factors.diagonal.im[at], fabs(K[at]),
-                                     fabs(M[at])))
+            if (dmb_dynamic_is_unconstrained(s, s->factors.diagonal.re[at], s->factors.diagonal.im[at], fabs(K[at]),
+                                             fabs(M[at])))
                 return (int64_t)node;
         }
     return -1;
@@ -123,10 +124,10 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth,
         const dmb_chain *chain = scene->chains + c;
         if (chain->jointed) continue;
         int64_t bad = dmb_complex_block_factor(&scene->layout, &s->factors, chain->first, chain->count);
-        if (bad < 0) bad = loose_node(s, chain);
+        if (bad < 0) bad = unconstrained_node(s, chain);
         if (bad >= 0) return bad;
     }
-    return scene->cluster_count > 0 ? dmb_dynamic_links_factor(s) : -1;
+    return scene->cluster_count > 0 ? dmb_jointed_chains_factor(s) : -1;
 }
 
 void dmb_dynamic_take_told(dmb_dynamic_stiffness *s, dmb_complex_array x)
@@ -139,7 +140,7 @@ void dmb_dynamic_take_told(dmb_dynamic_stiffness *s, dmb_complex_array x)
     dmb_dynamic_subtract(s, s->told, x);
 }
 
-static void add_told(const dmb_dynamic_stiffness *s, dmb_complex_array x)
+static void add_reported(const dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     for (uint32_t r = 0; r < s->linear->rows; r++) {
         x.re[r] += s->told.re[r];
@@ -156,8 +157,8 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_co
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].jointed)
             dmb_complex_block_solve(&scene->layout, &s->factors, scene->chains[c].first, scene->chains[c].count, x);
-    if (scene->cluster_count > 0) dmb_dynamic_links_solve(s, x);
-    if (moves) add_told(s, x);
+    if (scene->cluster_count > 0) dmb_jointed_chains_solve(s, x);
+    if (moves) add_reported(s, x);
 }
 
 /* ---- Products ---------------------------------------------------------------------------------------------------- */
@@ -199,11 +200,11 @@ static dmb_complex_number entry_of_nodes(const dmb_dynamic_stiffness *s, uint32_
 }
 
 /* Entry of a held row or column, 18 of each matrix, with component c of the node next to it or itself. */
-static dmb_complex_number entry_of_held(const dmb_dynamic_stiffness *s, const double *lines, uint32_t i, uint32_t node,
-                                        uint32_t c)
+static dmb_complex_number entry_of_constrained(const dmb_dynamic_stiffness *s, const double *lines, uint32_t i,
+                                               uint32_t node, uint32_t c)
 {
     const double *M = lines + 54 * (size_t)i;
-    const size_t at = 6 * ((size_t)node + 1 - s->linear->scene.held_node[i]) + c;
+    const size_t at = 6 * ((size_t)node + 1 - s->linear->scene.constrained_node[i]) + c;
     return entry_of(s, M, M + 18, M + 36, at);
 }
 
@@ -215,7 +216,7 @@ static dmb_complex_number entry_of_joint(const dmb_dynamic_stiffness *s, size_t 
 
 static int is_next_to(const dmb_scene *scene, uint32_t i, uint32_t node)
 {
-    const uint32_t held = scene->held_node[i];
+    const uint32_t held = scene->constrained_node[i];
     return held <= node + 1 && node <= held + 1;
 }
 
@@ -232,16 +233,17 @@ static void subtract_column(const dmb_dynamic_stiffness *s, uint32_t node, uint3
             subtract(entry_of_nodes(s, i, r, node, c), p, layout->row[node] + c, y, layout->row[i] + r);
 }
 
-static void subtract_held_column(const dmb_dynamic_stiffness *s, uint32_t h, dmb_complex_array p, dmb_complex_array y)
+static void subtract_constrained_column(const dmb_dynamic_stiffness *s, uint32_t h, dmb_complex_array p,
+                                        dmb_complex_array y)
 {
     const dmb_scene *scene = &s->linear->scene;
     const dmb_block_layout *layout = &scene->layout;
-    const uint32_t node = scene->held_node[h];
+    const uint32_t node = scene->constrained_node[h];
     const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
     for (uint32_t i = first; i <= last; i++)
         for (uint32_t r = 0; r < layout->size[i]; r++)
-            subtract(entry_of_held(s, s->linear->held_columns, h, i, r), p, dmb_held_row(scene, h), y,
-                     layout->row[i] + r);
+            subtract(entry_of_constrained(s, s->linear->constrained_columns, h, i, r), p, dmb_constrained_row(scene, h),
+                     y, layout->row[i] + r);
 }
 
 /* y -= what a joint exerts on node a as its node b moves by p. */
@@ -266,8 +268,8 @@ void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, d
             const uint32_t row = scene->layout.row[i] + c;
             if (scene->solved_row[row] && moves(p, row)) subtract_column(s, i, c, p, y);
         }
-    for (uint32_t h = 0; h < scene->held_count; h++)
-        if (moves(p, dmb_held_row(scene, h))) subtract_held_column(s, h, p, y);
+    for (uint32_t h = 0; h < scene->constrained_count; h++)
+        if (moves(p, dmb_constrained_row(scene, h))) subtract_constrained_column(s, h, p, y);
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t a = 0; a < c->node_count; a++)
@@ -278,10 +280,10 @@ void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, d
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* Index of a row among those that are held, or DMB_NONE. */
-static uint32_t held_of(const dmb_scene *scene, uint32_t node, uint32_t c)
+static uint32_t constrained_of(const dmb_scene *scene, uint32_t node, uint32_t c)
 {
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        if (scene->held_node[i] == node && scene->held_component[i] == c) return i;
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        if (scene->constrained_node[i] == node && scene->constrained_component[i] == c) return i;
     return DMB_NONE;
 }
 
@@ -291,18 +293,19 @@ static dmb_complex_number chain_row(const dmb_dynamic_stiffness *s, uint32_t nod
     const dmb_scene *scene = &s->linear->scene;
     const dmb_block_layout *layout = &scene->layout;
     const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
-    const uint32_t held = scene->solved_row[layout->row[node] + c] ? DMB_NONE : held_of(scene, node, c);
+    const uint32_t held = scene->solved_row[layout->row[node] + c] ? DMB_NONE : constrained_of(scene, node, c);
     dmb_complex_number sum = {0.0, 0.0};
     for (uint32_t j = first; j <= last; j++)
         for (uint32_t q = 0; q < layout->size[j]; q++) {
             if (!scene->solved_row[layout->row[j] + q]) continue;
             add(held == DMB_NONE ? entry_of_nodes(s, node, c, j, q)
-                                 : entry_of_held(s, s->linear->held_rows, held, j, q),
+                                 : entry_of_constrained(s, s->linear->constrained_rows, held, j, q),
                 x, layout->row[j] + q, &sum);
         }
-    for (uint32_t h = 0; h < scene->held_count; h++)
-        if (is_next_to(scene, h, node) && moves(x, dmb_held_row(scene, h)))
-            add(entry_of_held(s, s->linear->held_columns, h, node, c), x, dmb_held_row(scene, h), &sum);
+    for (uint32_t h = 0; h < scene->constrained_count; h++)
+        if (is_next_to(scene, h, node) && moves(x, dmb_constrained_row(scene, h)))
+            add(entry_of_constrained(s, s->linear->constrained_columns, h, node, c), x, dmb_constrained_row(scene, h),
+                &sum);
     return sum;
 }
 

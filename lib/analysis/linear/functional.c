@@ -116,7 +116,7 @@ static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, 
     memcpy(start_q, q, sizeof start_q);
     memcpy(start_x, x, sizeof start_x);
     z[c] = step;
-    if (scene->layout.size[node] == DMB_NODE_FULL) {
+    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) {
         dmb_se3_advance(q, x, z);
     } else {
         x[0] += z[0];
@@ -169,7 +169,7 @@ void dmb_functional_turn_frames(const dmb_linear *linear, dmb_functional *out)
     const dmb_scene *scene = &linear->scene;
     for (uint32_t at = 0; at < out->count;) {
         const uint32_t node = dmb_node_of_row(scene, out->row[at]), row = scene->layout.row[node];
-        if (scene->layout.size[node] == DMB_NODE_FULL) {
+        if (scene->layout.size[node] == DMB_NODE_SIX_DOF) {
             double back[6] = {0.0};
             add_turned(linear->spin + row, out->acceleration + at, back);
             for (int i = 0; i < 6; i++) back[i] = -back[i];

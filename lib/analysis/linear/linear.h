@@ -15,10 +15,10 @@
 /* ---- The linearised scene ---------------------------------------------------------------------------------------- */
 
 typedef struct dmb_linear_options {
-    int32_t contact;     /* DMB_CONTACT_... of analysis.h */
-    int32_t no_friction; /* 1: friction on the wall does not change: it is a dead load */
-    double gap;          /* [m] of DMB_CONTACT_CLOSED */
-    int32_t still;       /* 1: d in axes that do not spin about the node's x axis */
+    int32_t contact;       /* DMB_CONTACT_... of analysis.h */
+    int32_t no_friction;   /* 1: friction on the wall does not change: it is a dead load */
+    double gap;            /* [m] of DMB_CONTACT_CLOSED */
+    int32_t inertial_axes; /* 1: d in axes that do not spin about the node's x axis */
     int32_t reserved;
     double spin;        /* [rad/s] of the nodes of strings in the state, 0: as they do */
     double load_growth; /* [-] gravity, loads and bit loads act 1 + load_growth times */
@@ -45,7 +45,7 @@ typedef struct dmb_linear {
     uint32_t largest_node;    /* where */
     int32_t balanced;         /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
     int32_t slides;           /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
-    int32_t still;            /* of the options: axes of d do not spin */
+    int32_t inertial_axes;    /* of the options: axes of d do not spin */
     uint32_t rows;            /* of the scene */
     double *stiffness_size;   /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
     uint32_t coordinates;     /* length of z */
@@ -58,10 +58,11 @@ typedef struct dmb_linear {
     double load_factor;    /* [-] of gravity, loads and bit loads */
     double *spin, *rest;   /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
     double *change;        /* rate of the others as those axes see it: 0 in an equilibrium, shape (rows) */
-    double *held_columns;  /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
-                              node and the node after, six each: what a drive that moves them exerts on the others;
-                              shape (scene.held_count, 3, 18) */
-    double *held_rows;     /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
+    double *constrained_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before,
+                             the node and the node after, six each: what a drive that moves them exerts on the others;
+                             shape (scene.constrained_count, 3, 18) */
+    double
+        *constrained_rows; /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
     double *whole_joints;  /* the joints' parts of M, C and K, rows and columns that are held included, shape
                               (3, scene.tangent_count) */
     void *block;
@@ -187,17 +188,17 @@ int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear);
 int32_t dmb_linear_take_damping(dmb_linear *linear);
 
 /* C and K with the velocities of the axes of d (still: those that do not spin), and what is held is cleared. */
-void dmb_linear_turn_frames(dmb_linear *linear, int32_t still);
+void dmb_linear_turn_frames(dmb_linear *linear, int32_t inertial_axes);
 
 /* The scene without what is not to act: the wall, or the change of its friction. */
-void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options);
+void dmb_linear_finalise(dmb_linear *linear, const dmb_linear_options *options);
 /* Forces that the frozen scene lacks stay as dead loads. `before`: residual with them, shape (rows). */
 void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before);
 /* Stiffness of the wall under rings up to `gap` [m] from it. */
 void dmb_linear_close_contacts(dmb_linear *linear, double gap);
 
 /* Keeps the columns (1), or rows (0), of what is held. */
-void dmb_linear_keep_held(dmb_linear *linear, int columns);
+void dmb_linear_keep_constrained(dmb_linear *linear, int columns);
 /* Clears them. */
 void dmb_linear_hold(dmb_linear *linear, int columns);
 /* whole_joints += factor times the joints' parts as they are. */
@@ -287,7 +288,7 @@ typedef struct dmb_complex_number {
 } dmb_complex_number;
 
 /* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
-typedef struct dmb_dynamic_links {
+typedef struct dmb_jointed_chains {
     uint32_t count;       /* of its coordinates; 0 too where joints leave none */
     uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
     uint32_t *place;      /* of coordinate i of the linear system among them; DMB_NONE: none */
@@ -297,7 +298,7 @@ typedef struct dmb_dynamic_links {
     dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
     double *rest;                 /* forces that constraints balance, shape (2, the most rows of a cluster) */
     double *stiffness, *mass; /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
-} dmb_dynamic_links;
+} dmb_jointed_chains;
 
 typedef struct dmb_dynamic_stiffness {
     const dmb_linear *linear;
@@ -306,7 +307,7 @@ typedef struct dmb_dynamic_stiffness {
     double growth;                    /* [1/s] likewise; 0 of a response */
     dmb_complex_block_matrix factors; /* of chains without joints; the blocks of A of the others */
     dmb_complex_array told;           /* p, shape (rows) */
-    dmb_dynamic_links links;
+    dmb_jointed_chains links;
     void *block;
     size_t block_size;
 } dmb_dynamic_stiffness;
@@ -356,12 +357,12 @@ void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_
                            dmb_complex_array x);
 
 /* 1 if the reciprocal of a pivot is so large that nothing but rounding holds its row at this frequency. */
-static inline int32_t dmb_dynamic_is_loose(const dmb_dynamic_stiffness *s, double re, double im, double stiffness,
-                                           double mass)
+static inline int32_t dmb_dynamic_is_unconstrained(const dmb_dynamic_stiffness *s, double re, double im,
+                                                   double stiffness, double mass)
 {
     const double a = re < 0.0 ? -re : re, b = im < 0.0 ? -im : im;
     const double square = s->omega * s->omega + s->growth * s->growth;
-    return (a > b ? a : b) * (stiffness + square * mass) * DMB_LOOSE_PIVOT > 1.0;
+    return (a > b ? a : b) * (stiffness + square * mass) * DMB_UNCONSTRAINED_PIVOT > 1.0;
 }
 
 /* An entry of A at the present frequency from those of M, C and K. */
@@ -381,18 +382,19 @@ static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *
  * and with the cube of the coordinates of one cluster. */
 
 /* Sizes to begin with: `count`, the widest block, the most rows of constraint of a cluster. */
-typedef struct dmb_links_size {
+typedef struct dmb_jointed_chains_size {
     uint32_t count, widest, rows;
-} dmb_links_size;
+} dmb_jointed_chains_size;
 
-dmb_links_size dmb_dynamic_links_size(const dmb_linear *linear);
-void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+dmb_jointed_chains_size dmb_jointed_chains_sizes(const dmb_linear *linear);
+void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size size,
+                                dmb_jointed_chains *out);
 /* Numbers the coordinates; `size` as laid out with. */
-void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+void dmb_jointed_chains_number(const dmb_linear *linear, dmb_jointed_chains_size size, dmb_jointed_chains *out);
 /* From the blocks of A. A node that nothing holds, or -1. */
-int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *stiffness);
+int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *stiffness);
 /* Rows of jointed chains of x: forces in, displacements out. */
-void dmb_dynamic_links_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+void dmb_jointed_chains_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 
 /* Forces that a motion at one frequency takes: products with the dynamic stiffness A as the scene has it, rows that are
  * held included, and the forces of constraint that balance them,

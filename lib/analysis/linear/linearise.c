@@ -44,7 +44,8 @@
 
 static void spin_node(dmb_sim *work, uint32_t node, double spin)
 {
-    const uint32_t row = work->scene->layout.row[node] + (work->scene->layout.size[node] == DMB_NODE_PATH ? 1 : 3);
+    const uint32_t row =
+        work->scene->layout.row[node] + (work->scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL ? 1 : 3);
     work->now.velocity[row] = work->trial.velocity[row] = spin;
 }
 
@@ -83,7 +84,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     evaluation.given = 1;
     int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(linear->with_contacts, work->residual, linear->rows * sizeof(double));
-    dmb_linear_freeze(linear, options);
+    dmb_linear_finalise(linear, options);
     if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
     if (status >= 0) dmb_linear_add_dead_loads(linear, linear->with_contacts);
     if (status >= 0 && options->contact == DMB_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
@@ -112,7 +113,7 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status >= 0) status = take_matrices(linear, options);
     if (status < 0) return status;
     dmb_linear_judge_rounding(linear);
-    dmb_linear_turn_frames(linear, options->still);
+    dmb_linear_turn_frames(linear, options->inertial_axes);
     dmb_linear_find_turning_on_wall(linear, options);
     dmb_linear_take_stiffness_size(linear);
     return dmb_linear_make_coordinates(linear);
@@ -124,7 +125,7 @@ int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, d
     if (status < 0) return status;
     *linear = dmb_linear_allocate(sim);
     if (*linear == NULL) return DMB_ERR_NO_MEMORY;
-    (*linear)->still = options->still;
+    (*linear)->inertial_axes = options->inertial_axes;
     status = linearise(*linear, options);
     if (status >= 0) status = dmb_linear_find_turning(*linear, sim);
     if (status < 0) dmb_linear_release(linear);
@@ -167,8 +168,8 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);
     to->column = DMB_ARENA_ARRAY(arena, uint32_t, entries_of(scene));
     to->value = DMB_ARENA_DOUBLES(arena, entries_of(scene));
-    to->held_columns = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
-    to->held_rows = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
+    to->constrained_columns = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->constrained_count);
+    to->constrained_rows = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->constrained_count);
     to->whole_joints = DMB_ARENA_DOUBLES(arena, 3 * (size_t)scene->tangent_count);
 }
 
@@ -250,7 +251,7 @@ static void steady_accelerations(dmb_linear *linear, int sliding)
     for (uint32_t i = 0; sliding && i < scene->node_count; i++) {
         const uint32_t row = scene->layout.row[i];
         double w[6] = {0.0}, g[6], *a = trial->acceleration + row;
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) continue;
         dmb_vec6_copy(trial->velocity + row, g);
         w[3] = g[3];
         g[3] = 0.0;

@@ -61,7 +61,7 @@ static void turn_back(const dmb_linear *linear, double h, double *d)
     const dmb_scene *scene = &linear->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         double *x = d + scene->layout.row[i];
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) continue;
         const double angle = h * linear->spin[scene->layout.row[i] + 3], c = cos(angle), s = sin(angle);
         for (int k = 0; k < 6; k += 3) {
             const double y = x[k + 1], z = x[k + 2];
@@ -163,7 +163,7 @@ int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim)
 static double spin_of(const dmb_linear *linear, uint32_t node)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
-    return layout->size[node] == DMB_NODE_FULL ? fabs(linear->rest[layout->row[node] + 3]) : 0.0;
+    return layout->size[node] == DMB_NODE_SIX_DOF ? fabs(linear->rest[layout->row[node] + 3]) : 0.0;
 }
 
 void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_options *options)
@@ -179,7 +179,7 @@ void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_option
 }
 
 /* 1 with a message of `who`, why and `then` what, if coefficients change. */
-static int tell_change(const dmb_linear *linear, const char *who, const char *then, dmb_message *message)
+static int report_change(const dmb_linear *linear, const char *who, const char *then, dmb_message *message)
 {
     if (linear->turning_node != DMB_NONE) {
         const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->turning_node);
@@ -188,9 +188,9 @@ static int tell_change(const dmb_linear *linear, const char *who, const char *th
     } else if (linear->turning != DMB_NONE) {
         dmb_message owner;
         dmb_constraint_text(&linear->scene, linear->turning, &owner);
-        const char *const axes = linear->rolls   ? "axes that turn and in axes at rest"
-                                 : linear->still ? "axes at rest"
-                                                 : "axes that turn with them";
+        const char *const axes = linear->rolls           ? "axes that turn and in axes at rest"
+                                 : linear->inertial_axes ? "axes at rest"
+                                                         : "axes that turn with them";
         dmb_message_set(message, "%s: %s: its parts move against each other, so that its equations change in %s: %s",
                         who, owner.text, axes, then);
     }
@@ -199,14 +199,14 @@ static int tell_change(const dmb_linear *linear, const char *who, const char *th
 
 int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
 {
-    const char *const then = linear->still || linear->rolls
+    const char *const then = linear->inertial_axes || linear->rolls
                                  ? "choose a state in which they do not move, or a run in time"
                                  : "choose axes at rest, or a state that does not turn";
-    return tell_change(linear, who, then, message) ? DMB_ERR_UNSUPPORTED : DMB_OK;
+    return report_change(linear, who, then, message) ? DMB_ERR_UNSUPPORTED : DMB_OK;
 }
 
 int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message)
 {
     const char *const then = "what that changes is left out; answers hold along and about the axes of straight parts";
-    return tell_change(linear, who, then, message) ? DMB_NOTE_INCOMPLETE : DMB_OK;
+    return report_change(linear, who, then, message) ? DMB_NOTE_INCOMPLETE : DMB_OK;
 }

@@ -75,14 +75,15 @@ static void keep_row(const dmb_block_layout *layout, uint32_t node, uint32_t c, 
 }
 
 /* Columns, or rows, of what is held. */
-void dmb_linear_keep_held(dmb_linear *linear, int columns)
+void dmb_linear_keep_constrained(dmb_linear *linear, int columns)
 {
     const dmb_scene *scene = &linear->scene;
     const dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
-    double *lines = columns ? linear->held_columns : linear->held_rows;
-    for (uint32_t i = 0; i < scene->held_count; i++)
+    double *lines = columns ? linear->constrained_columns : linear->constrained_rows;
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
         for (size_t m = 0; m < 3; m++)
-            (columns ? keep_column : keep_row)(&scene->layout, scene->held_node[i], scene->held_component[i], all[m],
+            (columns ? keep_column : keep_row)(&scene->layout, scene->constrained_node[i],
+                                               scene->constrained_component[i], all[m],
                                                lines + 54 * (size_t)i + 18 * m);
 }
 
@@ -99,9 +100,9 @@ void dmb_linear_hold(dmb_linear *linear, int columns)
     const dmb_scene *scene = &linear->scene;
     dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
     for (int m = 0; m < 3; m++) {
-        for (uint32_t i = 0; i < scene->held_count; i++)
-            (columns ? clear_columns_of : clear_rows_of)(&scene->layout, scene->held_node[i], scene->held_component[i],
-                                                         all[m]);
+        for (uint32_t i = 0; i < scene->constrained_count; i++)
+            (columns ? clear_columns_of : clear_rows_of)(&scene->layout, scene->constrained_node[i],
+                                                         scene->constrained_component[i], all[m]);
         for (uint32_t i = 0; i < scene->constraint_count; i++)
             clear_in_joint(scene, scene->constraints + i, columns, all[m]->joints + scene->constraints[i].tangent);
     }
@@ -403,9 +404,9 @@ static dmb_linear_matrix combine(dmb_linear *linear, double k, double c, double 
     if (k != 0.0) dmb_linear_add(scene, k, &linear->stiffness, &to);
     if (c != 0.0) dmb_linear_add(scene, c, &linear->damping, &to);
     if (m != 0.0) dmb_linear_add(scene, m, &linear->mass, &to);
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t node = scene->held_node[i];
-        to.diagonal[layout->diag[node] + (layout->size[node] + 1) * scene->held_component[i]] = 1.0;
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t node = scene->constrained_node[i];
+        to.diagonal[layout->diag[node] + (layout->size[node] + 1) * scene->constrained_component[i]] = 1.0;
     }
     return to;
 }

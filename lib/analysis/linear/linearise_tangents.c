@@ -105,10 +105,10 @@ int32_t dmb_linear_take_damping(dmb_linear *linear)
 
 /* The wall as it is, left out, or closed. */
 
-void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options)
+void dmb_linear_finalise(dmb_linear *linear, const dmb_linear_options *options)
 {
     if (options->contact == DMB_CONTACT_OPEN)
-        linear->scene.site_count = linear->scene.inside_count = linear->scene.path_site_count = 0;
+        linear->scene.site_count = linear->scene.inside_count = linear->scene.axial_torsional_site_count = 0;
     if (options->no_friction) linear->scene.friction_law.kind = DMB_FRICTION_NONE;
     linear->work->scene = &linear->scene;
 }
@@ -120,7 +120,7 @@ void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
     const dmb_block_layout *layout = &linear->scene.layout;
     for (uint32_t i = 0; i < layout->n; i++) {
         double w[6];
-        if (layout->size[i] != DMB_NODE_FULL) continue;
+        if (layout->size[i] != DMB_NODE_SIX_DOF) continue;
         for (uint32_t k = 0; k < 6; k++) w[k] = linear->work->residual[layout->row[i] + k] - before[layout->row[i] + k];
         dmb_mat6_add_skew(-1.0, w, 0, 1, linear->stiffness.diagonal + layout->diag[i]);
         dmb_mat6_add_skew(-1.0, w + 3, 1, 1, linear->stiffness.diagonal + layout->diag[i]);
@@ -215,11 +215,11 @@ void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_li
                              dmb_linear_matrix *to)
 {
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->layout.size[i] == DMB_NODE_FULL) add_node_products(scene, factor, A, rows, i, to);
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) add_node_products(scene, factor, A, rows, i, to);
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t k = 0; k < c->node_count; k++)
-            if (scene->layout.size[c->node[k]] == DMB_NODE_FULL)
+            if (scene->layout.size[c->node[k]] == DMB_NODE_SIX_DOF)
                 add_row_products(factor, A->joints + c->tangent + c->column[k], c->columns, c->columns,
                                  rows + scene->layout.row[c->node[k]], to->joints + c->tangent + c->column[k]);
     }
@@ -227,15 +227,15 @@ void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_li
 
 /* The spin w that the axes of d leave out, the rest g of the velocities, and how that changes in these axes, a + w^ g.
  */
-static void part_velocities(dmb_linear *linear, int32_t still)
+static void part_velocities(dmb_linear *linear, int32_t inertial_axes)
 {
     const dmb_scene *scene = &linear->scene;
     memcpy(linear->rest, linear->work->now.velocity, linear->rows * sizeof(double));
     memcpy(linear->change, linear->work->now.acceleration, linear->rows * sizeof(double));
-    for (uint32_t i = 0; still && i < scene->node_count; i++) {
+    for (uint32_t i = 0; inertial_axes && i < scene->node_count; i++) {
         const uint32_t row = scene->layout.row[i];
         double turned[6];
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) continue;
         linear->spin[row + 3] = linear->rest[row + 3];
         linear->rest[row + 3] = 0.0;
         dmb_ad_apply(linear->spin + row, linear->rest + row, turned);
@@ -245,19 +245,19 @@ static void part_velocities(dmb_linear *linear, int32_t still)
 
 /* The matrices with their frames' velocities (linearise.c): a row that is held has no d, nor any v^ d, but what the
  * others do to it counts. */
-void dmb_linear_turn_frames(dmb_linear *linear, int32_t still)
+void dmb_linear_turn_frames(dmb_linear *linear, int32_t inertial_axes)
 {
-    part_velocities(linear, still);
-    dmb_linear_keep_held(linear, 1);
+    part_velocities(linear, inertial_axes);
+    dmb_linear_keep_constrained(linear, 1);
     dmb_linear_add_whole_joints(linear, 1.0);
     dmb_linear_hold(linear, 1);
     dmb_linear_add_whole_joints(linear, -1.0); /* columns that are held are left of it */
-    if (still) dmb_linear_add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
+    if (inertial_axes) dmb_linear_add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
     dmb_linear_add_products(&linear->scene, 1.0, &linear->damping, linear->rest, &linear->stiffness);
     dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->change, &linear->stiffness);
     dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->rest, &linear->damping);
     dmb_linear_hold(linear, 1);
-    dmb_linear_keep_held(linear, 0);
+    dmb_linear_keep_constrained(linear, 0);
     dmb_linear_add_whole_joints(linear, 1.0);
     dmb_linear_hold(linear, 0);
 }

@@ -25,19 +25,19 @@
 
 /* A node goes on by this in a unit of time: by its spin where axes at rest or a sliding string leave the rest, else by
  * all of its motion. */
-static void motion_of(const dmb_linear *linear, int32_t still, uint32_t node, double v[6])
+static void motion_of(const dmb_linear *linear, int32_t inertial_axes, uint32_t node, double v[6])
 {
     const uint32_t row = linear->scene.layout.row[node];
-    memcpy(v, (still || linear->slides ? linear->spin : linear->work->now.velocity) + row, 6 * sizeof(double));
-    if (!still && linear->slides) v[3] = linear->rest[row + 3];
+    memcpy(v, (inertial_axes || linear->slides ? linear->spin : linear->work->now.velocity) + row, 6 * sizeof(double));
+    if (!inertial_axes && linear->slides) v[3] = linear->rest[row + 3];
 }
 
-static double fastest(const dmb_linear *linear, int32_t still)
+static double fastest(const dmb_linear *linear, int32_t inertial_axes)
 {
     double most = 0.0, v[6];
     for (uint32_t i = 0; i < linear->scene.node_count; i++) {
-        if (linear->scene.layout.size[i] != DMB_NODE_FULL) continue;
-        motion_of(linear, still, i, v);
+        if (linear->scene.layout.size[i] != DMB_NODE_SIX_DOF) continue;
+        motion_of(linear, inertial_axes, i, v);
         most = fmax(most, dmb_vec3_norm(v + 3));
     }
     return most;
@@ -55,17 +55,17 @@ static void turn_six(double angle, double x[6])
 }
 
 /* Where the spin alone goes on, the rest of the velocity stays where it is in space. */
-static void turn_on(const dmb_linear *linear, int32_t still, double h, dmb_sim *copy, double *angle)
+static void turn_on(const dmb_linear *linear, int32_t inertial_axes, double h, dmb_sim *copy, double *angle)
 {
     for (uint32_t i = 0; i < linear->scene.node_count; i++) {
         double z[6];
         angle[i] = 0.0;
-        if (linear->scene.layout.size[i] != DMB_NODE_FULL) continue;
-        motion_of(linear, still, i, z);
+        if (linear->scene.layout.size[i] != DMB_NODE_SIX_DOF) continue;
+        motion_of(linear, inertial_axes, i, z);
         for (int k = 0; k < 6; k++) z[k] *= h;
-        if (still) angle[i] = z[3];
+        if (inertial_axes) angle[i] = z[3];
         dmb_se3_advance(copy->now.quaternion + 4 * (size_t)i, copy->now.displacement + 3 * (size_t)i, z);
-        if (!still && !linear->slides) continue;
+        if (!inertial_axes && !linear->slides) continue;
         turn_six(z[3], copy->now.velocity + linear->scene.layout.row[i]);
         turn_six(z[3], copy->now.acceleration + linear->scene.layout.row[i]);
     }
@@ -79,7 +79,7 @@ static int32_t linearise(const dmb_linear *linear, const dmb_sim *sim, const dmb
     out->angle = copy != NULL ? dmb_allocate(&linear->allocator, out->bytes) : NULL;
     int32_t status = DMB_ERR_NO_MEMORY;
     if (out->angle != NULL) {
-        turn_on(linear, options->still, h, copy, out->angle);
+        turn_on(linear, options->inertial_axes, h, copy, out->angle);
         status = dmb_linear_make(copy, options, &out->linear);
     }
     dmb_state_discard(copy);
@@ -91,7 +91,7 @@ int32_t dmb_linear_turn_on(const dmb_linear *linear, const dmb_sim *sim, const d
 {
     memset(out, 0, sizeof *out);
     out->node = DMB_NONE;
-    out->spin = fastest(linear, options->still);
+    out->spin = fastest(linear, options->inertial_axes);
     return out->spin > DMB_TURNED_SPIN ? linearise(linear, sim, options, DMB_TURNED_ANGLE / out->spin, out) : DMB_OK;
 }
 
@@ -108,7 +108,7 @@ static void turn(const dmb_linear_turned *turned, double sense, const double *d,
     const dmb_scene *scene = &turned->linear->scene;
     memcpy(out, d, scene->row_count * sizeof *d);
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->layout.size[i] == DMB_NODE_FULL) turn_six(sense * turned->angle[i], out + scene->layout.row[i]);
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) turn_six(sense * turned->angle[i], out + scene->layout.row[i]);
 }
 
 /* p += factor A d; sum |d| |A d| */

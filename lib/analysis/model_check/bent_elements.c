@@ -34,9 +34,10 @@ static double two_digits(double x)
     return unit * ceil(x / unit - 1e-9);
 }
 
-static int is_bar(const dmb_scene *scene, uint32_t node)
+static int is_axial_torsional_element(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_PATH && scene->layout.size[node + 1] == DMB_NODE_PATH;
+    return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL &&
+           scene->layout.size[node + 1] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 dmb_bent_elements dmb_find_bent(const dmb_sim *sim)
@@ -45,7 +46,7 @@ dmb_bent_elements dmb_find_bent(const dmb_sim *sim)
     dmb_bent_elements bent = {0};
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const dmb_element_type *type = scene->types + scene->element_type[e];
-        if (is_bar(scene, scene->element_node[e])) continue;
+        if (is_axial_torsional_element(scene, scene->element_node[e])) continue;
         if (dmb_element_is_curved(type)) {
             bent.following++;
             continue;

@@ -90,7 +90,7 @@ static int32_t make(const dmb_sim *sim, dmb_model_check *findings)
     memset(findings, 0, sizeof *findings);
     findings->sim = sim;
     int32_t status = dmb_cluster_rank_make(sim, &findings->rank);
-    if (status >= 0) status = dmb_find_loose_parts(sim, &findings->loose);
+    if (status >= 0) status = dmb_find_unconstrained_parts(sim, &findings->unconstrained);
     if (status < 0) {
         dmb_cluster_rank_release(sim, &findings->rank);
         return status;
@@ -221,9 +221,9 @@ static void pass_stuck(const groups *g)
 static void pass_nodes(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++) hold(g, scene->held_node[i]);
+    for (uint32_t i = 0; i < scene->constrained_count; i++) hold(g, scene->constrained_node[i]);
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->layout.size[i] == DMB_NODE_PATH) hold(g, i);
+        if (scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL) hold(g, i);
     for (uint32_t i = 0; i < scene->drive_count; i++)
         if (scene->drives[i].node != DMB_NONE) hold(g, scene->drives[i].node);
     for (uint32_t i = 0; i < scene->site_count; i++) hold(g, scene->sites[i].node);
@@ -231,18 +231,18 @@ static void pass_nodes(const groups *g)
         if (scene->bits[i].law.kind != DMB_ROCK_NONE) hold(g, scene->bits[i].node);
 }
 
-static void count_loose(const groups *g, dmb_loose_parts *loose)
+static void count_unconstrained(const groups *g, dmb_unconstrained_parts *unconstrained)
 {
     for (uint32_t i = 0; i < g->sim->scene->node_count; i++) {
         if (g->parent[i] != i || g->held[i]) continue;
-        if (loose->groups++ == 0) loose->node = i;
+        if (unconstrained->groups++ == 0) unconstrained->node = i;
     }
 }
 
-int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose)
+int32_t dmb_find_unconstrained_parts(const dmb_sim *sim, dmb_unconstrained_parts *unconstrained)
 {
     const size_t n = sim->scene->node_count, bytes = 2 * n * sizeof(uint32_t);
-    loose->groups = loose->node = 0;
+    unconstrained->groups = unconstrained->node = 0;
     if ((sim->scene->features & DMB_FEATURE_GRAVITY) == 0) return DMB_OK;
     uint32_t *block = dmb_allocate(&sim->allocator, bytes);
     if (block == NULL) return DMB_ERR_NO_MEMORY;
@@ -253,7 +253,7 @@ int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose)
     pass_springs(&g);
     pass_stuck(&g);
     pass_nodes(&g);
-    count_loose(&g, loose);
+    count_unconstrained(&g, unconstrained);
     dmb_release(&sim->allocator, block, bytes);
     return DMB_OK;
 }

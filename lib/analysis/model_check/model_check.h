@@ -7,15 +7,15 @@
 #include "system/constrain/constrain.h"
 
 /* Groups of jointly connected parts without support. */
-typedef struct dmb_loose_parts {
+typedef struct dmb_unconstrained_parts {
     uint32_t groups;
     uint32_t node; /* first node of the first group */
-} dmb_loose_parts;
+} dmb_unconstrained_parts;
 
 typedef struct dmb_model_check {
     const dmb_sim *sim;
     dmb_cluster_rank rank; /* owns memory */
-    dmb_loose_parts loose;
+    dmb_unconstrained_parts unconstrained;
     dmb_check_report report;
 } dmb_model_check;
 
@@ -25,7 +25,7 @@ int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *findings);
 void dmb_model_check_close(dmb_model_check *findings);
 
 /* Parts under gravity without support, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
-int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
+int32_t dmb_find_unconstrained_parts(const dmb_sim *sim, dmb_unconstrained_parts *unconstrained);
 
 /* Elements of the state by their mass, without axial-torsional elements. */
 typedef struct dmb_bent_elements {

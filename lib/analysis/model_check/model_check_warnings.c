@@ -154,13 +154,13 @@ static void idle_drives(const sink *to)
 
 /* ---- Support and mass -------------------------------------------------------------------------------------------- */
 
-static void loose_parts(const sink *to)
+static void unconstrained_parts(const sink *to)
 {
     dmb_message text, name, rest;
-    const dmb_loose_parts *loose = &to->findings->loose;
-    if (loose->groups == 0) return;
+    const dmb_unconstrained_parts *unconstrained = &to->findings->unconstrained;
+    if (unconstrained->groups == 0) return;
     dmb_message_set(&text, "%s%s: no support, drive, joint, spring or wall holds it against gravity, it will fall",
-                    node_name(to->scene, loose->node, &name), more(loose->groups, &rest));
+                    node_name(to->scene, unconstrained->node, &name), more(unconstrained->groups, &rest));
     say(to, &text);
 }
 
@@ -183,7 +183,8 @@ static void mass_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass 
         inertia[1] += mass->bending[1][4];
         inertia[2] += mass->bending[0][4];
     }
-    out[1] = scene->layout.size[node] == DMB_NODE_PATH ? inertia[0] : fmin(inertia[0], fmin(inertia[1], inertia[2]));
+    out[1] = scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL ? inertia[0]
+                                                                  : fmin(inertia[0], fmin(inertia[1], inertia[2]));
 }
 
 static void small_masses(const sink *to)
@@ -325,7 +326,7 @@ static int moves_sideways(const dmb_scene *scene, const dmb_string_map *string)
 {
     for (uint32_t i = string->first_node; i < string->first_node + string->node_count; i++) {
         const uint8_t *open = scene->free_row + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL && (open[DMB_Y] || open[DMB_Z])) return 1;
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF && (open[DMB_Y] || open[DMB_Z])) return 1;
     }
     return 0;
 }
@@ -346,11 +347,11 @@ static void no_contact(const sink *to)
     }
 }
 
-static void held_rings(const sink *to)
+static void supported_rings(const sink *to)
 {
     dmb_message text;
-    for (uint32_t i = dmb_owner_of_held_ring(to->scene, 0, &text); i != DMB_NONE;
-         i = dmb_owner_of_held_ring(to->scene, i + 1, &text))
+    for (uint32_t i = dmb_owner_of_supported_ring(to->scene, 0, &text); i != DMB_NONE;
+         i = dmb_owner_of_supported_ring(to->scene, i + 1, &text))
         say(to, &text);
 }
 
@@ -363,7 +364,7 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     violation(&to);
     singular_joints(&to);
     idle_drives(&to);
-    loose_parts(&to);
+    unconstrained_parts(&to);
     small_masses(&to);
     bent_elements(&to);
     odd_pipes(&to);
@@ -373,6 +374,6 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     outside_lengthwise(&to, 0);
     outside_lengthwise(&to, 1);
     no_contact(&to);
-    held_rings(&to);
+    supported_rings(&to);
     dmb_mesh_warnings(to.sim->model, line, context);
 }

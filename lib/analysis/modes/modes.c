@@ -44,7 +44,7 @@ static void measure(dmb_mode_search *search)
         search->options->kind == DMB_MODES_DAMPED || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY);
 }
 
-static int32_t take_options(const dmb_modes_options *given, dmb_modes_options *out, dmb_message *message)
+static int32_t read_options(const dmb_modes_options *given, dmb_modes_options *out, dmb_message *message)
 {
     dmb_check check = dmb_check_of(message, "modes options", DMB_NONE);
     (void)dmb_modes_options_init(out, (uint32_t)sizeof *out);
@@ -113,10 +113,10 @@ static void keep_asked(const dmb_mode_search *search, double aside, uint32_t bes
 }
 
 /* Refines the roots, and sorts and selects the requested ones. */
-static int32_t sharpen(dmb_mode_search *search)
+static int32_t refine(dmb_mode_search *search)
 {
     keep_asked(search, search->general ? DMB_BESIDE_BAND : 0.0, search->general ? DMB_MODES_BESIDE : 0);
-    int32_t status = dmb_modes_polish(search);
+    int32_t status = dmb_modes_refine_shapes(search);
     if (status < 0 || !search->general) return status;
     status = dmb_modes_join(search);
     keep_asked(search, 0.0, 0);
@@ -129,7 +129,7 @@ static int32_t finish(dmb_mode_search *search)
     const dmb_modes_options *options = search->options;
     dmb_modes *modes = search->modes;
     dmb_modes_weigh_coordinates(search);
-    int32_t status = sharpen(search);
+    int32_t status = refine(search);
     if (status < 0) return status;
     if (modes->count == 0) {
         dmb_message_set(search->message, "modes options: no mode in band = %g .. %g Hz", options->band[0],
@@ -182,7 +182,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
     const dmb_linear_options how = {.contact = options->contact,
                                     .no_friction = !options->friction,
                                     .gap = options->contact_gap,
-                                    .still = options->axes == DMB_MODES_AXES_AT_REST,
+                                    .inertial_axes = options->axes == DMB_MODES_AXES_AT_REST,
                                     .spin = options->spin,
                                     .load_growth = load_growth};
     const size_t bytes = 10 * (size_t)modes->rows * sizeof(double); /* workspace, and the masses of coordinates */
@@ -212,7 +212,7 @@ int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_m
     *modes = NULL;
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    status = take_options(options, &taken, &sim->message);
+    status = read_options(options, &taken, &sim->message);
     if (status >= 0) status = dmb_state_copy_check(sim, "modes");
     if (status >= 0) status = dmb_modes_open(sim, modes);
     if (status >= 0) status = dmb_progress_end(sim, analyse(sim, &taken, 0.0, &sim->message, *modes));
@@ -310,7 +310,7 @@ int32_t dmb_modes_choose_shift(dmb_mode_search *search)
     } else {
         dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
         const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
-        if (bad < 0 && !(weakest.ratio < DMB_LOOSE_PIVOT) && search->rigid_count == 0) return DMB_OK;
+        if (bad < 0 && !(weakest.ratio < DMB_UNCONSTRAINED_PIVOT) && search->rigid_count == 0) return DMB_OK;
     }
     if (dmb_modes_is_dense(search, search->options->count)) return DMB_OK;
     status = find_scale(search, &square);

@@ -80,7 +80,7 @@ void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, co
 int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x);
 /* [1/s2] Eigenvalue of an undamped mode x, x^T M x = 1: from the strain energy if K x has lost digits by
  * cancellation. */
-double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x);
+double dmb_modes_refine(const dmb_mode_search *search, double square, double *x);
 /* [1/s2] Twice the strain energy of a motion. */
 double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *x);
 /* 1: the root is a copy of a root 0 of rigid-body motions; y NULL: x is real. */
@@ -113,7 +113,7 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k);
  * DMB_ERR_NO_CONVERGENCE. */
 int32_t dmb_modes_check(dmb_mode_search *search);
 /* Refines modes with excessive residuals. DMB_ERR_NO_MEMORY. */
-int32_t dmb_modes_polish(dmb_mode_search *search);
+int32_t dmb_modes_refine_shapes(dmb_mode_search *search);
 /* Replaces roots of one shape that differ by rounding only by their mean. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_join(dmb_mode_search *search);
 void dmb_modes_weigh_coordinates(const dmb_mode_search *search);

@@ -234,7 +234,7 @@ static void take_rates(const dmb_mode_search *search, dmb_dense *d)
     double least = 0.0;
     for (size_t i = 0; i < d->n; i++) {
         d->square[i] = quotient(search, d, i);
-        d->square[i] = dmb_modes_sharpen(search, d->square[i], d->x);
+        d->square[i] = dmb_modes_refine(search, d->square[i], d->x);
         d->rate[i] = sqrt(fabs(d->square[i]));
         if (i < d->m) d->square[i] = d->rate[i] = 0.0;
         if (d->rate[i] > 0.0 && (least == 0.0 || d->rate[i] < least)) least = d->rate[i];

@@ -10,7 +10,7 @@
 #include "system/assemble/energy.h"
 
 /* Rounding of d^H K d in units of its terms, of which there are at most some hundred thousand. */
-#define DMB_SHARPEN_UNITS 64.0
+#define DMB_REFINE_UNITS 64.0
 
 double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
 {
@@ -30,7 +30,7 @@ double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
 /* d^H K d is twice the strain energy if there is no preload, wall or spring, and then the energy is more accurate: its
  * terms are squares of small differences, those of K d cancel. With n elements per bending wave K d loses eps n^4 of
  * it, the energy eps n^2. The energy is used if the two differ by the rounding of K d alone. */
-double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x)
+double dmb_modes_refine(const dmb_mode_search *search, double square, double *x)
 {
     const dmb_linear *linear = search->linear;
     double terms = 0.0;
@@ -40,7 +40,7 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
             terms += linear->stiffness_size[linear->scene.layout.row[i] + c] * z * z;
         }
     const double twice = dmb_modes_twice_strain_energy(search->modes, x);
-    return fabs(square - twice) <= DMB_SHARPEN_UNITS * DBL_EPSILON * terms ? twice : square;
+    return fabs(square - twice) <= DMB_REFINE_UNITS * DBL_EPSILON * terms ? twice : square;
 }
 
 /* Pinning of rigid-body motions: K with pins to the ground in as many rows as there are motions can be factored, and on
@@ -139,7 +139,7 @@ static int64_t factor_pinned(dmb_mode_search *search, double *W)
     dmb_block_weakest weakest;
     const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
     for (size_t i = m; i-- > 0;) *pins[i].entry = pins[i].before;
-    return bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT ? 0 : -1;
+    return bad >= 0 || weakest.ratio < DMB_UNCONSTRAINED_PIVOT ? 0 : -1;
 }
 
 int32_t dmb_modes_pin(dmb_mode_search *search)

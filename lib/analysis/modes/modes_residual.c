@@ -230,8 +230,8 @@ int32_t dmb_modes_check(dmb_mode_search *search)
  * in stiff motions, is reduced by one step of iterative refinement, which does not change x itself. */
 
 /* Relative distance of p from the root, which keeps pivots regular; and the largest number of iterations. */
-#define DMB_POLISH_ASIDE 1e-7
-enum { DMB_POLISH_TURNS = 3 };
+#define DMB_REFINE_ASIDE 1e-7
+enum { DMB_REFINE_TURNS = 3 };
 
 typedef double complex number;
 
@@ -240,15 +240,15 @@ static number number_of(double re, double im)
     return re + im * (number)_Complex_I;
 }
 
-typedef struct polish {
+typedef struct refinement {
     dmb_mode_search *search;
     dmb_dynamic_stiffness stiffness;
     dmb_complex_array x, f; /* shape (rows) */
     double *product;        /* shape (2 rows) */
-} polish;
+} refinement;
 
 /* x^H A x */
-static number form(const polish *p, const dmb_linear_matrix *A)
+static number form(const refinement *p, const dmb_linear_matrix *A)
 {
     const dmb_linear *linear = p->search->linear;
     const size_t n = linear->rows;
@@ -260,7 +260,7 @@ static number form(const polish *p, const dmb_linear_matrix *A)
 }
 
 /* f += factor A x */
-static void add_forces(const polish *p, const dmb_linear_matrix *A, number factor)
+static void add_forces(const refinement *p, const dmb_linear_matrix *A, number factor)
 {
     const dmb_linear *linear = p->search->linear;
     const size_t n = linear->rows;
@@ -274,7 +274,7 @@ static void add_forces(const polish *p, const dmb_linear_matrix *A, number facto
 }
 
 /* Root of y^H Q(s) y nearest to s. */
-static number root_next_to(const polish *p, number s)
+static number root_next_to(const refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
     const number m = form(p, &linear->mass), c = form(p, &linear->damping), k = form(p, &linear->stiffness);
@@ -283,11 +283,11 @@ static number root_next_to(const polish *p, number s)
     return cabs(a - s) < cabs(b - s) ? a : b;
 }
 
-static int turn(polish *p, number s)
+static int turn(refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
     const size_t bytes = linear->rows * sizeof(double);
-    const number at = s * (1.0 + DMB_POLISH_ASIDE);
+    const number at = s * (1.0 + DMB_REFINE_ASIDE);
     double most = 0.0;
     if (dmb_dynamic_stiffness_factor_at(&p->stiffness, creal(at), cimag(at)) >= 0) return 0;
     memset(p->f.re, 0, bytes);
@@ -307,7 +307,7 @@ static int turn(polish *p, number s)
 }
 
 /* Reduces rounding of the solution, mostly in stiff motions: x -= (I - x x^H M/(x^H M x)) Q(at)^-1 Q(s) x. */
-static void correct_general(polish *p, number s)
+static void correct_general(refinement *p, number s)
 {
     const dmb_linear *linear = p->search->linear;
     const size_t n = linear->rows;
@@ -329,7 +329,7 @@ static void correct_general(polish *p, number s)
     }
 }
 
-static void sharpen_general(polish *p, uint32_t k)
+static void refine_general(refinement *p, uint32_t k)
 {
     dmb_modes *modes = p->search->modes;
     const size_t rows = modes->rows, bytes = rows * sizeof(double);
@@ -337,7 +337,7 @@ static void sharpen_general(polish *p, uint32_t k)
     const int real = cimag(s) == 0.0;
     memcpy(p->x.re, modes->re + rows * k, bytes);
     memcpy(p->x.im, modes->im + rows * k, bytes);
-    for (int i = 0; i < DMB_POLISH_TURNS; i++) {
+    for (int i = 0; i < DMB_REFINE_TURNS; i++) {
         if (!turn(p, s)) return;
         if (real) memset(p->x.im, 0, bytes);
         s = root_next_to(p, s);
@@ -364,7 +364,7 @@ static int take_length(const dmb_linear *linear, double *x, double *Mx)
 
 /* Reduces rounding of the solution, mostly in stiff motions, by a correction of the residual: x -= (I - x x^T M) (K - p
  * M)^-1 (K - s M) x, s the Rayleigh quotient. */
-static void correct(const polish *p, double *x)
+static void correct(const refinement *p, double *x)
 {
     const dmb_mode_search *search = p->search;
     dmb_linear *linear = search->linear;
@@ -381,7 +381,7 @@ static void correct(const polish *p, double *x)
     for (size_t r = 0; r < rows; r++) x[r] -= Kx[r] - along * x[r];
 }
 
-static void sharpen_symmetric(polish *p, uint32_t k)
+static void refine_symmetric(refinement *p, uint32_t k)
 {
     dmb_mode_search *search = p->search;
     dmb_linear *linear = search->linear;
@@ -389,10 +389,10 @@ static void sharpen_symmetric(polish *p, uint32_t k)
     const size_t rows = modes->rows;
     double *x = p->x.re, *Ax = p->product;
     memcpy(x, modes->re + rows * k, rows * sizeof(double));
-    for (int i = 0; i < DMB_POLISH_TURNS; i++) {
+    for (int i = 0; i < DMB_REFINE_TURNS; i++) {
         const double size = dmb_modes_size(modes, k),
                      square = modes->s[2 * (size_t)k] > 0.0 ? -size * size : size * size;
-        if (dmb_linear_factor(linear, 1.0, 0.0, -square * (1.0 + DMB_POLISH_ASIDE), NULL) >= 0) return;
+        if (dmb_linear_factor(linear, 1.0, 0.0, -square * (1.0 + DMB_REFINE_ASIDE), NULL) >= 0) return;
         dmb_linear_multiply(linear, &linear->mass, x, Ax);
         memcpy(x, Ax, rows * sizeof(double));
         dmb_linear_solve(linear, x);
@@ -407,10 +407,10 @@ static void sharpen_symmetric(polish *p, uint32_t k)
     }
 }
 
-int32_t dmb_modes_polish(dmb_mode_search *search)
+int32_t dmb_modes_refine_shapes(dmb_mode_search *search)
 {
     const size_t rows = search->linear->rows, bytes = 6 * rows * sizeof(double);
-    polish p = {.search = search};
+    refinement p = {.search = search};
     double *block = NULL;
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < search->modes->count && status >= 0; k++) {
@@ -427,7 +427,7 @@ int32_t dmb_modes_polish(dmb_mode_search *search)
             p.f = (dmb_complex_array){block + 2 * rows, block + 3 * rows};
             p.product = block + 4 * rows;
         }
-        if (status >= 0) (search->general ? sharpen_general : sharpen_symmetric)(&p, k);
+        if (status >= 0) (search->general ? refine_general : refine_symmetric)(&p, k);
     }
     dmb_dynamic_stiffness_release(&p.stiffness);
     if (block != NULL) dmb_release(&search->linear->allocator, block, bytes);

@@ -55,7 +55,7 @@ static double circling(const dmb_mode_search *search, const double *x, const dou
     double *circle = search->work, *product = circle + n;
     memset(circle, 0, n * sizeof(double));
     for (uint32_t i = 0; i < layout->n; i++)
-        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_FULL; c += 3) {
+        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_SIX_DOF; c += 3) {
             const size_t at = (size_t)layout->row[i] + c;
             take_circle(x + at, y + at, sign, circle + at);
         }
@@ -71,7 +71,7 @@ static double not_circling(const dmb_mode_search *search, const double *x)
     double *rest = search->work, *product = rest + n;
     memcpy(rest, x, n * sizeof(double));
     for (uint32_t i = 0; i < layout->n; i++)
-        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_FULL; c += 3)
+        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_SIX_DOF; c += 3)
             rest[layout->row[i] + c] = rest[layout->row[i] + c + 1] = 0.0;
     dmb_linear_multiply(search->linear, &search->linear->mass, rest, product);
     return dmb_dot(n, rest, product);
@@ -194,7 +194,7 @@ void dmb_modes_put_square(dmb_mode_search *search, uint32_t k, double square, co
 {
     dmb_modes *modes = search->modes;
     dmb_modes_put(search, k, 0.0, 0.0, x, NULL);
-    const double sharp = dmb_modes_sharpen(search, square, modes->re + (size_t)modes->rows * k), s = sqrt(fabs(sharp));
+    const double sharp = dmb_modes_refine(search, square, modes->re + (size_t)modes->rows * k), s = sqrt(fabs(sharp));
     modes->s[2 * (size_t)k] = sharp < 0.0 ? s : 0.0;
     modes->s[2 * (size_t)k + 1] = sharp > 0.0 ? s : 0.0;
 }
@@ -234,7 +234,7 @@ int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, 
 }
 
 /* The decaying half of a divergence pair (s, -s) is not a separate mode. */
-static int32_t take_real(dmb_mode_search *search, double re, const double *x)
+static int32_t read_real(dmb_mode_search *search, double re, const double *x)
 {
     if (search->options->kind == DMB_MODES_UNDAMPED && re < 0.0) return DMB_OK;
     if (dmb_modes_is_rigid_root(search, re, 0.0, x, NULL)) return DMB_OK;
@@ -243,10 +243,10 @@ static int32_t take_real(dmb_mode_search *search, double re, const double *x)
 
 int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, double *x, double *y)
 {
-    if (im == 0.0) return take_real(search, re, x);
+    if (im == 0.0) return read_real(search, re, x);
     if (dmb_modes_is_real_pair(search, re, im, x, y)) {
-        const int32_t status = take_real(search, re, x);
-        return status < 0 ? status : take_real(search, re, y);
+        const int32_t status = read_real(search, re, x);
+        return status < 0 ? status : read_real(search, re, y);
     }
     if (dmb_modes_is_rigid_root(search, re, im, x, y)) return DMB_OK;
     return dmb_modes_add(search, re, im, x, y);

@@ -110,7 +110,7 @@ static void find_parts(conditions *c)
     for (uint32_t k = 0; k < c->part_count; k++) {
         rigid_part *p = c->parts + k;
         p->candidate = c->candidates;
-        p->full = scene->layout.size[p->first] == DMB_NODE_FULL;
+        p->full = scene->layout.size[p->first] == DMB_NODE_SIX_DOF;
         measure_part(c, p);
         p->candidates = scene->layout.size[p->first] + (p->full && p->bend > DMB_RIGID_BENT ? 1U : 0U);
         c->candidates += p->candidates;
@@ -122,10 +122,10 @@ static void add_candidate(const conditions *c, const rigid_part *p, uint32_t can
 {
     const dmb_block_layout *layout = &c->linear->scene.layout;
     double turn[3] = {0.0, 0.0, 0.0};
-    if (p->full && candidate >= 3 && candidate < DMB_NODE_FULL) turn[candidate - 3] = factor / p->size;
+    if (p->full && candidate >= 3 && candidate < DMB_NODE_SIX_DOF) turn[candidate - 3] = factor / p->size;
     for (uint32_t i = p->first; i < p->first + p->count; i++) {
         double rotation[9], arm[3], shift[3], local[3], *to = d + layout->row[i];
-        if (!p->full || candidate == DMB_NODE_FULL) {
+        if (!p->full || candidate == DMB_NODE_SIX_DOF) {
             to[p->full ? 3 : candidate] += p->full ? factor / p->size : factor;
             continue;
         }
@@ -166,7 +166,7 @@ static int32_t put_row(conditions *c, uint32_t condition, uint32_t candidate, do
 }
 
 /* (1 - R E) d */
-static int32_t put_held_rows(conditions *c, uint32_t candidate)
+static int32_t put_constrained_rows(conditions *c, uint32_t candidate)
 {
     const dmb_linear *linear = c->linear;
     int32_t status = DMB_OK;
@@ -203,7 +203,7 @@ static int32_t make_conditions(conditions *c)
         for (uint32_t i = 0; i < c->parts[k].candidates && status >= 0; i++) {
             memset(c->d, 0, c->linear->rows * sizeof(double));
             add_candidate(c, c->parts + k, i, 1.0, c->d);
-            status = put_held_rows(c, c->parts[k].candidate + i);
+            status = put_constrained_rows(c, c->parts[k].candidate + i);
             if (status >= 0) status = put_forces(c, c->parts[k].candidate + i);
         }
     return status;

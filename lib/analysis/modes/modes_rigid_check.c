@@ -176,7 +176,7 @@ static double held_by_forces(const dmb_linear *linear, const double *r)
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t a = scene->element_node[e];
         const double *phi = r + scene->layout.row[a] + 4;
-        if (scene->layout.size[a] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[a] != DMB_NODE_SIX_DOF) continue;
         sum += force_of(linear, e) * scene->types[scene->element_type[e]].length * dmb_dot(2, phi, phi);
     }
     return sum;

@@ -173,7 +173,7 @@ static int32_t linearise(dmb_response_work *w)
     const dmb_linear_options options = {.contact = w->options.contact,
                                         .no_friction = !w->options.friction,
                                         .gap = w->options.contact_gap,
-                                        .still = w->options.axes == DMB_RESPONSE_AXES_AT_REST,
+                                        .inertial_axes = w->options.axes == DMB_RESPONSE_AXES_AT_REST,
                                         .spin = w->options.spin};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
@@ -190,7 +190,7 @@ static int32_t take_inputs(dmb_response_work *w, const dmb_excitation *excitatio
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < w->excitation_count && status >= 0; i++) {
         dmb_excitation input;
-        status = dmb_input_take(excitations, i, &w->sim->message, &input);
+        status = dmb_input_get(excitations, i, &w->sim->message, &input);
         if (status < 0) return status;
         response->amplitude[i] = input.amplitude;
         response->phase[i] = input.phase;
@@ -203,7 +203,7 @@ static int32_t take_outputs(dmb_response_work *w, const dmb_response_output *out
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_response_output output;
-        int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
+        int32_t status = dmb_output_get(outputs, i, &w->sim->message, &output);
         if (status < 0) return status;
         status = dmb_linear_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
         if (status < 0) return status;
@@ -293,7 +293,7 @@ static int32_t analyse(dmb_response_work *w, const dmb_response_options *options
                        const dmb_response_output *outputs, dmb_response **response)
 {
     dmb_sim *sim = w->sim;
-    int32_t status = dmb_response_options_take(options, &sim->message, &w->options);
+    int32_t status = dmb_response_options_get(options, &sim->message, &w->options);
     if (status >= 0) status = check_counts(sim, w->excitation_count, w->output_count);
     if (status >= 0) status = dmb_state_copy_check(sim, "response");
     if (status >= 0) status = dmb_actuators_check_linear(sim, "response", 1, &sim->message);

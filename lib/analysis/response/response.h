@@ -42,14 +42,14 @@ static inline double *dmb_response_value(const dmb_response *response, size_t po
 enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
 
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
-int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);
+int32_t dmb_response_options_get(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);
 /* Struct number i of the caller's array, whose items are as far apart as the first one says; its fields checked as far
  * as that needs no scene. */
-int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out);
-int32_t dmb_output_take(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out);
+int32_t dmb_input_get(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out);
+int32_t dmb_output_get(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out);
 /* Likewise of a stepped sine, at a frequency that is checked too. */
-int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
-                                      dmb_stepped_sine_options *out);
+int32_t dmb_stepped_sine_options_get(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
+                                     dmb_stepped_sine_options *out);
 /* Frequency number i [Hz] of the grid. */
 double dmb_response_grid(const dmb_response_options *options, uint32_t i);
 
@@ -98,7 +98,7 @@ typedef struct dmb_linear_output {
     uint32_t multiplier_count;
     uint32_t support_count; /* rows that are held and whose forces count */
     double multiplier_weight[6];
-    uint32_t support[6]; /* which of held_node, held_component */
+    uint32_t support[6]; /* which of constrained_node, constrained_component */
     double support_weight[6];
     uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
     double direct, integral; /* what it adds there: direct + integral/(i w) */

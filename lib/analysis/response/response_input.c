@@ -170,7 +170,7 @@ static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *d
 static int turns(const request *r, uint32_t node)
 {
     const dmb_block_layout *layout = &r->copy->scene->layout;
-    return layout->size[node] == DMB_NODE_FULL && r->linear->spin[layout->row[node] + 3] != 0.0;
+    return layout->size[node] == DMB_NODE_SIX_DOF && r->linear->spin[layout->row[node] + 3] != 0.0;
 }
 
 /* 1 if it acts on a row of its node that is not along or about the axis. */
@@ -322,7 +322,7 @@ static int32_t eccentricity(const request *r)
         double g[6];
         dmb_unbalance_of(scene, i, g);
         const int eccentric = g[1] != 0.0 || g[2] != 0.0 || g[4] != 0.0 || g[5] != 0.0;
-        const int full = scene->layout.size[scene->rigid_masses[i].node] == DMB_NODE_FULL;
+        const int full = scene->layout.size[scene->rigid_masses[i].node] == DMB_NODE_SIX_DOF;
         felt += eccentric && full;
         unfelt += eccentric && !full;
         if (full) add_rigid_mass(r->copy, i, g, r->out);
@@ -352,10 +352,10 @@ static void add_stabiliser(const dmb_sim *copy, uint32_t s, int32_t around, doub
 
 static void add_path(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
 {
-    const dmb_path_site *site = copy->scene->path_sites + s;
+    const dmb_axial_torsional_site *site = copy->scene->axial_torsional_sites + s;
     const uint32_t row = copy->scene->layout.row[site->node];
     dmb_site_force f;
-    dmb_path_site_force_of(copy->scene, &copy->now, s, &f);
+    dmb_axial_torsional_site_force(copy->scene, &copy->now, s, &f);
     rows[around ? row + 1 : row] += f.normal_force * (around ? site->radius : 1.0);
 }
 
@@ -365,7 +365,7 @@ static int32_t friction(const request *r)
     if (!around && r->input->component != DMB_X)
         return refuse(r, DMB_ERR_VALUE, "component must be DMB_X (friction along the hole) or DMB_RX (around it)");
     for (uint32_t s = 0; s < r->copy->scene->site_count; s++) add_stabiliser(r->copy, s, around, r->out->re);
-    for (uint32_t s = 0; s < r->copy->scene->path_site_count; s++) add_path(r->copy, s, around, r->out->re);
+    for (uint32_t s = 0; s < r->copy->scene->axial_torsional_site_count; s++) add_path(r->copy, s, around, r->out->re);
     return DMB_OK;
 }
 

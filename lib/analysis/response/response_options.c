@@ -59,7 +59,7 @@ static void check_list(dmb_check *check, const dmb_response_options *o)
     }
 }
 
-int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out)
+int32_t dmb_response_options_get(const dmb_response_options *given, dmb_message *message, dmb_response_options *out)
 {
     dmb_check check = dmb_check_of(message, "response options", DMB_NONE);
     *out = dmb_response_options_default();
@@ -83,8 +83,8 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
     return check.status;
 }
 
-int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
-                                      dmb_stepped_sine_options *out)
+int32_t dmb_stepped_sine_options_get(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
+                                     dmb_stepped_sine_options *out)
 {
     dmb_check check = dmb_check_of(message, "sine options", DMB_NONE);
     *out = dmb_stepped_sine_options_default();
@@ -123,7 +123,7 @@ static const void *item_of(const void *items, uint32_t stride, uint32_t i, uint3
     return item;
 }
 
-int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out)
+int32_t dmb_input_get(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out)
 {
     dmb_check check = dmb_check_of(message, "excitation", i);
     uint32_t size;
@@ -142,7 +142,7 @@ int32_t dmb_input_take(const dmb_excitation *excitations, uint32_t i, dmb_messag
     return check.status;
 }
 
-int32_t dmb_output_take(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out)
+int32_t dmb_output_get(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out)
 {
     dmb_check check = dmb_check_of(message, "output", i);
     uint32_t size;

@@ -149,7 +149,7 @@ static void slip(const request *r, int32_t direction, dmb_functional *out)
         return;
     }
     *out = r->out->functional;
-    out->speed[direction] = direction == 0 ? 1.0 : scene->path_sites[site - scene->site_count].radius;
+    out->speed[direction] = direction == 0 ? 1.0 : scene->axial_torsional_sites[site - scene->site_count].radius;
 }
 
 static void friction(const request *r, int32_t direction, const dmb_contact_slope *slope, const dmb_functional *normal,
@@ -172,7 +172,7 @@ static int32_t of_contact(const request *r)
     dmb_functional normal, along;
     if (r->options->contact == DMB_CONTACT_OPEN)
         return refuse(r, DMB_ERR_UNSUPPORTED, "contact is left out, its forces do not change");
-    if (r->output->place.pipe >= (uint64_t)scene->site_count + scene->path_site_count)
+    if (r->output->place.pipe >= (uint64_t)scene->site_count + scene->axial_torsional_site_count)
         return refuse(r, DMB_ERR_VALUE, "place.pipe is no number of a contact point");
     if (c != DMB_Z && scene->friction_law.kind == DMB_FRICTION_BRISTLE)
         return refuse(r, DMB_ERR_UNSUPPORTED, "friction of bristles is not an output");
@@ -198,7 +198,7 @@ static void take_support(const request *r, uint32_t held, double weight)
 {
     r->out->support[r->out->support_count] = held;
     r->out->support_weight[r->out->support_count++] = weight;
-    take_cluster_of_node(r, r->copy->scene->held_node[held]);
+    take_cluster_of_node(r, r->copy->scene->constrained_node[held]);
 }
 
 /* The query is linear in what the rows that are held have left. */
@@ -208,8 +208,8 @@ static int32_t of_support(const request *r)
     int32_t status;
     const double base = dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "place.part names no string or body of this model");
-    for (uint32_t i = 0; i < scene->held_count && r->out->support_count < 6; i++) {
-        double *left = r->copy->held_reaction + i, kept = *left;
+    for (uint32_t i = 0; i < scene->constrained_count && r->out->support_count < 6; i++) {
+        double *left = r->copy->support_reaction + i, kept = *left;
         const double scale = fmax(fabs(base), 1.0);
         *left += scale;
         const double weight = (dmb_answer_of(r->copy, r->output, &status) - base) / scale;
@@ -364,8 +364,8 @@ static int32_t of_drive(const request *r)
         take_multiplier(r, drive->constraint, 0, -1.0);
         return DMB_OK;
     }
-    for (uint32_t h = 0; h < scene->held_count; h++)
-        if (dmb_held_row(scene, h) == drive->row) take_support(r, h, 1.0);
+    for (uint32_t h = 0; h < scene->constrained_count; h++)
+        if (dmb_constrained_row(scene, h) == drive->row) take_support(r, h, 1.0);
     return DMB_OK;
 }
 
@@ -378,7 +378,7 @@ static int32_t of_bit(const request *r)
     if (k >= scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
     dmb_bit_slope_of(r->copy, k, &slope);
     const double *by = r->output->component == DMB_X ? slope.weight : slope.torque;
-    const size_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_FULL ? 1 : 3;
+    const size_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_SIX_DOF ? 1 : 3;
     dmb_functional_take_node(scene, scene->bits[k].node, out);
     for (uint32_t c = 0; c < out->count; c++) {
         out->pose[c] = by[0] * slope.along[stride * c] + by[1] * slope.about[stride * c];

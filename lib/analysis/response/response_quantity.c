@@ -259,11 +259,12 @@ static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dm
 }
 
 /* Reaction in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
-static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_linear_output *output, uint32_t held,
-                                      dmb_complex_array x, dmb_complex_array f)
+static dmb_complex_number of_constrained_row(const dmb_dynamic_stiffness *s, const dmb_linear_output *output,
+                                             uint32_t held, dmb_complex_array x, dmb_complex_array f)
 {
     const dmb_scene *scene = &s->linear->scene;
-    const uint32_t node = scene->held_node[held], c = scene->held_component[held], row = dmb_held_row(scene, held);
+    const uint32_t node = scene->constrained_node[held], c = scene->constrained_component[held],
+                   row = dmb_constrained_row(scene, held);
     dmb_complex_number sum = dmb_dynamic_row(s, node, c, x);
     sum.re -= f.re[row];
     sum.im -= f.im[row];
@@ -288,7 +289,7 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, con
         value.im += output->multiplier_weight[k] * s->links.multiplier.im[output->multiplier + k];
     }
     for (uint32_t k = 0; k < output->support_count; k++) {
-        const dmb_complex_number left = of_held_row(s, output, output->support[k], x, f);
+        const dmb_complex_number left = of_constrained_row(s, output, output->support[k], x, f);
         value.re += output->support_weight[k] * left.re;
         value.im += output->support_weight[k] * left.im;
     }

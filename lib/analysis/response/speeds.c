@@ -56,7 +56,7 @@ typedef struct speeds_run {
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
+static int32_t read_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NONE);
     *out = dmb_speeds_options_default();
@@ -310,7 +310,7 @@ static int32_t analyse(speeds_run *r, const dmb_speeds_options *options, dmb_spe
     dmb_speed_band unused;
     if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
     r->room = *band_count;
-    int32_t status = take_options(r->sim, options, &r->options);
+    int32_t status = read_options(r->sim, options, &r->options);
     if (status >= 0) status = check_counts(r);
     if (status >= 0) status = dmb_state_copy_check(r->sim, "speeds");
     if (status < 0) return status;

@@ -250,7 +250,7 @@ static int32_t take_outputs(sine_run *r, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < r->outputs; i++) {
         dmb_response_output *output = &r->output[i].output;
-        int32_t status = dmb_output_take(outputs, i, &r->sim->message, output);
+        int32_t status = dmb_output_get(outputs, i, &r->sim->message, output);
         if (status < 0) return status;
         status = begin_output(r->sim, r->output + i);
         if (status < 0) {
@@ -278,7 +278,7 @@ static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_opt
     r->report = dmb_stepped_sine_report_default();
     if (report != NULL && dmb_stepped_sine_report_read(&r->report, report) < 0) return DMB_ERR_STRUCT_SIZE;
     r->report = dmb_stepped_sine_report_default();
-    int32_t status = dmb_stepped_sine_options_take(options, frequency, &sim->message, &r->options);
+    int32_t status = dmb_stepped_sine_options_get(options, frequency, &sim->message, &r->options);
     dmb_check check = dmb_check_of(&sim->message, "sine", DMB_NONE);
     if (status >= 0) dmb_check_count(&check, "output_count", r->outputs, 1, DMB_RESPONSE_INPUTS_MAX);
     if (status < 0 || check.status < 0) return status < 0 ? status : check.status;

@@ -225,14 +225,14 @@ static int32_t check_scene(dmb_sim *sim)
 
 static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t count, size_t numbers)
 {
-    dmb_sensitivity nothing, *made = dmb_arena_take(arena, 1, sizeof nothing, DMB_ALIGNMENT);
+    dmb_sensitivity nothing, *made = dmb_arena_allocate(arena, 1, sizeof nothing, DMB_ALIGNMENT);
     dmb_sensitivity *s = made != NULL ? made : &nothing;
     s->parameters = DMB_ARENA_ARRAY(arena, dmb_rated_parameter, count);
     s->high = DMB_ARENA_DOUBLES(arena, numbers);
     s->low = DMB_ARENA_DOUBLES(arena, numbers);
     s->middle = DMB_ARENA_DOUBLES(arena, numbers);
     s->seen = DMB_ARENA_DOUBLES(arena, 3 * (size_t)sim->scene->node_count + 2 * (size_t)sim->scene->row_count);
-    dmb_follow_room_take(arena, sim->scene, &s->room);
+    dmb_companion_workspace_allocate(arena, sim->scene, &s->workspace);
     s->settings = DMB_ARENA_DOUBLES(arena, sim->scene->input_count);
     for (uint32_t i = 0; i < count; i++) {
         double *rates = DMB_ARENA_DOUBLES(arena, numbers), *accepted = DMB_ARENA_DOUBLES(arena, numbers);
@@ -314,7 +314,7 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
         (void)dmb_parameter_read(&p, (const unsigned char *)given + (size_t)i * given->struct_size);
         take_parameter(made, &p, &made->parameters[i]);
     }
-    made->follower.follow = dmb_sensitivity_follow;
+    made->follower.follow = dmb_sensitivity_companions;
     made->follower.open = dmb_sensitivity_note_opening;
     made->follower.context = made;
     made->magic = DMB_HANDLE_SENSITIVITY;

@@ -2,14 +2,14 @@
  *
  * A step is y1 = f(y0, p): the equations R(y1; y0, p) = 0 of generalized-alpha, then the memory of contacts, drives and
  * bits. With rates S = dy/dp, S1 = f_y S0 + f_p is the difference of the two steps from y0 +- step S0 at p +- step over
- * 2 step, each a companion step of the accepted one (integrator/follow); one-sided: of the steps from y0 + step S0 and
- * y0. The scenes at p +- step are those of the caller's models; one worker computes all these steps. Internal numerical
- * differentiation: Bock 1981. */
+ * 2 step, each a companion step of the accepted one (integrator/companion); one-sided: of the steps from y0 + step S0
+ * and y0. The scenes at p +- step are those of the caller's models; one worker computes all these steps. Internal
+ * numerical differentiation: Bock 1981. */
 #ifndef DMB_ANALYSIS_SENSITIVITY_SENSITIVITY_H
 #define DMB_ANALYSIS_SENSITIVITY_SENSITIVITY_H
 
 #include "drillmbd/sensitivity.h"
-#include "integrator/follow.h"
+#include "integrator/companion.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 
@@ -39,7 +39,7 @@ struct dmb_sensitivity {
     double *middle;                  /* the same of the sim, by a companion step, if a parameter is one-sided */
     double *seen;     /* displacement, velocity and acceleration of the rates, dmb_sensitivity_take_sight */
     double *settings; /* of the inputs at creation, which must not change, shape (input) */
-    dmb_follow_room room;
+    dmb_companion_workspace workspace;
     dmb_follower follower;
     double followed_from; /* [s] start time of the last companion step */
     int32_t busy;
@@ -82,7 +82,7 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back);
  * with a message; the rates are then unchanged. */
 int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s);
 /* Callback of the sim: rates along a step. */
-int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt);
+int32_t dmb_sensitivity_companions(void *context, const dmb_trial_step *trial_step);
 /* Records the increments at which contacts open. */
 void dmb_sensitivity_note_opening(void *context);
 

@@ -114,7 +114,7 @@ static void write_poses(const dmb_sensitivity *s, const dmb_rated_parameter *p, 
     const double *displacement = dmb_rates_of(s, p, s->sim->now.displacement);
     const double *quaternion = dmb_rates_of(s, p, s->sim->now.quaternion), *turn = dmb_rates_of(s, p, s->sim->now.turn);
     for (uint32_t i = 0; i < s->sim->scene->node_count; i++) {
-        if (layout->size[i] == DMB_NODE_FULL) {
+        if (layout->size[i] == DMB_NODE_SIX_DOF) {
             pose_rate(s, p, i, displacement, quaternion, pose + layout->row[i]);
             continue;
         }

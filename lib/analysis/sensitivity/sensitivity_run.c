@@ -47,7 +47,8 @@ static uint64_t sides_of(const dmb_sim *sim)
     uint64_t hash = sides_of_drives(sim, UINT64_C(0xCBF29CE484222325));
     for (uint32_t i = 0; i < scene->site_count; i++) hash = mix(hash, sim->trial.site_penetration[i] > 0.0);
     for (uint32_t i = 0; i < bristles * scene->site_count; i++) hash = mix(hash, sim->trial.site_sticks[i]);
-    for (uint32_t i = 0; i < bristles * scene->path_site_count; i++) hash = mix(hash, sim->trial.path_sticks[i]);
+    for (uint32_t i = 0; i < bristles * scene->axial_torsional_site_count; i++)
+        hash = mix(hash, sim->trial.axial_torsional_sticks[i]);
     for (uint32_t i = 0; i < scene->bit_count; i++)
         hash = mix(hash, sim->trial.bit_advance[i] > sim->trial.bit_bottom[i]);
     return hash;
@@ -71,20 +72,20 @@ static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const do
 
 /* Operation on both sides of a parameter: a step, or recomputed accelerations. *sides is the hash of the switches at
  * its end. */
-typedef int32_t (*move)(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides);
+typedef int32_t (*move)(dmb_sensitivity *s, const dmb_nominal_step *nominal, double *to, uint64_t *sides);
 
-static int32_t step_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
+static int32_t step_beside(dmb_sensitivity *s, const dmb_nominal_step *nominal, double *to, uint64_t *sides)
 {
-    const int32_t status = dmb_follow_step(s->worker, lead);
+    const int32_t status = dmb_companion_step(s->worker, nominal);
     if (status < 0) return status;
     dmb_state_read(s->worker, DMB_GROUP_TRIAL, to);
     *sides = sides_of(s->worker);
     return DMB_OK;
 }
 
-static int32_t jump_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
+static int32_t jump_beside(dmb_sensitivity *s, const dmb_nominal_step *nominal, double *to, uint64_t *sides)
 {
-    (void)lead;
+    (void)nominal;
     const int32_t status = dmb_system_jump(s->worker);
     if (status < 0) return status;
     dmb_state_read(s->worker, DMB_GROUP_NOW, to);
@@ -92,15 +93,15 @@ static int32_t jump_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to,
     return DMB_OK;
 }
 
-static int32_t move_parameter(dmb_sensitivity *s, const dmb_lead *lead, move move_beside, dmb_rated_parameter *p,
-                              uint64_t middle_sides)
+static int32_t move_parameter(dmb_sensitivity *s, const dmb_nominal_step *nominal, move move_beside,
+                              dmb_rated_parameter *p, uint64_t middle_sides)
 {
     uint64_t sides, low_sides = middle_sides;
     dmb_sensitivity_aside(s, p, DMB_SIDE_HIGH);
-    int32_t status = move_beside(s, lead, s->high, &sides);
+    int32_t status = move_beside(s, nominal, s->high, &sides);
     if (status >= 0 && !p->one_sided) {
         dmb_sensitivity_aside(s, p, DMB_SIDE_LOW);
-        status = move_beside(s, lead, s->low, &low_sides);
+        status = move_beside(s, nominal, s->low, &low_sides);
     }
     if (status < 0) return status;
     p->kinks += sides != low_sides;
@@ -160,25 +161,25 @@ static int32_t explain(const dmb_sensitivity *s, const dmb_rated_parameter *p, i
 }
 
 /* Operates on the sim's own companion, for one-sided parameters, then on each parameter. */
-static int32_t move_all(dmb_sensitivity *s, const dmb_lead *lead, move move_beside, const char *what)
+static int32_t move_all(dmb_sensitivity *s, const dmb_nominal_step *nominal, move move_beside, const char *what)
 {
     uint64_t sides = 0;
-    int32_t status = any_one_sided(s) ? move_beside(s, lead, s->middle, &sides) : DMB_OK;
+    int32_t status = any_one_sided(s) ? move_beside(s, nominal, s->middle, &sides) : DMB_OK;
     if (status < 0) return explain(s, NULL, status, what);
     for (uint32_t i = 0; i < s->count; i++) {
-        status = move_parameter(s, lead, move_beside, &s->parameters[i], sides);
+        status = move_parameter(s, nominal, move_beside, &s->parameters[i], sides);
         if (status < 0) return explain(s, &s->parameters[i], status, what);
     }
     return DMB_OK;
 }
 
-static int32_t follow_all(dmb_sensitivity *s, const dmb_lead *lead)
+static int32_t follow_all(dmb_sensitivity *s, const dmb_nominal_step *nominal)
 {
     dmb_sensitivity_stand(s);
-    int32_t status = dmb_follow_prepare(s->worker, lead);
+    int32_t status = dmb_companion_prepare(s->worker, nominal);
     if (status < 0) return explain(s, NULL, status, "tangent of the step");
     if (any_one_sided(s)) dmb_sensitivity_stand(s);
-    return move_all(s, lead, step_beside, "step beside the step");
+    return move_all(s, nominal, step_beside, "step beside the step");
 }
 
 static int32_t jump_all(dmb_sensitivity *s)
@@ -190,19 +191,19 @@ static int32_t jump_all(dmb_sensitivity *s)
 void dmb_sensitivity_note_opening(void *context)
 {
     dmb_sensitivity *s = context;
-    memcpy(s->room.opening, s->sim->increment, s->sim->scene->row_count * sizeof(double));
+    memcpy(s->workspace.opening, s->sim->increment, s->sim->scene->row_count * sizeof(double));
 }
 
-int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
+int32_t dmb_sensitivity_companions(void *context, const dmb_trial_step *trial_step)
 {
     dmb_sensitivity *s = context;
-    const dmb_lead lead = {s->sim, attempt, &s->room};
+    const dmb_nominal_step nominal = {s->sim, trial_step, &s->workspace};
     if (s->advances) dmb_sensitivity_settle(s, 0); /* completed steps are kept, whatever the result of this one */
     s->followed = 0;
     s->followed_from = s->sim->clock->time;
     const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
     if (status < 0) return status;
-    const int32_t followed = follow_all(s, &lead);
+    const int32_t followed = follow_all(s, &nominal);
     if (followed < 0) return followed;
     dmb_sensitivity_take_sight(s, &s->sim->trial);
     s->followed = 1;

@@ -38,7 +38,7 @@ static int32_t check_modes(dmb_sim *sim, const dmb_state_space_options *o)
     return DMB_ERR_HANDLE;
 }
 
-static int32_t take_options(dmb_sim *sim, const dmb_state_space_options *given, uint32_t inputs, uint32_t outputs,
+static int32_t read_options(dmb_sim *sim, const dmb_state_space_options *given, uint32_t inputs, uint32_t outputs,
                             dmb_state_space_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "state space options", DMB_NONE);
@@ -136,7 +136,7 @@ static int32_t take_inputs(dmb_space_work *w, const dmb_excitation *inputs)
 {
     for (uint32_t i = 0; i < w->input_count; i++) {
         dmb_excitation input;
-        int32_t status = dmb_input_take(inputs, i, &w->sim->message, &input);
+        int32_t status = dmb_input_get(inputs, i, &w->sim->message, &input);
         if (status >= 0) status = dmb_excitation_of(w->linear, &input, i, &w->sim->message, w->inputs + i);
         if (status < 0) return status;
         if (w->inputs[i].law == DMB_EXCITE_INERTIA) {
@@ -198,7 +198,7 @@ static int32_t refuse_size(const dmb_space_work *w, uint64_t states)
 
 static int32_t make_room(dmb_space_work *w)
 {
-    const uint64_t room = w->options.form == DMB_STATE_MATRICES ? 0 : dmb_space_basis_room(w);
+    const uint64_t room = w->options.form == DMB_STATE_MATRICES ? 0 : dmb_space_basis_workspace(w);
     const uint64_t states = 2 * room + w->space->info.input_states;
     return states > STATES_MAX ? refuse_size(w, states) : take_space(w, (size_t)room);
 }
@@ -265,7 +265,7 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
                        const dmb_response_output *outputs, dmb_state_space **space)
 {
     dmb_sim *sim = w->sim;
-    int32_t status = take_options(sim, options, w->input_count, w->output_count, &w->options);
+    int32_t status = read_options(sim, options, w->input_count, w->output_count, &w->options);
     if (status >= 0) status = dmb_state_copy_check(sim, "state space");
     if (status >= 0) status = dmb_actuators_check_linear(sim, "state space", 1, &sim->message);
     if (status < 0) return status;

@@ -86,7 +86,7 @@ int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *out
 /* Computes the basis in space->shapes, with its count. */
 int32_t dmb_space_make_basis(dmb_space_work *w);
 /* Largest number of shapes in a basis. */
-uint64_t dmb_space_basis_room(const dmb_space_work *w);
+uint64_t dmb_space_basis_workspace(const dmb_space_work *w);
 /* Computes A, B, C, D. */
 int32_t dmb_space_fill(dmb_space_work *w);
 /* DMB_NOTE_INCOMPLETE with its message if coefficients change with the rotation of parts; w->work is overwritten.

@@ -134,7 +134,7 @@ static int32_t add_statics(dmb_space_work *w)
     return status;
 }
 
-uint64_t dmb_space_basis_room(const dmb_space_work *w)
+uint64_t dmb_space_basis_workspace(const dmb_space_work *w)
 {
     const uint64_t n = w->linear->coordinates;
     if (w->options.form != DMB_STATE_REDUCED) return n;

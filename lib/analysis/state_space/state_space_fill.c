@@ -278,7 +278,7 @@ static void take_shares(dmb_space_work *w, const dmb_linear_output *output, doub
     const dmb_complex_array force = {w->work + 2 * rows, w->work + 3 * rows};
     memset(w->work, 0, 4 * rows * sizeof(double));
     for (uint32_t k = 0; k < output->support_count; k++) {
-        const uint32_t row = dmb_held_row(scene, output->support[k]);
+        const uint32_t row = dmb_constrained_row(scene, output->support[k]);
         shares[row] = share_of_row(w, output, zeros, force, row);
     }
     if (output->cluster == DMB_NONE) return;
@@ -331,7 +331,7 @@ int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *out
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_linear_output taken;
         dmb_response_output output;
-        int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
+        int32_t status = dmb_output_get(outputs, i, &w->sim->message, &output);
         if (status >= 0) status = dmb_linear_output_of(w->linear, &options, &output, i, &w->sim->message, &taken);
         if (status < 0) return status;
         take_output(w, &taken, w->outputs + i);

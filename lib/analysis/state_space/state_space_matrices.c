@@ -1,5 +1,5 @@
 /* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system
- * stores the forces of a constrained row separately: its column in held_columns, its row in held_rows. */
+ * stores the forces of a constrained row separately: its column in constrained_columns, its row in constrained_rows. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -50,9 +50,9 @@ static void add_block_entry(builder *b, uint32_t i, uint32_t r, uint32_t j, uint
     double entry[3];
     for (int k = 0; k < 3; k++) {
         if (!scene->solved_row[column])
-            entry[k] = l->held_columns[54 * (size_t)b->held[column] + 18 * (size_t)k + 6 * (i + 1 - j) + r];
+            entry[k] = l->constrained_columns[54 * (size_t)b->held[column] + 18 * (size_t)k + 6 * (i + 1 - j) + r];
         else if (!scene->solved_row[row])
-            entry[k] = l->held_rows[54 * (size_t)b->held[row] + 18 * (size_t)k + 6 * (j + 1 - i) + c];
+            entry[k] = l->constrained_rows[54 * (size_t)b->held[row] + 18 * (size_t)k + 6 * (j + 1 - i) + c];
         else if (i == j)
             entry[k] = all[k]->diagonal[layout->diag[i] + at];
         else
@@ -125,7 +125,7 @@ static void add_equations(builder *b)
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
-static void *take_array(const dmb_allocator *allocator, size_t count, size_t size)
+static void *read_array(const dmb_allocator *allocator, size_t count, size_t size)
 {
     return dmb_allocate_array(allocator, count > 0 ? count : 1, size);
 }
@@ -133,12 +133,12 @@ static void *take_array(const dmb_allocator *allocator, size_t count, size_t siz
 static int32_t make_room(const dmb_allocator *allocator, uint32_t rows, uint32_t used, dmb_sparse_rows *out)
 {
     out->rows = rows;
-    out->start = take_array(allocator, (size_t)rows + 1, sizeof *out->start);
+    out->start = read_array(allocator, (size_t)rows + 1, sizeof *out->start);
     if (out->start == NULL) return DMB_ERR_NO_MEMORY;
     out->start[rows] = used;
-    out->column = take_array(allocator, used, sizeof *out->column);
+    out->column = read_array(allocator, used, sizeof *out->column);
     for (uint32_t k = 0; k < out->kinds && out->column != NULL; k++) {
-        out->value[k] = take_array(allocator, used, sizeof(double));
+        out->value[k] = read_array(allocator, used, sizeof(double));
         if (out->value[k] == NULL) return DMB_ERR_NO_MEMORY;
     }
     return out->column != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
@@ -170,7 +170,7 @@ static int32_t build(const dmb_linear *linear, void (*add)(builder *), uint32_t 
     b.mark = places;
     b.at = places + rows;
     b.held = places + 2 * rows;
-    for (uint32_t i = 0; i < scene->held_count; i++) b.held[dmb_held_row(scene, i)] = i;
+    for (uint32_t i = 0; i < scene->constrained_count; i++) b.held[dmb_constrained_row(scene, i)] = i;
     add(&b);
     const uint32_t count = kinds > 1 ? (uint32_t)rows : b.row;
     const int32_t status = make_room(&linear->allocator, count, b.used, out);

@@ -227,7 +227,8 @@ static void across(void *context, const double *x, double *y)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        for (uint32_t c = 0; c < size; c++) y[row + c] = size == DMB_NODE_FULL && (c == 1 || c == 2) ? x[row + c] : 0.0;
+        for (uint32_t c = 0; c < size; c++)
+            y[row + c] = size == DMB_NODE_SIX_DOF && (c == 1 || c == 2) ? x[row + c] : 0.0;
     }
 }
 
@@ -237,7 +238,7 @@ static uint32_t coordinates_across(const dmb_sim *sim)
     uint32_t count = 0;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint8_t *solved = scene->solved_row + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) count += (uint32_t)((solved[1] != 0) + (solved[2] != 0));
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) count += (uint32_t)((solved[1] != 0) + (solved[2] != 0));
     }
     const uint32_t all = coordinates_of(sim);
     return count < all ? count : all;

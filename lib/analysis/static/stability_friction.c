@@ -51,7 +51,7 @@ static void fill_chain(const dmb_chain *chain, friction_field *field)
         memcpy(field->E + ENTRIES * (size_t)k, field->E + ENTRIES * (size_t)before, ENTRIES * sizeof(double));
 }
 
-static void gather_rings(const dmb_evaluation *evaluation, friction_field *field)
+static void assemble_rings(const dmb_evaluation *evaluation, friction_field *field)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t s = 0; s < scene->site_count; s++) add_stabiliser(evaluation, s, field);
@@ -80,7 +80,7 @@ static void turn_chain(dmb_sim *sim, const dmb_chain *chain, const double *field
     const dmb_block_layout *layout = &scene->layout;
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
         const double *E = fields + ENTRIES * (size_t)i;
-        if (layout->size[i] != DMB_NODE_FULL) continue;
+        if (layout->size[i] != DMB_NODE_SIX_DOF) continue;
         turn_rows(scene, i, E, 6, sim->stiffness_diagonal + layout->diag[i]);
         if (i > chain->first) turn_rows(scene, i, E, layout->size[i - 1], sim->stiffness_lower + layout->link[i - 1]);
         if (i + 1 < chain->first + chain->count)
@@ -97,7 +97,7 @@ int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation, double *mo
     friction_field field = {.E = dmb_allocate(&sim->allocator, bytes)};
     if (field.E == NULL) return DMB_ERR_NO_MEMORY;
     field.rings = (uint32_t *)(void *)(field.E + ENTRIES * (size_t)scene->node_count);
-    gather_rings(evaluation, &field);
+    assemble_rings(evaluation, &field);
     *most = field.most;
     const int done = field.most > 0.0 && field.most < DMB_FRICTION_MOST;
     for (uint32_t c = 0; c < scene->chain_count && done; c++)

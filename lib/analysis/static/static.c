@@ -33,7 +33,7 @@
 
 DMB_DECLARE_STRUCT(dmb_static_options)
 
-int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)
+int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)
 {
     dmb_check check = dmb_check_of(&sim->message, "static options", DMB_NONE);
     (void)dmb_static_options_init(out, (uint32_t)sizeof *out);
@@ -98,7 +98,7 @@ int32_t dmb_static_begin(dmb_static_search *search)
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
     int32_t status = dmb_system_prescribe(&search->evaluation);
-    if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
+    if (status >= 0 && search->options->lay_on_wall) dmb_static_guess_on_wall(sim);
     if (status < 0 || sim->scene->cluster_count == 0) return status;
     sim->reduced_mode->row = DMB_NONE;
     return dmb_static_settle(search);
@@ -122,7 +122,7 @@ static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
         const int in_hole = search->sim->scene->site_count > 0;
         const int enough = search->caution > DMB_CAUTION_ENOUGH && search->sim->scene->cluster_count == 0;
         const int too_far = status == DMB_ERR_ROTATION || status == DMB_ERR_GEOMETRY;
-        if (!too_far && (singular || search->loose || in_hole || enough)) break;
+        if (!too_far && (singular || search->unconstrained || in_hole || enough)) break;
     }
     return status;
 }
@@ -176,8 +176,8 @@ static int32_t search_further(dmb_static_search *search, int32_t status, int32_t
     *method = DMB_STATIC_RELAXATION;
     status = relax(search, steps, singular);
     if (status >= 0) return dmb_static_take_back(search);
-    if (!(singular || search->loose)) return status;
-    search->block = singular ? singular_block : search->loose_block;
+    if (!(singular || search->unconstrained)) return status;
+    search->block = singular ? singular_block : search->unconstrained_block;
     return DMB_ERR_SINGULAR;
 }
 
@@ -279,7 +279,7 @@ static int has_gone(const dmb_sim *sim, uint32_t *node)
     return 0;
 }
 
-static int32_t refuse_loose(dmb_static_search *search, int32_t status)
+static int32_t refuse_unconstrained(dmb_static_search *search, int32_t status)
 {
     uint32_t node = 0;
     if (status < 0 || search->residual <= DMB_UNBALANCED) return status;
@@ -308,7 +308,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
     dmb_contacts_take_slip(sim);
     dmb_clusters_take_multipliers(sim);
-    dmb_system_take_reactions(sim, &sim->now);
+    dmb_system_get_reactions(sim, &sim->now);
     return DMB_OK;
 }
 
@@ -336,7 +336,7 @@ static int32_t take_motion(dmb_static_search *search)
 
 /* Sets the rock ahead of the bit: at time 0 as the description defines it, because the forces of the restart require
  * it. Bits that drill keep the rock they have cut. */
-static void lay_rock(dmb_static_search *search)
+static void guess_rock(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
@@ -372,7 +372,7 @@ static int32_t settle(dmb_static_search *search)
     dmb_system_unwrap(sim);
     dmb_system_accept(&search->evaluation);
     int32_t status = take_motion(search);
-    lay_rock(search);
+    guess_rock(search);
     const dmb_counters counters = *sim->counters;
     if (status >= 0) status = dmb_system_restart(sim);
     *sim->counters = counters;
@@ -475,7 +475,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
     dmb_sim *sim = search->sim;
     search->winding = sim->scene->site_count > 0;
     search->rolling = search->winding && (search->steady != NULL || search->evaluation.slip[1] != 0.0);
-    int32_t status = refuse_loose(search, search_holding_spins(search, &out->method));
+    int32_t status = refuse_unconstrained(search, search_holding_spins(search, &out->method));
     if (status < 0) {
         dmb_static_explain(search, status);
         dmb_state_restore(sim); /* the partition of joints may have changed */
@@ -517,7 +517,7 @@ static int32_t find_state(dmb_static_search *search, dmb_static_report *out)
     return status == DMB_OK ? chosen : status;
 }
 
-static int32_t tell_unstable(dmb_sim *sim, const dmb_static_report *out)
+static int32_t report_unstable(dmb_sim *sim, const dmb_static_report *out)
 {
     dmb_message_set(
         &sim->message,
@@ -528,7 +528,7 @@ static int32_t tell_unstable(dmb_sim *sim, const dmb_static_report *out)
     return DMB_NOTE_UNSTABLE;
 }
 
-static int32_t tell_unresolved(dmb_sim *sim, const dmb_static_report *out)
+static int32_t report_unresolved(dmb_sim *sim, const dmb_static_report *out)
 {
     if (out->unresolved > 0)
         dmb_message_set(&sim->message,
@@ -544,10 +544,10 @@ static int32_t tell_unresolved(dmb_sim *sim, const dmb_static_report *out)
 }
 
 /* Status and message of a solution by its stability. */
-static int32_t tell_stability(dmb_sim *sim, const dmb_static_report *out)
+static int32_t report_stability(dmb_sim *sim, const dmb_static_report *out)
 {
     if (out->steady != DMB_STEADY_AT_REST || out->negative == 0) return DMB_OK;
-    return out->negative > 0 ? tell_unstable(sim, out) : tell_unresolved(sim, out);
+    return out->negative > 0 ? report_unstable(sim, out) : report_unresolved(sim, out);
 }
 
 static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
@@ -557,13 +557,13 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_report out;
     (void)dmb_static_report_init(&out, (uint32_t)sizeof out);
     if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
-    int32_t status = dmb_static_options_take(sim, options, &taken);
+    int32_t status = dmb_static_options_get(sim, options, &taken);
     if (status < 0) return status;
     dmb_static_set_up(&search, sim, &taken);
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     status = find_state(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
-    return status == DMB_OK ? tell_stability(sim, &out) : status;
+    return status == DMB_OK ? report_stability(sim, &out) : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

@@ -107,22 +107,22 @@ typedef struct dmb_static_search {
     uint32_t load_steps; /* of the last attempt */
     uint32_t cuts;       /* number of halved load steps */
     uint32_t line_searches;
-    int32_t searching; /* 1: line search after corrections that overshoot */
-    int32_t winding;   /* 1: pipes in a hole rotate about their axes before the move (eq:static.move) */
-    int32_t rolling;   /* 1: rings in contact roll around the wall, as rotating pipes climb it */
-    uint32_t block;    /* block found singular */
-    int32_t loose;     /* 1: loose_block seems unconstrained in the starting pose */
-    uint32_t loose_block;
+    int32_t searching;     /* 1: line search after corrections that overshoot */
+    int32_t winding;       /* 1: pipes in a hole rotate about their axes before the move (eq:static.move) */
+    int32_t rolling;       /* 1: rings in contact roll around the wall, as rotating pipes climb it */
+    uint32_t block;        /* block found singular */
+    int32_t unconstrained; /* 1: unconstrained_block seems unconstrained in the starting pose */
+    uint32_t unconstrained_block;
     double residual;      /* [-] relative, last */
     double moved;         /* [-] largest component of the last correction, in length scales */
     double moved_before;  /* [-] the same of the correction before the last */
     uint32_t at_rounding; /* consecutive iterations whose residual is at the rounding level */
     uint32_t reserved;
-    double caution;      /* [-] divisor of the correction size in the relaxation */
-    double edge;         /* [-] 1 - cos RZ, largest so far of joints whose RX and RY are needed; 0: none */
-    uint32_t edge_joint; /* index of that joint */
-    uint32_t spin_count; /* number of constrained rotations in evaluations */
-    uint32_t unbalanced; /* index of the spin whose torques do not sum to 0; DMB_NONE: none */
+    double caution;        /* [-] divisor of the correction size in the relaxation */
+    double gimbal_margin;  /* [-] 1 - cos RZ, largest so far of joints whose RX and RY are needed; 0: none */
+    uint32_t gimbal_joint; /* index of that joint */
+    uint32_t spin_count;   /* number of constrained rotations in evaluations */
+    uint32_t unbalanced;   /* index of the spin whose torques do not sum to 0; DMB_NONE: none */
     dmb_static_spin spins[DMB_STATIC_SPINS];
 } dmb_static_search;
 
@@ -160,7 +160,7 @@ int32_t dmb_static_growing_friction(dmb_static_search *search);
 /* Projects the poses of the trial onto the joints and ensures a well-conditioned partition there. */
 int32_t dmb_static_settle(dmb_static_search *search);
 /* Displaces the trial to the low side of the hole if the scene has gravity and a wall. */
-void dmb_static_lay_on_wall(dmb_sim *sim);
+void dmb_static_guess_on_wall(dmb_sim *sim);
 /* Largest tension of a string in a curved hole. */
 typedef struct dmb_static_pull {
     double tension; /* [N] */
@@ -196,7 +196,7 @@ int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node);
  * the node is constrained or driven there. */
 void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3]);
 /* Soft-string initial guess from the starting pose, after its evaluation. */
-void dmb_static_lay_by_pull(dmb_static_search *search);
+void dmb_static_guess_by_pull(dmb_static_search *search);
 /* [-] Factor by which the wall must be softened for the tension to press a ring into it by `part` of its clearance, 1
  * .. DMB_SOFTEST. */
 #define DMB_SOFTEST 1e6
@@ -244,7 +244,7 @@ void dmb_static_explain(dmb_static_search *search, int32_t status);
 /* Options of the static analysis, checked. */
 
 /* Defaults overlaid with `given` (may be NULL); an invalid value is refused with a message that names the field. */
-int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
+int32_t dmb_static_options_get(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
 
 /* ---- Stability --------------------------------------------------------------------------------------------------- */
 

@@ -6,10 +6,11 @@
 #include "system/assemble/caller_force.h"
 #include "system/constrain/constrain.h"
 
-static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
+static int is_constrained(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
 {
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        if (scene->held_component[i] == component && scene->held_node[i] - string->first_node < string->node_count)
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        if (scene->constrained_component[i] == component &&
+            scene->constrained_node[i] - string->first_node < string->node_count)
             return 1;
     for (uint32_t k = 0; k < scene->bit_count; k++)
         if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
@@ -26,7 +27,7 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_message said = sim->message;
         dmb_message string;
-        if (is_held(scene, scene->strings + i, DMB_X)) continue;
+        if (is_constrained(scene, scene->strings + i, DMB_X)) continue;
         dmb_message_set(&sim->message,
                         "static: %s: nothing holds it along its axis, give it a drive, a support or a "
                         "joint; %s",
@@ -41,7 +42,7 @@ static const char *way_out(const dmb_scene *scene, uint32_t node)
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_string_map *string = scene->strings + i;
         if (node - string->first_node >= string->node_count) continue;
-        const int along = is_held(scene, string, DMB_X), about = is_held(scene, string, DMB_RX);
+        const int along = is_constrained(scene, string, DMB_X), about = is_constrained(scene, string, DMB_RX);
         if (!along && !about) return "it may slide along and spin about its axis";
         if (!along) return "it may slide along its axis";
         return about ? "it may move" : "it may spin about its axis";
@@ -73,19 +74,19 @@ static const char *controller(const dmb_sim *sim, int limited_only, dmb_message 
 
 /* Advice on joints near a gimbal singularity: springs, drives and couplings of angles that are undefined at a right
  * angle of RZ jump there, and no equilibrium exists near it. */
-#define DMB_NEAR_EDGE 0.9 /* of 1 - cos RZ: 84 degrees */
+#define DMB_NEAR_GIMBAL_SINGULARITY 0.9 /* of 1 - cos RZ: 84 degrees */
 
-static const char *edge_of_joint(const dmb_static_search *search, dmb_message *text)
+static const char *gimbal_singularity_of_joint(const dmb_static_search *search, dmb_message *text)
 {
     dmb_message name;
     const dmb_scene *scene = search->sim->scene;
-    if (!(search->edge > DMB_NEAR_EDGE)) return NULL;
-    dmb_constraint_text(scene, scene->joints[search->edge_joint].constraint, &name);
+    if (!(search->gimbal_margin > DMB_NEAR_GIMBAL_SINGULARITY)) return NULL;
+    dmb_constraint_text(scene, scene->joints[search->gimbal_joint].constraint, &name);
     dmb_message_set(
         text,
         "; %s came to |RZ| = %g rad: at a right angle its RX and RY jump, and their springs: turn its frames, "
         "or use stiffer springs",
-        name.text, acos(1.0 - search->edge));
+        name.text, acos(1.0 - search->gimbal_margin));
     return text->text;
 }
 
@@ -94,9 +95,9 @@ static const char *remedy(dmb_static_search *search, dmb_message *text)
     dmb_static_pull pull;
     dmb_static_stiff_wall wall;
     dmb_message string;
-    const char *drive = controller(search->sim, 1, text), *edge = edge_of_joint(search, text);
+    const char *drive = controller(search->sim, 1, text), *gimbal_margin = gimbal_singularity_of_joint(search, text);
     if (drive != NULL) return controller(search->sim, 1, text);
-    if (edge != NULL) return edge;
+    if (gimbal_margin != NULL) return gimbal_margin;
     if (dmb_static_find_pull(search, &pull) > 0 && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
         dmb_message_set(text,
                         "; %s is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
@@ -129,7 +130,7 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
         dmb_message_set(&sim->message, "static: %s: its callback failed or gave a value beyond +-1e30 at time %g",
                         owner_text.text, search->evaluation.time);
     } else if (status == DMB_ERR_GEOMETRY) {
-        (void)dmb_joints_refuse_folds(sim); /* the trial still contains that pose */
+        (void)dmb_joints_refuse_gimbal_flip(sim); /* the trial still contains that pose */
     } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
     } else if (status == DMB_ERR_SINGULAR && search->unbalanced != DMB_NONE) {

@@ -10,7 +10,7 @@
 
 static int32_t choose_anew(dmb_static_search *search)
 {
-    const int32_t status = dmb_clusters_gather(&search->evaluation);
+    const int32_t status = dmb_clusters_assemble(&search->evaluation);
     if (status >= 0) dmb_clusters_choose(search->sim);
     return status;
 }
@@ -18,10 +18,10 @@ static int32_t choose_anew(dmb_static_search *search)
 static void note_edge(dmb_static_search *search)
 {
     uint32_t joint;
-    const double edge = 1.0 - dmb_joints_nearest_edge(search->sim, &joint);
-    if (!(edge > search->edge)) return;
-    search->edge = edge;
-    search->edge_joint = joint;
+    const double gimbal_margin = 1.0 - dmb_joints_nearest_gimbal_singularity(search->sim, &joint);
+    if (!(gimbal_margin > search->gimbal_margin)) return;
+    search->gimbal_margin = gimbal_margin;
+    search->gimbal_joint = joint;
 }
 
 /* Closes the joints, and chooses a new partition if the present one is ill-conditioned. A large move may have made it
@@ -35,7 +35,7 @@ int32_t dmb_static_settle(dmb_static_search *search)
     }
     if (status < 0) return status;
     search->sim->reduced_mode->row = DMB_NONE;
-    status = dmb_joints_refuse_folds(search->sim);
+    status = dmb_joints_refuse_gimbal_flip(search->sim);
     if (status < 0) return status;
     note_edge(search);
     dmb_joints_follow(&search->evaluation);
@@ -58,7 +58,7 @@ static void take_rows(const dmb_scene *scene, uint32_t node, const double *corre
 
 static void displace_node(dmb_sim *sim, uint32_t node, const double z[6])
 {
-    if (sim->scene->layout.size[node] == DMB_NODE_FULL) {
+    if (sim->scene->layout.size[node] == DMB_NODE_SIX_DOF) {
         dmb_se3_advance(sim->trial.quaternion + 4 * (size_t)node, sim->trial.displacement + 3 * (size_t)node, z);
     } else {
         sim->trial.displacement[3 * (size_t)node] += z[0];
@@ -158,7 +158,7 @@ static void displace_winding(const dmb_static_search *search, const double *corr
     for (uint32_t i = 0, s = 0; i < sim->scene->node_count; i++) {
         take_rows(sim->scene, i, correction, factor, z);
         const uint32_t ring = search->rolling ? ring_of(sim->scene, i, &s) : DMB_NONE;
-        if (sim->scene->layout.size[i] == DMB_NODE_FULL) {
+        if (sim->scene->layout.size[i] == DMB_NODE_SIX_DOF) {
             wind(sim, i, ring, side, z);
         } else {
             for (int c = 0; c < 2; c++) z[c] *= side;
@@ -195,7 +195,7 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
         const uint32_t row = scene->layout.row[i], size = scene->layout.size[i];
         double z[6];
         take_rows(scene, i, direction, 1.0, z);
-        if (search->winding && size == DMB_NODE_FULL) {
+        if (search->winding && size == DMB_NODE_SIX_DOF) {
             const double c = cos(part * z[3]), s = sin(part * z[3]);
             for (uint32_t k = 1; k < 6; k += 3) {
                 const double y = c * z[k] + s * z[k + 1];
@@ -217,7 +217,7 @@ void dmb_static_fix_axes(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) continue;
         const uint8_t *solved = scene->solved_row + scene->layout.row[i];
         const double *r = sim->residual + scene->layout.row[i];
         double *K = dmb_stiffness_of(sim, i);

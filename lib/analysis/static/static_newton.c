@@ -77,9 +77,9 @@ static int32_t evaluate(dmb_static_search *search)
 /* Records the block with the weakest pivot (unconstrained part) for the message, from the factors. */
 static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb_block_weakest *weakest)
 {
-    if (search->iterations == 0 && weakest->ratio < DMB_LOOSE_PIVOT) {
-        search->loose = 1;
-        search->loose_block = weakest->block;
+    if (search->iterations == 0 && weakest->ratio < DMB_UNCONSTRAINED_PIVOT) {
+        search->unconstrained = 1;
+        search->unconstrained_block = weakest->block;
     }
     search->block = (uint32_t)bad;
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
@@ -221,7 +221,7 @@ static void add_chain(const dmb_sim *sim, const dmb_chain *chain, int meets_wall
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
         const double *z = sim->correction + scene->layout.row[i];
         if (meets_wall) size->along = fmax(size->along, fabs(z[0]));
-        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) continue;
         const double bend = fmax(fabs(z[4]), fabs(z[5]));
         size->turn = fmax(size->turn, fmax(fabs(z[3]), bend));
         if (!meets_wall) continue;
@@ -337,12 +337,12 @@ static double way_back(dmb_sim *sim, const dmb_chain *chain)
     const double along[3] = {1.0, 0.0, 0.0};
     double axis[3], moved[3], z[3];
     memset(sim->correction, 0, scene->row_count * sizeof(double));
-    if (scene->layout.size[chain->first] != DMB_NODE_FULL) return 0.0;
+    if (scene->layout.size[chain->first] != DMB_NODE_SIX_DOF) return 0.0;
     dmb_quat_rotate(sim->trial.quaternion + 4 * (size_t)chain->first, along, axis);
     dmb_vec3_sub(u, sim->now.displacement + 3 * (size_t)chain->first, moved);
     const double way = dmb_vec3_dot(moved, axis);
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
-        if (scene->layout.size[i] != DMB_NODE_FULL) return 0.0;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) return 0.0;
         dmb_quat_rotate_inverse(sim->trial.quaternion + 4 * (size_t)i, axis, z);
         for (uint32_t c = 0; c < 3; c++)
             if (scene->solved_row[scene->layout.row[i] + c]) sim->correction[scene->layout.row[i] + c] = -way * z[c];

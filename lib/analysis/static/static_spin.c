@@ -25,7 +25,7 @@
 
 static uint32_t spin_of(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_FULL ? DMB_RX : 1;
+    return scene->layout.size[node] == DMB_NODE_SIX_DOF ? DMB_RX : 1;
 }
 
 static double *spin_stiffness(dmb_sim *sim, uint32_t node)
@@ -67,7 +67,7 @@ void dmb_static_correct_spins(dmb_static_search *search)
 static double turned_residual(const dmb_sim *sim, uint32_t node, uint32_t c)
 {
     const double *r = sim->residual + sim->scene->layout.row[node];
-    if (sim->scene->layout.size[node] != DMB_NODE_FULL || c % 3 == 0) return 0.0;
+    if (sim->scene->layout.size[node] != DMB_NODE_SIX_DOF || c % 3 == 0) return 0.0;
     return c % 3 == 1 ? -r[c + 1] : r[c - 1];
 }
 

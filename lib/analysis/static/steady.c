@@ -68,7 +68,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
         const uint32_t s = steady->string[i], row = scene->layout.row[i];
         if (s == DMB_NONE) continue;
         const double v = steady->speed[2 * s], spin = steady->speed[2 * s + 1];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) {
             slide_node(steady, sim, i, v, spin);
         } else {
             sim->trial.velocity[row] = v;
@@ -76,8 +76,9 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
             sim->trial.acceleration[row] = sim->trial.acceleration[row + 1] = 0.0;
         }
     }
-    for (uint32_t i = 0; i < scene->held_count; i++) { /* a constrained end does not follow the curved hole */
-        const uint32_t node = scene->held_node[i], row = scene->layout.row[node] + scene->held_component[i];
+    for (uint32_t i = 0; i < scene->constrained_count; i++) { /* a constrained end does not follow the curved hole */
+        const uint32_t node = scene->constrained_node[i],
+                       row = scene->layout.row[node] + scene->constrained_component[i];
         sim->trial.velocity[row] = sim->trial.acceleration[row] = steady->frame_velocity[row] = 0.0;
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {

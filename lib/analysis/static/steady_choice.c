@@ -152,7 +152,7 @@ static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
     const dmb_scene *scene = sim->scene;
     double off[3];
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->layout.size[i] != DMB_NODE_FULL)
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF)
             return DMB_STEADY_REFUSE(
                 sim, "axial-torsional pipes: they do not turn as a rigid body; take DMB_STEADY_SLIDING");
     if (!scene->has_hole || scene->site_count == 0) return DMB_OK;
@@ -188,8 +188,8 @@ static int32_t check_supports(dmb_evaluation *evaluation, dmb_steady *steady)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     (void)dmb_steady_move(steady, evaluation, 1.0); /* rigid motion does not fail */
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t node = scene->held_node[i], c = scene->held_component[i];
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t node = scene->constrained_node[i], c = scene->constrained_component[i];
         const double speed = sim->trial.velocity[scene->layout.row[node] + c];
         double held = 0.0;
         for (uint32_t k = 0; k < scene->drive_count; k++)

@@ -13,7 +13,8 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
         const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
         const uint32_t s = steady->string[rigid_mass->node];
         double g[6];
-        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || scene->layout.size[rigid_mass->node] != DMB_NODE_FULL)
+        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 ||
+            scene->layout.size[rigid_mass->node] != DMB_NODE_SIX_DOF)
             continue;
         dmb_unbalance_of(scene, i, g);
         const int round =
@@ -108,8 +109,8 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
 {
     dmb_message string;
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++) {
-        const uint32_t node = scene->held_node[i], s = steady->string[node], c = scene->held_component[i];
+    for (uint32_t i = 0; i < scene->constrained_count; i++) {
+        const uint32_t node = scene->constrained_node[i], s = steady->string[node], c = scene->constrained_component[i];
         const uint32_t half = scene->layout.size[node] / 2;
         if (s == DMB_NONE || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
         const double speed = steady->speed[2 * s + c / half];

@@ -15,7 +15,7 @@ static int is_below(const dmb_model *model, uint32_t string, const dmb_place *pl
 
 /* 1: a joint below the rig end constrains the string, or a part attached to it; a joint without constraints acts by its
  * springs only. */
-static int is_held(const dmb_model *model, uint32_t string)
+static int is_constrained(const dmb_model *model, uint32_t string)
 {
     for (uint32_t i = 0; i < model->joints.count; i++) {
         const dmb_joint_def *joint = DMB_LIST_AT(const dmb_joint_def, model->joints, i);
@@ -71,7 +71,7 @@ const char *dmb_soft_string_lacks(const dmb_model *model, const dmb_scene *scene
     if (scene->flow_count > 0 && scene->flow.eccentricity > 0.0 && scene->hole.pieces > 0)
         return "the environment has a flow_eccentricity and the hole has sections, at other depths of which its law "
                "may not hold; leave the eccentricity out";
-    if (is_held(model, string))
+    if (is_constrained(model, string))
         return "a joint holds something at the string below its rig end, whose weight and forces the soft string "
                "leaves out; leave it out, or ask for steady states (dmb_analysis_static)";
     if (is_acted_on(model, string))

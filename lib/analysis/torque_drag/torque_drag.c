@@ -109,7 +109,7 @@ static int32_t check_depths(request *r)
     return DMB_OK;
 }
 
-static int32_t take_options(request *r, const dmb_torque_drag_options *given)
+static int32_t read_options(request *r, const dmb_torque_drag_options *given)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag options", DMB_NONE);
     dmb_torque_drag_options *options = &r->options;
@@ -251,7 +251,7 @@ static int32_t analyse(request *r, const dmb_torque_drag_options *options, const
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag", DMB_NONE);
     dmb_torque_drag_row unused;
     dmb_operation operation;
-    int32_t status = take_options(r, options);
+    int32_t status = read_options(r, options);
     if (status < 0) return status;
     if (dmb_torque_drag_row_read(&unused, rows) < 0)
         return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the rows is not one of this library");
@@ -306,7 +306,7 @@ static int32_t sample(request *r, const dmb_torque_drag_options *options, const 
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag profile", DMB_NONE);
     dmb_operation operation;
-    int32_t status = take_options(r, options);
+    int32_t status = read_options(r, options);
     if (status >= 0) status = take_operation(r, given, 0, &operation);
     if (status < 0) return status;
     dmb_check_count(&check, "station_count", count, 2, DEPTHS_MAX);
@@ -379,7 +379,7 @@ static int32_t bisect(fitting *f, double *friction)
 static int32_t fit(fitting *f, const dmb_torque_drag_options *options, const dmb_operation *operation, double *friction)
 {
     dmb_check check = dmb_check_of(&f->r->sim->message, "friction factor", DMB_NONE);
-    int32_t status = take_options(f->r, options);
+    int32_t status = read_options(f->r, options);
     if (status >= 0) status = take_operation(f->r, operation, 0, &f->operation);
     if (status < 0) return status;
     f->r->soft.by_depth = f->r->options.friction_by_depth;

@@ -12,7 +12,7 @@
 
 /* Extrapolates element_stress over a correction of body-frame pose increments (Magisano, Leonetti, Garcea 2017). */
 void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction);
-void dmb_gather_elements(dmb_evaluation *evaluation);
+void dmb_assemble_elements(dmb_evaluation *evaluation);
 
 /* force = factor M change, both by rows, with masses lumped on the nodes: sideways what both ends of an element have
  * together, rotation across the axis by itself. */
@@ -27,18 +27,18 @@ void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component,
 
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 
-void dmb_gather_nodes(dmb_evaluation *evaluation);
-void dmb_gather_added_masses(dmb_evaluation *evaluation);
-void dmb_gather_loads(dmb_evaluation *evaluation);
-void dmb_gather_flow(dmb_evaluation *evaluation);
+void dmb_assemble_nodes(dmb_evaluation *evaluation);
+void dmb_assemble_added_masses(dmb_evaluation *evaluation);
+void dmb_assemble_loads(dmb_evaluation *evaluation);
+void dmb_assemble_flow(dmb_evaluation *evaluation);
 
 /* Described loads that act at a point inside an element, or off the axis of a node. */
 
 /* factor times the load; frame (body to world) of its components unless it follows the body. */
 /* Wrench of a load at a point, in the axes of the point [N, N m], at the load factor of the configuration. */
 void dmb_point_load_of(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t load, double w[6]);
-void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
-                           const double frame[9]);
+void dmb_assemble_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
+                             const double frame[9]);
 
 /* ---- The wall ---------------------------------------------------------------------------------------------------- */
 
@@ -94,8 +94,8 @@ double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *c
 void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, double factor,
                         const dmb_site_force *force, double *rows);
 /* The same for a PATH site; normal_force by Johancsik. */
-void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
-                            dmb_site_force *out);
+void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configuration *configuration,
+                                    uint32_t axial_torsional_site, dmb_site_force *out);
 
 /* Friction of a finished state under the normal force and at the slip in `out`: bristles as they are (NULL where the
  * law has none), smooth laws by speed. */
@@ -120,12 +120,12 @@ void dmb_contacts_take_touch(dmb_sim *sim);
 void dmb_contacts_forget(dmb_sim *sim);
 void dmb_contacts_slide(dmb_sim *sim);
 
-void dmb_gather_contacts(dmb_evaluation *evaluation);
+void dmb_assemble_contacts(dmb_evaluation *evaluation);
 /* All rings on nodes, in pieces where they are many. */
-void dmb_press_rings(const dmb_sim *sim, dmb_wall_job *job);
+void dmb_press_rings(const dmb_sim *sim, dmb_wall_args *args);
 /* The rings inside elements that waited. */
 void dmb_contacts_accept(dmb_evaluation *evaluation);
-void dmb_gather_path_friction(dmb_evaluation *evaluation);
+void dmb_assemble_axial_torsional_friction(dmb_evaluation *evaluation);
 
 /* Rings inside elements: contact along the element, at integration points of its own interpolation. They are the last
  * of the sites. */
@@ -138,7 +138,7 @@ static inline const dmb_scene_point *dmb_inside_point(const dmb_scene *scene, ui
 
 /* The force of all of them and its tangent. job: that of the rings on nodes, whose laws and sums serve here too. Within
  * a step rings that cannot touch wait until it is accepted (waiting 1: these alone), and are as open as before. */
-void dmb_gather_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_job *job);
+void dmb_assemble_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_args *args);
 
 /* Axes of the body that ring s is on, body to world. Any site. */
 void dmb_site_axes(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double R[9]);
@@ -177,7 +177,7 @@ void dmb_bit_start_steady(dmb_sim *sim, uint32_t bit);
 /* Stores what a finished step cut. */
 void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t bit);
 
-void dmb_gather_bits(dmb_evaluation *evaluation);
+void dmb_assemble_bits(dmb_evaluation *evaluation);
 
 /* ---- The hole that cutters leave -------------------------------------------------------------------------------- */
 
@@ -200,7 +200,7 @@ typedef struct dmb_spring_motion {
 void dmb_spring_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t spring, int rates,
                           dmb_spring_motion *motion);
 /* The tangents are cleared before, where constraints have none. */
-void dmb_gather_springs(dmb_evaluation *evaluation);
+void dmb_assemble_springs(dmb_evaluation *evaluation);
 /* [J] stored in all springs */
 double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 
@@ -211,7 +211,7 @@ double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *confi
  * f. */
 
 /* Onto constraint_tangent, which is cleared before. */
-int32_t dmb_gather_joints(dmb_evaluation *evaluation);
+int32_t dmb_assemble_joints(dmb_evaluation *evaluation);
 
 /* ---- Stuck places ------------------------------------------------------------------------------------------------ */
 
@@ -224,7 +224,7 @@ typedef struct dmb_stuck_hold {
 } dmb_stuck_hold;
 
 /* Residual, tangent and powers of all places that are stuck. */
-void dmb_gather_stuck(dmb_evaluation *evaluation);
+void dmb_assemble_stuck(dmb_evaluation *evaluation);
 /* [J] stored in their springs. */
 double dmb_stuck_energy(const dmb_sim *sim, const dmb_configuration *configuration);
 /* Of a place that is stuck; without rates the dampers do not act. */
@@ -250,9 +250,9 @@ void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i);
 /* ---- Free rigid bodies ------------------------------------------------------------------------------------------- */
 
 /* Their rows of the prediction; the coefficients are those of the run. */
-void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_job *job);
+void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_args *args);
 /* Their rows of a correction. */
-void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_job *job);
+void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_args *args);
 /* Pose, speeds and accelerations of the trial from what was predicted and corrected. */
 void dmb_free_rigids_place(dmb_sim *sim);
 /* Their blocks of the iteration matrix. */

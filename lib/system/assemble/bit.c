@@ -49,7 +49,7 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const 
     m->about[3] = 1.0;
     m->spin = v[3];
     m->angle = c->turn[bit->node];
-    if (scene->layout.size[bit->node] == DMB_NODE_PATH) {
+    if (scene->layout.size[bit->node] == DMB_NODE_AXIAL_TORSIONAL) {
         m->advance = c->displacement[3 * bit->node];
         m->along[0] = m->axis[0] = 1.0;
         m->speed = v[0];
@@ -164,7 +164,7 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
     dmb_mat6_add_outer(evaluation->velocity_factor * r->dW_dOmega, m->along, m->about, C);
     dmb_mat6_add_outer(evaluation->velocity_factor * r->dT_dV, m->about, m->along, C);
     dmb_mat6_add_outer(evaluation->velocity_factor * r->dT_dOmega, m->about, m->about, C);
-    if (sim->scene->layout.size[bit->node] == DMB_NODE_PATH) {
+    if (sim->scene->layout.size[bit->node] == DMB_NODE_AXIAL_TORSIONAL) {
         double *Kp = dmb_stiffness_of(sim, bit->node), *Cp = dmb_inertia_of(sim, bit->node);
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++) {
@@ -187,7 +187,7 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
 
 /* Force -(load + W) along the axis and moment -T about it, with W and T of the rock law at (U, Phi, V, Omega)
  * (eq:bit.forces). */
-static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
+static void assemble_bit(dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -199,7 +199,7 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     sim->trial.bit_segment[k] = sim->now.bit_segment[k];
     dmb_node_pose(scene, &sim->trial, node, R, unused);
     motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
-    if (scene->layout.size[node] == DMB_NODE_FULL) /* whose turn is counted when the step is accepted */
+    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) /* whose turn is counted when the step is accepted */
         m.angle = sim->now.turn[node] + dmb_node_travel(evaluation, node, 3);
     memset(&r, 0, sizeof r);
     const int drills = evaluation->steady && k < DMB_STEADY_BITS && evaluation->drilling >> k & 1;
@@ -262,7 +262,7 @@ static void count_side_rounding(dmb_evaluation *evaluation, uint32_t k, const dm
     evaluation->rounding += force * force;
 }
 
-static void gather_side(dmb_evaluation *evaluation, uint32_t k)
+static void assemble_side(dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -293,11 +293,11 @@ double dmb_bit_side_of(const dmb_sim *sim, uint32_t k, double force[3])
     return sqrt(v[0] * v[0] + v[1] * v[1]);
 }
 
-void dmb_gather_bits(dmb_evaluation *evaluation)
+void dmb_assemble_bits(dmb_evaluation *evaluation)
 {
     for (uint32_t k = 0; k < evaluation->sim->scene->bit_count; k++) {
-        gather_bit(evaluation, k);
-        gather_side(evaluation, k);
+        assemble_bit(evaluation, k);
+        assemble_side(evaluation, k);
     }
 }
 
@@ -352,7 +352,7 @@ void dmb_bit_start(dmb_sim *sim, uint32_t k)
 }
 
 /* The surface falls behind the bit by a cut a blade spacing, and is sampled as a run would. */
-static void lay_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double advance)
+static void guess_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double advance)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
     dmb_bit_history h = dmb_bit_history_of(sim, k);
@@ -377,7 +377,7 @@ void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
     const double cut = steady_cut(bit, m.speed, m.spin), before = sim->now.bit_bottom[k];
     sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = m.advance - bit->law.intrusion_depth;
     dmb_hole_make_room(sim, k, before);
-    if (bit->history_capacity) lay_helix(sim, k, cut, m.angle, m.advance);
+    if (bit->history_capacity) guess_helix(sim, k, cut, m.angle, m.advance);
 }
 
 void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t k)

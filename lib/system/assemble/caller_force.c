@@ -49,7 +49,7 @@ static void take_joint(const dmb_sim *sim, const dmb_configuration *c, int rates
 }
 
 /* Arguments of ask->force at ask->time. */
-static void take_arguments(const dmb_sim *sim, const dmb_configuration *c, int rates, argument a[DMB_CONSTRAINT_PLACES],
+static void read_arguments(const dmb_sim *sim, const dmb_configuration *c, int rates, argument a[DMB_CONSTRAINT_PLACES],
                            dmb_caller_question *ask)
 {
     for (uint32_t i = 0; i < ask->force->count; i++) {
@@ -267,7 +267,7 @@ static int32_t add_power(dmb_evaluation *evaluation, const dmb_caller_question *
     return DMB_OK;
 }
 
-static int32_t gather_force(dmb_evaluation *evaluation, uint32_t i)
+static int32_t assemble_force(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     argument a[DMB_CONSTRAINT_PLACES];
@@ -276,7 +276,7 @@ static int32_t gather_force(dmb_evaluation *evaluation, uint32_t i)
     memset(&ask, 0, sizeof ask);
     ask.force = sim->scene->forces + i;
     ask.time = evaluation->time;
-    take_arguments(sim, &sim->trial, evaluation->dynamic, a, &ask);
+    read_arguments(sim, &sim->trial, evaluation->dynamic, a, &ask);
     int32_t status = dmb_caller_ask(&ask, evaluation->tangent, &to);
     if (status < 0) return status;
     to_axes(&ask, a, &to);
@@ -287,10 +287,10 @@ static int32_t gather_force(dmb_evaluation *evaluation, uint32_t i)
     return status;
 }
 
-int32_t dmb_gather_caller_forces(dmb_evaluation *evaluation)
+int32_t dmb_assemble_caller_forces(dmb_evaluation *evaluation)
 {
     for (uint32_t i = 0; i < evaluation->sim->scene->force_count; i++)
-        if (gather_force(evaluation, i) < 0) {
+        if (assemble_force(evaluation, i) < 0) {
             evaluation->sim->reduced_mode->force = 1 + i;
             return DMB_ERR_CALLBACK;
         }
@@ -321,7 +321,7 @@ int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force)
     memset(&ask, 0, sizeof ask);
     ask.force = sim->scene->forces + force;
     ask.time = sim->clock->time;
-    take_arguments(sim, &sim->now, 1, a, &ask);
+    read_arguments(sim, &sim->now, 1, a, &ask);
     if (!(ask.force->provides & DMB_PROVIDES_TANGENT)) return DMB_OK;
     (void)dmb_part_text(&owner, "force", force, ask.force->name, 24);
     return dmb_caller_compare(&ask, owner.text, &sim->message);

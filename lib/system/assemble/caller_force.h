@@ -13,7 +13,7 @@
 #include "system/assemble/point_motion.h"
 
 /* DMB_OK, DMB_ERR_CALLBACK: dmb_failed_force tells which. */
-int32_t dmb_gather_caller_forces(dmb_evaluation *evaluation);
+int32_t dmb_assemble_caller_forces(dmb_evaluation *evaluation);
 /* A tangent that the caller gives against differences in the state now. DMB_OK, DMB_ERR_CALLBACK with the message. */
 int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force);
 /* "force 2 (magnet)" of the force whose callback failed in the last evaluation, which is forgotten then; 0: none did.

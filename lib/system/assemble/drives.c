@@ -191,7 +191,7 @@ double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed,
     return force;
 }
 
-static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
+static void assemble_drive(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
@@ -208,12 +208,12 @@ static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
 }
 
 /* Those on joints act with them. */
-void dmb_gather_drives(dmb_evaluation *evaluation)
+void dmb_assemble_drives(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t i = 0; i < scene->drive_count; i++)
         if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == DMB_NONE)
-            gather_drive(evaluation, i);
+            assemble_drive(evaluation, i);
 }
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
@@ -235,7 +235,7 @@ static double travel_in(const dmb_evaluation *evaluation, const dmb_scene_drive 
 {
     const dmb_sim *sim = evaluation->sim;
     const uint32_t row = sim->scene->layout.row[drive->node];
-    if (sim->scene->layout.size[drive->node] == DMB_NODE_PATH) return sim->increment[drive->row];
+    if (sim->scene->layout.size[drive->node] == DMB_NODE_AXIAL_TORSIONAL) return sim->increment[drive->row];
     return dmb_node_travel(evaluation, drive->node, drive->row - row);
 }
 

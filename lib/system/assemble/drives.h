@@ -20,7 +20,7 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
 /* 1 if after `time` [s], or after the breakpoint `breakpoint` [s] where that is later, the time function of a motion
  * drive goes on with another slope than the trial ends with. DMB_ERR_CALLBACK with a message. */
 int32_t dmb_system_rate_jumps(dmb_sim *sim, double time, double breakpoint);
-void dmb_gather_drives(dmb_evaluation *evaluation);
+void dmb_assemble_drives(dmb_evaluation *evaluation);
 
 /* All fields of drives are written here and by the calls below; what they mean: sim/sim.h. */
 

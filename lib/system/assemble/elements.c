@@ -6,8 +6,8 @@
 #include "base/build.h"
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
+#include "sim/chunks.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 #include "system/assemble/evaluation.h"
 
 /* Vector from node a to node b; returns the largest magnitude that entered it. */
@@ -22,12 +22,12 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
 }
 
 /* Inputs and outputs of the kernels for a batch: its nodes, rows and blocks follow one another. */
-static dmb_beam_job job_of(const dmb_sim *sim, const dmb_batch *batch)
+static dmb_beam_args args_of(const dmb_sim *sim, const dmb_batch *batch)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
     const uint32_t diag = scene->layout.diag[a], link = scene->layout.link[a];
-    const dmb_beam_job job = {
+    const dmb_beam_args args = {
         .count = batch->count,
         .types = scene->types,
         .type = scene->element_type + e,
@@ -49,7 +49,7 @@ static dmb_beam_job job_of(const dmb_sim *sim, const dmb_batch *batch)
         .upper = sim->stiffness_upper + link,
         .lower = sim->stiffness_lower + link,
     };
-    return job;
+    return args;
 }
 
 /* Contact along elements asks for the strain, and so does the correction by factors of the evaluation's own; reused
@@ -58,59 +58,59 @@ static int strain_is_kept(const dmb_evaluation *evaluation)
 {
     const dmb_sim *sim = evaluation->sim;
     return evaluation->tangent || *sim->factors != DMB_FACTORS_REUSED || sim->scene->inside_count > 0 ||
-           sim->scene->path_site_count > 0;
+           sim->scene->axial_torsional_site_count > 0;
 }
 
 /* Forces and tangents of the SE(3) elements of a batch, or of a piece of one, in lanes (element/beam_element.h). */
-static dmb_beam_job task_of(const dmb_evaluation *evaluation, const dmb_batch *batch)
+static dmb_beam_args task_of(const dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    dmb_beam_job job = job_of(evaluation->sim, batch);
-    job.gravity = evaluation->gravity;
-    if (!strain_is_kept(evaluation)) job.strain = NULL;
-    job.mass_factor = evaluation->mass_factor;
-    job.velocity_factor = evaluation->velocity_factor;
-    job.dynamic = evaluation->dynamic;
-    job.tangent = evaluation->tangent;
-    job.extrapolated = evaluation->extrapolated;
-    job.inertia_only = evaluation->inertia_only;
-    job.ledger = evaluation->sim->options.energy_ledger;
-    return job;
+    dmb_beam_args args = args_of(evaluation->sim, batch);
+    args.gravity = evaluation->gravity;
+    if (!strain_is_kept(evaluation)) args.strain = NULL;
+    args.mass_factor = evaluation->mass_factor;
+    args.velocity_factor = evaluation->velocity_factor;
+    args.dynamic = evaluation->dynamic;
+    args.tangent = evaluation->tangent;
+    args.extrapolated = evaluation->extrapolated;
+    args.inertia_only = evaluation->inertia_only;
+    args.ledger = evaluation->sim->options.energy_ledger;
+    return args;
 }
 
 /* A batch that is made in pieces. */
-typedef struct beam_pieces {
+typedef struct beam_chunks {
     const dmb_evaluation *evaluation;
     const dmb_batch *batch;
     uint32_t pieces, reserved;
-} beam_pieces;
+} beam_chunks;
 
-static dmb_batch piece_of(const beam_pieces *in, uint32_t piece)
+static dmb_batch piece_of(const beam_chunks *in, uint32_t piece)
 {
-    const uint32_t count = in->batch->count, begin = dmb_piece_begin(count, in->pieces, piece);
+    const uint32_t count = in->batch->count, begin = dmb_chunk_begin(count, in->pieces, piece);
     dmb_batch out = *in->batch;
     out.first += begin;
-    out.count = dmb_piece_begin(count, in->pieces, piece + 1) - begin;
+    out.count = dmb_chunk_begin(count, in->pieces, piece + 1) - begin;
     return out;
 }
 
 /* Of the node between two pieces the second writes its own part, the first leaves its part in the seam. */
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
-    const beam_pieces *in = work;
+    const beam_chunks *in = work;
     const dmb_sim *sim = in->evaluation->sim;
     for (uint32_t i = first; i < end; i++) {
         const dmb_batch piece = piece_of(in, i);
-        dmb_beam_job job = task_of(in->evaluation, &piece);
-        job.apart = i > 0;
-        job.seam = i + 1 < in->pieces ? sim->seam + i : NULL;
-        if (job.seam != NULL) memset(job.seam, 0, sizeof *job.seam);
-        const int32_t bad = sim->scene->kernels->beams(&job);
-        const dmb_piece_sums sums = {.rounding = job.rounding,
-                                     .potential = job.potential,
-                                     .damping = job.damping,
-                                     .inertia = job.inertia,
-                                     .failed = bad < 0 ? piece.first + job.failed : DMB_NONE};
-        sim->piece_sums[i] = sums;
+        dmb_beam_args args = task_of(in->evaluation, &piece);
+        args.apart = i > 0;
+        args.seam = i + 1 < in->pieces ? sim->seam + i : NULL;
+        if (args.seam != NULL) memset(args.seam, 0, sizeof *args.seam);
+        const int32_t bad = sim->scene->kernels->beams(&args);
+        const dmb_chunk_sums sums = {.rounding = args.rounding,
+                                     .potential = args.potential,
+                                     .damping = args.damping,
+                                     .inertia = args.inertia,
+                                     .failed = bad < 0 ? piece.first + args.failed : DMB_NONE};
+        sim->chunk_sums[i] = sums;
     }
 }
 
@@ -131,13 +131,13 @@ static void add_seam(const dmb_evaluation *evaluation, const dmb_seam *seam, uin
     if (evaluation->dynamic) add_numbers(36, seam->inertia, dmb_inertia_of(sim, node));
 }
 
-static int32_t gather_pieces(dmb_evaluation *evaluation, const dmb_batch *batch)
+static int32_t assemble_chunks(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     const dmb_sim *sim = evaluation->sim;
-    beam_pieces in = {evaluation, batch, dmb_pieces_of(batch->count), 0};
-    dmb_parts_run(sim, in.pieces, 1, make_pieces, &in);
+    beam_chunks in = {evaluation, batch, dmb_chunks_of(batch->count), 0};
+    dmb_chunks_run(sim, in.pieces, 1, make_pieces, &in);
     for (uint32_t i = 0; i < in.pieces; i++) {
-        const dmb_piece_sums *sums = sim->piece_sums + i;
+        const dmb_chunk_sums *sums = sim->chunk_sums + i;
         if (sums->failed != DMB_NONE) {
             evaluation->element = sums->failed;
             return DMB_ERR_ROTATION;
@@ -152,35 +152,36 @@ static int32_t gather_pieces(dmb_evaluation *evaluation, const dmb_batch *batch)
 }
 
 /* Powers are summed on. */
-static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
+static int32_t assemble_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    if (dmb_pieces_of(batch->count) > 1) return gather_pieces(evaluation, batch);
-    dmb_beam_job job = task_of(evaluation, batch);
-    job.rounding = evaluation->rounding;
-    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    job.damping = evaluation->power[DMB_POWER_DAMPING];
-    job.inertia = evaluation->power[DMB_POWER_INERTIA];
-    if (evaluation->sim->scene->kernels->beams(&job) < 0) {
-        evaluation->element = batch->first + job.failed;
+    if (dmb_chunks_of(batch->count) > 1) return assemble_chunks(evaluation, batch);
+    dmb_beam_args args = task_of(evaluation, batch);
+    args.rounding = evaluation->rounding;
+    args.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    args.damping = evaluation->power[DMB_POWER_DAMPING];
+    args.inertia = evaluation->power[DMB_POWER_INERTIA];
+    if (evaluation->sim->scene->kernels->beams(&args) < 0) {
+        evaluation->element = batch->first + args.failed;
         return DMB_ERR_ROTATION;
     }
-    evaluation->rounding = job.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
-    evaluation->power[DMB_POWER_DAMPING] = job.damping;
-    evaluation->power[DMB_POWER_INERTIA] = job.inertia;
+    evaluation->rounding = args.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
+    evaluation->power[DMB_POWER_DAMPING] = args.damping;
+    evaluation->power[DMB_POWER_INERTIA] = args.inertia;
     return DMB_OK;
 }
 
 /* ---- Axial-torsional bars on the hole's axis: PATH nodes --------------------------------------------------------- */
 
-/* Per bar K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes (kernel/lanes_bar.h).
+/* Per bar K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes
+ * (kernel/lanes_axial_torsional.h).
  */
-static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
+static void axial_torsional_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
-    dmb_bar_job job = {
+    dmb_axial_torsional_args args = {
         .count = batch->count,
         .dynamic = evaluation->dynamic,
         .types = scene->types,
@@ -197,15 +198,16 @@ static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
         .damping = evaluation->power[DMB_POWER_DAMPING],
         .inertia = evaluation->power[DMB_POWER_INERTIA],
     };
-    scene->kernels->bars(&job);
-    evaluation->rounding = job.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
-    evaluation->power[DMB_POWER_DAMPING] = job.damping;
-    evaluation->power[DMB_POWER_INERTIA] = job.inertia;
+    scene->kernels->axial_torsional_elements(&args);
+    evaluation->rounding = args.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
+    evaluation->power[DMB_POWER_DAMPING] = args.damping;
+    evaluation->power[DMB_POWER_INERTIA] = args.inertia;
 }
 
 /* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. */
-static void bar_tangent(const dmb_evaluation *evaluation, const dmb_element_type *type, uint32_t a, uint32_t c)
+static void axial_torsional_tangent(const dmb_evaluation *evaluation, const dmb_element_type *type, uint32_t a,
+                                    uint32_t c)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t link = sim->scene->layout.link[a] + 3 * c;
@@ -224,14 +226,14 @@ static void bar_tangent(const dmb_evaluation *evaluation, const dmb_element_type
     dmb_inertia_of(sim, a + 1)[3 * c] += heavy * mass[0] + damped;
 }
 
-static void gather_bars(dmb_evaluation *evaluation, const dmb_batch *batch)
+static void assemble_axial_torsional_elements(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    bar_forces(evaluation, batch);
+    axial_torsional_forces(evaluation, batch);
     if (!evaluation->tangent) return;
     for (uint32_t e = batch->first; e < batch->first + batch->count; e++)
         for (uint32_t c = 0; c < 2; c++)
-            bar_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
+            axial_torsional_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
 }
 
 /* ---- A beam with one FULL and one PATH node: the PATH side is seen through its two columns ---------------------- */
@@ -253,7 +255,7 @@ static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed
     dmb_node_vector(scene, &sim->trial, node, sim->trial.acceleration, side->a);
     memset(side->J, 0, sizeof side->J);
     memset(side->z, 0, sizeof side->z);
-    if (side->rows == DMB_NODE_FULL) {
+    if (side->rows == DMB_NODE_SIX_DOF) {
         memcpy(side->q, sim->trial.quaternion + 4 * node, sizeof side->q);
         dmb_vec6_copy(sim->increment + scene->layout.row[node], side->z);
         for (int i = 0; i < 36; i += 7) side->J[i] = 1.0;
@@ -261,7 +263,7 @@ static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed
     }
     double columns[12];
     dmb_quat_from_matrix(side->R, side->q);
-    dmb_path_columns(scene, &sim->trial, node, side->R, columns);
+    dmb_axial_torsional_columns(scene, &sim->trial, node, side->R, columns);
     for (uint32_t i = 0; i < 6; i++) {
         side->J[2 * i] = columns[i];
         side->J[2 * i + 1] = columns[6 + i];
@@ -308,7 +310,7 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
 }
 
 /* As a beam between two poses; forces and tangents come to the PATH side as J^T f and J^T K J, J its two columns. */
-DMB_OWN_FRAME static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
+DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -359,27 +361,27 @@ DMB_OWN_FRAME static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e
     return DMB_OK;
 }
 
-static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
+static int32_t assemble_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     int32_t status = DMB_OK;
-    if (batch->kernel == DMB_KERNEL_BEAM) return gather_beams(evaluation, batch);
-    if (batch->kernel == DMB_KERNEL_PATH) {
-        gather_bars(evaluation, batch);
+    if (batch->kernel == DMB_KERNEL_BEAM) return assemble_beams(evaluation, batch);
+    if (batch->kernel == DMB_KERNEL_AXIAL_TORSIONAL) {
+        assemble_axial_torsional_elements(evaluation, batch);
         return DMB_OK;
     }
     for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++)
-        status = gather_mixed(evaluation, e);
+        status = assemble_mixed(evaluation, e);
     return status;
 }
 
-void dmb_gather_elements(dmb_evaluation *evaluation)
+void dmb_assemble_elements(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     const int heavy = scene->curved && scene->features & DMB_FEATURE_GRAVITY;
     if (heavy) dmb_vec3_scale(evaluation->load_factor, scene->gravity, evaluation->gravity);
     if (!heavy) dmb_vec3_zero(evaluation->gravity);
     for (uint32_t i = 0; i < scene->batch_count && evaluation->status >= 0; i++)
-        evaluation->status = gather_batch(evaluation, scene->batches + i);
+        evaluation->status = assemble_batch(evaluation, scene->batches + i);
 }
 
 typedef struct stress_work {
@@ -395,9 +397,9 @@ static void extrapolate(void *work, uint32_t first, uint32_t end)
     dmb_batch part = *in->batch;
     part.first += first;
     part.count = end - first;
-    dmb_beam_job job = job_of(in->sim, &part);
-    job.velocity = in->correction + scene->layout.row[scene->element_node[part.first]];
-    scene->kernels->extrapolate(&job);
+    dmb_beam_args args = args_of(in->sim, &part);
+    args.velocity = in->correction + scene->layout.row[scene->element_node[part.first]];
+    scene->kernels->extrapolate(&args);
 }
 
 /* s <- s + (K/L) P z over the correction z of both nodes, at the strain of the last evaluation. */
@@ -406,6 +408,7 @@ void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->batch_count; i++) {
         stress_work work = {sim, scene->batches + i, correction};
-        if (work.batch->kernel == DMB_KERNEL_BEAM) dmb_parts_run(sim, work.batch->count, DMB_GRAIN, extrapolate, &work);
+        if (work.batch->kernel == DMB_KERNEL_BEAM)
+            dmb_chunks_run(sim, work.batch->count, DMB_GRAIN, extrapolate, &work);
     }
 }

@@ -18,9 +18,9 @@ static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t e)
     return scene->types + scene->element_type[e];
 }
 
-static int is_path(const dmb_scene *scene, uint32_t node)
+static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
 {
-    return scene->layout.size[node] == DMB_NODE_PATH;
+    return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
 /* Velocities of an element's two ends. */
@@ -38,7 +38,7 @@ static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t
                     double u[3])
 {
     dmb_node_pose(scene, c, node, R, u);
-    if (is_path(scene, node))
+    if (is_axial_torsional(scene, node))
         dmb_quat_from_matrix(R, q);
     else
         memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
@@ -75,7 +75,7 @@ static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint
 {
     double *va = m->va, *vb = m->vb, d[6];
     const uint32_t a = scene->element_node[e];
-    if (is_path(scene, a) && is_path(scene, a + 1)) {
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, a + 1)) {
         const double *v = c->velocity;
         const uint32_t ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
         memset(va, 0, 6 * sizeof(double));
@@ -113,7 +113,7 @@ double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
     const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
     const double *v = configuration->velocity + scene->layout.row[l->node];
     double p[6];
-    if (is_path(scene, l->node)) return 0.5 * (l->mass * v[0] * v[0] + l->inertia[0] * v[1] * v[1]);
+    if (is_axial_torsional(scene, l->node)) return 0.5 * (l->mass * v[0] * v[0] + l->inertia[0] * v[1] * v[1]);
     dmb_rigid_mass_times(l, v, p);
     return 0.5 * dmb_vec6_dot(v, p);
 }
@@ -124,7 +124,7 @@ void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuratio
 {
     const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
     const double *v = configuration->velocity + scene->layout.row[l->node];
-    const double spin = v[is_path(scene, l->node) ? 1 : 3];
+    const double spin = v[is_axial_torsional(scene, l->node) ? 1 : 3];
     parts[0] = 0.5 * l->mass * v[0] * v[0];
     parts[1] = 0.5 * l->inertia[0] * spin * spin;
     parts[2] = dmb_rigid_mass_kinetic_energy(scene, configuration, rigid_mass) - parts[0] - parts[1];
@@ -135,7 +135,7 @@ double dmb_added_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
 {
     const double *v = configuration->velocity + scene->layout.row[added->node];
     double p[6];
-    if (is_path(scene, added->node)) return 0.5 * added->along * v[0] * v[0];
+    if (is_axial_torsional(scene, added->node)) return 0.5 * added->along * v[0] * v[0];
     dmb_added_mass_times(added, v, p);
     return 0.5 * dmb_vec6_dot(v, p);
 }
@@ -164,7 +164,7 @@ double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *confi
 void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6])
 {
     const uint32_t a = scene->element_node[element];
-    if (is_path(scene, a) && is_path(scene, a + 1)) {
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, a + 1)) {
         const dmb_element_type *type = type_of(scene, element);
         const double *u = configuration->displacement + 3 * (size_t)a, *turn = configuration->turn + a;
         memset(e, 0, 6 * sizeof(double));
@@ -181,7 +181,7 @@ void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *co
                              double rate[6])
 {
     const uint32_t a = scene->element_node[element];
-    if (is_path(scene, a) && is_path(scene, a + 1)) {
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, a + 1)) {
         const double *va = configuration->velocity + scene->layout.row[a],
                      *vb = configuration->velocity + scene->layout.row[a + 1];
         memset(rate, 0, 6 * sizeof(double));
@@ -264,7 +264,7 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
         double R[9], u[3], R0[9], now[3], start[3];
         dmb_node_pose(scene, configuration, i, R, u);
         sum -= scene->weight_mass[i] * dmb_vec3_dot(scene->gravity, u);
-        if (is_path(scene, i)) continue;
+        if (is_axial_torsional(scene, i)) continue;
         dmb_quat_to_matrix(scene->reference_quaternion + 4 * i, R0);
         dmb_mat3_vec(R, scene->weight_moment + 3 * i, now);
         dmb_mat3_vec(R0, scene->weight_moment + 3 * i, start);
@@ -298,7 +298,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     const double tau = dmb_is_quasi_static(configuration) ? 0.0 : type->damping_time;
     double va[6], vb[6], stress[6], rate[6], viscous[6];
     memset(force, 0, 12 * sizeof(double));
-    if (is_path(scene, a) && is_path(scene, a + 1)) {
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, a + 1)) {
         double e[6];
         dmb_element_strain(scene, configuration, element, e);
         for (uint32_t c = 0; c < 2; c++) {
@@ -337,7 +337,8 @@ static double end_flow(const dmb_scene *scene, uint32_t element)
     return scene->flow_count > 0 ? 0.5 * scene->flow_element[element] : 0.0;
 }
 
-/* Adds it where it acts on an end (0: A), along the hole there (dmb_gather_flow), as a uniform load on the cubic shape.
+/* Adds it where it acts on an end (0: A), along the hole there (dmb_assemble_flow), as a uniform load on the cubic
+ * shape.
  */
 static void add_end_flow(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, uint32_t end,
                          double w[6])
@@ -384,7 +385,7 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     const uint32_t a = scene->element_node[element];
     double f[12], bent[12], w[12], d[6], R[9], u[3];
     dmb_element_section_force(scene, configuration, element, load);
-    if (is_path(scene, a) && is_path(scene, a + 1)) return;
+    if (is_axial_torsional(scene, a) && is_axial_torsional(scene, a + 1)) return;
     dmb_element_relative_pose(scene, configuration, element, d);
     end_inertia(scene, configuration, element, d, f);
     dmb_node_pose(scene, configuration, a, R, u);
@@ -401,8 +402,8 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
 }
 
 /* The same of a bar, axial force and torque at its end A: N - (M a)_A + half its weight along the axis. */
-void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
-                         double load[2])
+void dmb_axial_torsional_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                                     double load[2])
 {
     const dmb_element_type *type = type_of(scene, element);
     const uint32_t a = scene->element_node[element];

@@ -43,8 +43,8 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
                            double load[12]);
 /* Axial force and torque of the section at the near end of a bar on the hole's axis, its own weight and inertia in
  * them, shape (2). */
-void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
-                         double load[2]);
+void dmb_axial_torsional_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                                     double load[2]);
 
 /* [J] kinetic energy and all that is stored. */
 double dmb_energy_stored(const dmb_sim *sim, const dmb_configuration *configuration);

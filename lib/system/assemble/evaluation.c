@@ -4,8 +4,8 @@
 
 #include "kernel/kernels.h"
 #include "math/se3.h"
+#include "sim/chunks.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 #include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
@@ -47,7 +47,7 @@ static void clear(dmb_evaluation *evaluation)
         next = a + batch->count;
     }
     if (next == 0)
-        dmb_parts_run(sim, n, DMB_GRAIN, clear_nodes, evaluation);
+        dmb_chunks_run(sim, n, DMB_GRAIN, clear_nodes, evaluation);
     else
         clear_nodes(evaluation, next, n);
     if (!evaluation->tangent || scene->beams_only) return; /* beams write their links */
@@ -57,12 +57,12 @@ static void clear(dmb_evaluation *evaluation)
 
 /* Along the axis and about it, from node `first` on as long as there are PATH nodes before `end`; what else a pose has
  * stays. Returns how many they are; *turned is raised to the square of the largest rotation. */
-static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first, uint32_t end, double *turned)
+static uint32_t move_axial_torsional_nodes(dmb_sim *sim, uint32_t first, uint32_t end, double *turned)
 {
     const dmb_scene *scene = sim->scene;
     const double *z = sim->increment + scene->layout.row[first];
     uint32_t i = first;
-    for (; i < end && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
+    for (; i < end && scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL; i++, z += DMB_NODE_AXIAL_TORSIONAL) {
         sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
         sim->trial.turn[i] = sim->now.turn[i] + z[1];
         *turned = fmax(*turned, z[1] * z[1]);
@@ -84,21 +84,21 @@ void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end)
     double turned = 0.0;
     for (uint32_t i = first, count; i < end; i += count) {
         const double *z = sim->increment + scene->layout.row[i];
-        count = dmb_full_nodes_before(scene, i, end);
+        count = dmb_six_dof_nodes_before(scene, i, end);
         if (count > 0) {
-            dmb_node_job job = {count,
-                                0,
-                                z,
-                                sim->now.displacement + 3 * i,
-                                sim->now.quaternion + 4 * i,
-                                sim->trial.displacement + 3 * i,
-                                sim->trial.quaternion + 4 * i,
-                                turned};
-            scene->kernels->advance(&job);
-            turned = job.turned;
+            dmb_node_args args = {count,
+                                  0,
+                                  z,
+                                  sim->now.displacement + 3 * i,
+                                  sim->now.quaternion + 4 * i,
+                                  sim->trial.displacement + 3 * i,
+                                  sim->trial.quaternion + 4 * i,
+                                  turned};
+            scene->kernels->advance(&args);
+            turned = args.turned;
             continue;
         }
-        count = move_path_nodes(sim, i, end, &turned);
+        count = move_axial_torsional_nodes(sim, i, end, &turned);
     }
     note_turned(sim, first, end, turned);
 }
@@ -110,7 +110,7 @@ static void move_nodes(void *work, uint32_t first, uint32_t end)
 
 void dmb_system_move(dmb_sim *sim)
 {
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
 }
 
 double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component)
@@ -136,22 +136,22 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     memset(evaluation->power, 0, sizeof evaluation->power);
     clear(evaluation);
     dmb_contacts_assume_slip(evaluation);
-    dmb_gather_elements(evaluation);
+    dmb_assemble_elements(evaluation);
     if (evaluation->status < 0) return evaluation->status;
-    dmb_gather_nodes(evaluation);
-    if (scene->added_mass_count && evaluation->dynamic) dmb_gather_added_masses(evaluation);
-    if (scene->site_count) dmb_gather_contacts(evaluation);
-    if (scene->path_site_count) dmb_gather_path_friction(evaluation);
-    if (scene->load_count) dmb_gather_loads(evaluation);
-    if (scene->flow_count) dmb_gather_flow(evaluation);
-    if (scene->drive_count) dmb_gather_drives(evaluation);
-    if (scene->bit_count) dmb_gather_bits(evaluation);
+    dmb_assemble_nodes(evaluation);
+    if (scene->added_mass_count && evaluation->dynamic) dmb_assemble_added_masses(evaluation);
+    if (scene->site_count) dmb_assemble_contacts(evaluation);
+    if (scene->axial_torsional_site_count) dmb_assemble_axial_torsional_friction(evaluation);
+    if (scene->load_count) dmb_assemble_loads(evaluation);
+    if (scene->flow_count) dmb_assemble_flow(evaluation);
+    if (scene->drive_count) dmb_assemble_drives(evaluation);
+    if (scene->bit_count) dmb_assemble_bits(evaluation);
     if (scene->cluster_count && evaluation->tangent)
         memset(evaluation->sim->constraint_tangent, 0, scene->tangent_count * sizeof(double));
-    if (scene->spring_count) dmb_gather_springs(evaluation);
-    if (scene->stuck_count) dmb_gather_stuck(evaluation);
-    if (scene->force_count && dmb_gather_caller_forces(evaluation) < 0) return evaluation->status = DMB_ERR_CALLBACK;
-    if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
+    if (scene->spring_count) dmb_assemble_springs(evaluation);
+    if (scene->stuck_count) dmb_assemble_stuck(evaluation);
+    if (scene->force_count && dmb_assemble_caller_forces(evaluation) < 0) return evaluation->status = DMB_ERR_CALLBACK;
+    if (scene->cluster_count) evaluation->status = dmb_assemble_joints(evaluation);
     if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
     return evaluation->status;
 }
@@ -160,11 +160,12 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     evaluation->tangent = 0;
-    if (scene->site_count) dmb_gather_contacts(evaluation);
-    if (scene->drive_count) dmb_gather_drives(evaluation);
-    if (scene->bit_count) dmb_gather_bits(evaluation);
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        evaluation->sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]] = held[i];
+    if (scene->site_count) dmb_assemble_contacts(evaluation);
+    if (scene->drive_count) dmb_assemble_drives(evaluation);
+    if (scene->bit_count) dmb_assemble_bits(evaluation);
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        evaluation->sim->residual[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]] =
+            held[i];
 }
 
 /* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq:
@@ -176,7 +177,7 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
  * `rigid` is the first that may be there. */
 static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t rigid)
 {
-    const uint32_t count = dmb_full_nodes_before(scene, node, end);
+    const uint32_t count = dmb_six_dof_nodes_before(scene, node, end);
     if (rigid == scene->free_rigid_count || scene->free_rigids[rigid].node >= node + count) return count;
     return scene->free_rigids[rigid].node - node;
 }
@@ -197,22 +198,22 @@ static void make_diagonal_blocks(void *work, uint32_t first, uint32_t end)
     while (rigid < scene->free_rigid_count && scene->free_rigids[rigid].node < first) rigid++;
     for (uint32_t i = first, count; i < end; i += count) {
         count = nodes_to_turn(scene, i, end, rigid);
-        const dmb_matrix_job job = {count, 0, sim->increment + layout->row[i], dmb_inertia_of(sim, i),
-                                    dmb_stiffness_of(sim, i)};
+        const dmb_matrix_args args = {count, 0, sim->increment + layout->row[i], dmb_inertia_of(sim, i),
+                                      dmb_stiffness_of(sim, i)};
         if (count > 0) {
-            scene->kernels->matrices(&job);
+            scene->kernels->matrices(&args);
             continue;
         }
         count = 1;
-        if (layout->size[i] == DMB_NODE_FULL) rigid++;
-        for (uint32_t k = 0; k < layout->diag[i + 1] - layout->diag[i]; k++) job.stiffness[k] += job.inertia[k];
+        if (layout->size[i] == DMB_NODE_SIX_DOF) rigid++;
+        for (uint32_t k = 0; k < layout->diag[i + 1] - layout->diag[i]; k++) args.stiffness[k] += args.inertia[k];
     }
 }
 
 static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
 {
     block_work work = {sim, rigid, 0};
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, make_diagonal_blocks, &work);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, make_diagonal_blocks, &work);
 }
 
 /* Row and column of an unknown that is not solved for: identity. */
@@ -269,14 +270,14 @@ static double row_times(const dmb_block_layout *layout, uint32_t node, const dou
     return sum;
 }
 
-void dmb_system_held_times(const dmb_sim *sim, const double *rows, const double *z, double *product)
+void dmb_system_constrained_times(const dmb_sim *sim, const double *rows, const double *z, double *product)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        product[i] = row_times(&scene->layout, scene->held_node[i], rows + 18 * (size_t)i, z);
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        product[i] = row_times(&scene->layout, scene->constrained_node[i], rows + 18 * (size_t)i, z);
 }
 
-void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *held_rows)
+void dmb_system_iteration_matrix_constrained(const dmb_evaluation *evaluation, double *constrained_rows)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -286,14 +287,15 @@ void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *
         if (stepping && scene->rotor_count) dmb_rotors_matrix(evaluation);
         diagonal_blocks(sim, stepping ? 0 : scene->free_rigid_count);
     }
-    for (uint32_t i = 0; i < scene->held_count && held_rows != NULL; i++)
-        read_row(sim, scene->held_node[i], scene->held_component[i], held_rows + 18 * (size_t)i);
-    for (uint32_t i = 0; i < scene->held_count; i++) hold_row(sim, scene->held_node[i], scene->held_component[i]);
+    for (uint32_t i = 0; i < scene->constrained_count && constrained_rows != NULL; i++)
+        read_row(sim, scene->constrained_node[i], scene->constrained_component[i], constrained_rows + 18 * (size_t)i);
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        hold_row(sim, scene->constrained_node[i], scene->constrained_component[i]);
 }
 
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
 {
-    dmb_system_iteration_matrix_held(evaluation, NULL);
+    dmb_system_iteration_matrix_constrained(evaluation, NULL);
 }
 
 /* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
@@ -302,15 +304,15 @@ static void unwrap_nodes(void *work, uint32_t first, uint32_t end)
     const dmb_sim *sim = work;
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = first, count; i < end; i += count) {
-        count = dmb_full_nodes_before(scene, i, end);
+        count = dmb_six_dof_nodes_before(scene, i, end);
         if (count > 0) {
-            const dmb_turn_job job = {.count = count,
-                                      .reference = scene->reference_quaternion + 4 * i,
-                                      .quaternion = sim->trial.quaternion + 4 * i,
-                                      .increment = sim->increment + scene->layout.row[i],
-                                      .start = sim->now.turn + i,
-                                      .turn = sim->trial.turn + i};
-            scene->kernels->turns(&job);
+            const dmb_turn_args args = {.count = count,
+                                        .reference = scene->reference_quaternion + 4 * i,
+                                        .quaternion = sim->trial.quaternion + 4 * i,
+                                        .increment = sim->increment + scene->layout.row[i],
+                                        .start = sim->now.turn + i,
+                                        .turn = sim->trial.turn + i};
+            scene->kernels->turns(&args);
         } else {
             count = 1;
         }
@@ -319,14 +321,15 @@ static void unwrap_nodes(void *work, uint32_t first, uint32_t end)
 
 void dmb_system_unwrap(dmb_sim *sim)
 {
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, unwrap_nodes, sim);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, unwrap_nodes, sim);
 }
 
-void dmb_system_take_reactions(dmb_sim *sim, dmb_configuration *to)
+void dmb_system_get_reactions(dmb_sim *sim, dmb_configuration *to)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        sim->held_reaction[i] = sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]];
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        sim->support_reaction[i] =
+            sim->residual[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]];
     dmb_drives_take_reactions(sim, to);
 }
 
@@ -338,6 +341,6 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     dmb_drives_accept(evaluation);
     if (scene->actuator_count) dmb_actuators_accept(evaluation);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
-    dmb_system_take_reactions(sim, &sim->trial);
+    dmb_system_get_reactions(sim, &sim->trial);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(evaluation, k);
 }

@@ -58,11 +58,11 @@ double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t
 void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
-/* The same; before rows that are held become identity they go into held_rows, by the node before, its own and the one
- * after, shape (held, 3, 6); NULL: they do not. */
-void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *held_rows);
+/* The same; before rows that are held become identity they go into constrained_rows, by the node before, its own and
+ * the one after, shape (held, 3, 6); NULL: they do not. */
+void dmb_system_iteration_matrix_constrained(const dmb_evaluation *evaluation, double *constrained_rows);
 /* product (held) = those rows times z, shape (row). */
-void dmb_system_held_times(const dmb_sim *sim, const double *rows, const double *z, double *product);
+void dmb_system_constrained_times(const dmb_sim *sim, const double *rows, const double *z, double *product);
 /* Unwrapped turns of the trial, from its pose and the increments. */
 void dmb_system_unwrap(dmb_sim *sim);
 /* Results of a finished step, whose turns are unwrapped: drive positions and forces, bit bottom and history. Trial ->
@@ -71,7 +71,7 @@ void dmb_system_accept(dmb_evaluation *evaluation);
 
 /* Reactions of what is held, from the residual and the multipliers of the trial: memory, and forces of motion drives
  * into a configuration. */
-void dmb_system_take_reactions(dmb_sim *sim, dmb_configuration *to);
+void dmb_system_get_reactions(dmb_sim *sim, dmb_configuration *to);
 
 /* Blocks of node i, and of the link i, i+1. */
 static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)
@@ -87,7 +87,7 @@ static inline double *dmb_inertia_of(const dmb_sim *sim, uint32_t node)
 static inline void dmb_apply_wrench(dmb_sim *sim, uint32_t node, const double wrench[6])
 {
     const uint32_t row = sim->scene->layout.row[node];
-    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
+    if (sim->scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL) {
         sim->residual[row] -= wrench[0];
         sim->residual[row + 1] -= wrench[3];
         sim->scale_row[row] += fabs(wrench[0]);

@@ -58,11 +58,11 @@ void dmb_free_rigid_start(const dmb_sim *sim, uint32_t rigid, double start[18])
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_job *job)
+void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
         double start[18], *motion = dmb_free_rigid_motion(sim, i);
-        dmb_predict_job rows = *job;
+        dmb_predict_args rows = *args;
         dmb_free_rigid_start(sim, i, start);
         rows.count = 6;
         rows.now_velocity = start;
@@ -77,15 +77,15 @@ void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_job *job)
 }
 
 /* Increments are corrected with all rows. */
-void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_job *job)
+void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
-        const double *z = job->correction + sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        const double *z = args->correction + sim->scene->layout.row[sim->scene->free_rigids[i].node];
         double *motion = dmb_free_rigid_motion(sim, i);
         for (uint32_t k = 0; k < 6; k++) {
-            motion[k] += job->to_velocity * z[k];
-            motion[6 + k] += job->to_acceleration * z[k];
-            motion[12 + k] += job->to_pseudo_acceleration * z[k];
+            motion[k] += args->to_velocity * z[k];
+            motion[6 + k] += args->to_acceleration * z[k];
+            motion[12 + k] += args->to_pseudo_acceleration * z[k];
         }
     }
 }

@@ -20,7 +20,7 @@ static lumped half_of(const dmb_element_type *type, double factor)
 
 static void add_node(uint32_t size, const lumped *mass, const double *z, double *force)
 {
-    if (size == DMB_NODE_PATH) {
+    if (size == DMB_NODE_AXIAL_TORSIONAL) {
         force[0] += mass->row[DMB_X] * z[0];
         force[1] += mass->row[DMB_RX] * z[1];
         return;
@@ -43,7 +43,7 @@ void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double 
         const uint32_t a = scene->element_node[e], row = scene->layout.row[a], next = scene->layout.row[a + 1];
         if (e == 0 || scene->element_type[e] != scene->element_type[e - 1])
             half = half_of(scene->types + scene->element_type[e], factor);
-        if (scene->layout.size[a] + scene->layout.size[a + 1] == 2 * DMB_NODE_FULL) {
+        if (scene->layout.size[a] + scene->layout.size[a + 1] == 2 * DMB_NODE_SIX_DOF) {
             add_both(&half, change + row, force + row);
             continue;
         }

@@ -25,8 +25,8 @@ double dmb_ledger_friction_excess(const dmb_sim *sim, const dmb_ledger_parts *pa
 {
     const dmb_configuration *a = &sim->now, *b = &sim->trial;
     if (sim->scene->friction_law.kind == DMB_FRICTION_NONE || dmb_is_quasi_static(a)) return 0.0;
-    return excess_of(parts, 2 * (size_t)sim->scene->path_site_count, a->path_friction, a->path_slip, b->path_friction,
-                     b->path_slip);
+    return excess_of(parts, 2 * (size_t)sim->scene->axial_torsional_site_count, a->axial_torsional_friction,
+                     a->axial_torsional_slip, b->axial_torsional_friction, b->axial_torsional_slip);
 }
 
 double dmb_ledger_rock_excess(const dmb_sim *sim, const dmb_ledger_parts *parts)
@@ -79,8 +79,8 @@ static double element_loss(const dmb_sim *sim, uint32_t e)
     const dmb_block_layout *layout = &sim->scene->layout;
     const dmb_element_type *type = sim->scene->types + sim->scene->element_type[e];
     const uint32_t a = sim->scene->element_node[e], ra = layout->row[a], rb = layout->row[a + 1];
-    const uint32_t ta = ra + (layout->size[a] == DMB_NODE_PATH ? 1 : 3);
-    const uint32_t tb = rb + (layout->size[a + 1] == DMB_NODE_PATH ? 1 : 3);
+    const uint32_t ta = ra + (layout->size[a] == DMB_NODE_AXIAL_TORSIONAL ? 1 : 3);
+    const uint32_t tb = rb + (layout->size[a + 1] == DMB_NODE_AXIAL_TORSIONAL ? 1 : 3);
     const double *v0 = sim->now.velocity, *v1 = sim->trial.velocity;
     const double stretch = (v1[rb] - v1[ra]) - (v0[rb] - v0[ra]), twist = (v1[tb] - v1[ta]) - (v0[tb] - v0[ta]);
     return type->damping_time * (type->stiffness[0] * stretch * stretch + type->stiffness[3] * twist * twist);
@@ -92,7 +92,7 @@ static double node_loss(const dmb_sim *sim, uint32_t node)
     const uint32_t row = sim->scene->layout.row[node];
     const double *c = sim->scene->node_damping + 5 * (size_t)node;
     double v[6], force[6];
-    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
+    if (sim->scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL) {
         for (uint32_t i = 0; i < 2; i++) v[i] = sim->trial.velocity[row + i] - sim->now.velocity[row + i];
         return c[0] * v[0] * v[0] + c[1] * v[1] * v[1];
     }
@@ -142,7 +142,8 @@ void dmb_ledger_take_forces(dmb_sim *sim)
     dmb_configuration *a = &sim->now;
     const dmb_configuration *b = &sim->trial;
     if (scene->friction_law.kind != DMB_FRICTION_NONE)
-        memcpy(a->path_friction, b->path_friction, 2 * scene->path_site_count * sizeof(double));
+        memcpy(a->axial_torsional_friction, b->axial_torsional_friction,
+               2 * scene->axial_torsional_site_count * sizeof(double));
     memcpy(a->bit_force, b->bit_force, 4 * scene->bit_count * sizeof(double));
     memcpy(a->bit_speed, b->bit_speed, 4 * scene->bit_count * sizeof(double));
     memcpy(a->law_speed, b->law_speed, scene->law_count * sizeof(double));

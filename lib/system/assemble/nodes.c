@@ -7,21 +7,21 @@
 #include "element/beam.h"
 #include "kernel/kernels.h"
 #include "math/mat6.h"
+#include "sim/chunks.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 #include "system/assemble/evaluation.h"
 
 /* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
 
 /* Inputs and outputs of the kernels for `count` FULL nodes from `node` on; `rigid_mass` is the first that may be on
  * them. */
-static dmb_node_force_job job_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+static dmb_node_force_args args_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t row = scene->layout.row[node], diag = scene->layout.diag[node];
     const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
-    const dmb_node_force_job job = {
+    const dmb_node_force_args args = {
         .count = count,
         .first = node,
         .rigid_masses = scene->rigid_masses + rigid_mass,
@@ -43,14 +43,14 @@ static dmb_node_force_job job_of(const dmb_evaluation *evaluation, uint32_t node
         .stiffness = sim->stiffness_diagonal + diag,
         .inertia = sim->inertia_diagonal + diag,
     };
-    return job;
+    return args;
 }
 
 /* A run of FULL nodes that is made in pieces. */
-typedef struct node_pieces {
+typedef struct node_chunks {
     const dmb_evaluation *evaluation;
     uint32_t node, count, rigid_mass, pieces;
-} node_pieces;
+} node_chunks;
 
 /* The first rigid mass from `next` on that is not before the node; they stand in the order of their nodes. */
 static uint32_t rigid_mass_from(const dmb_scene *scene, uint32_t next, uint32_t node)
@@ -68,53 +68,54 @@ static uint32_t rigid_mass_from(const dmb_scene *scene, uint32_t next, uint32_t 
 
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
-    const node_pieces *in = work;
+    const node_chunks *in = work;
     const dmb_sim *sim = in->evaluation->sim;
     for (uint32_t i = first; i < end; i++) {
-        const uint32_t begin = dmb_piece_begin(in->count, in->pieces, i), node = in->node + begin;
-        const uint32_t count = dmb_piece_begin(in->count, in->pieces, i + 1) - begin;
-        dmb_node_force_job job = job_of(in->evaluation, node, count, rigid_mass_from(sim->scene, in->rigid_mass, node));
-        sim->scene->kernels->node_forces(&job);
-        const dmb_piece_sums sums = {
-            .potential = job.potential, .damping = job.damping_power, .inertia = job.inertia_power};
-        sim->piece_sums[i] = sums;
+        const uint32_t begin = dmb_chunk_begin(in->count, in->pieces, i), node = in->node + begin;
+        const uint32_t count = dmb_chunk_begin(in->count, in->pieces, i + 1) - begin;
+        dmb_node_force_args args =
+            args_of(in->evaluation, node, count, rigid_mass_from(sim->scene, in->rigid_mass, node));
+        sim->scene->kernels->node_forces(&args);
+        const dmb_chunk_sums sums = {
+            .potential = args.potential, .damping = args.damping_power, .inertia = args.inertia_power};
+        sim->chunk_sums[i] = sums;
     }
 }
 
-static void gather_pieces(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+static void assemble_chunks(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     const dmb_sim *sim = evaluation->sim;
-    node_pieces in = {evaluation, node, count, rigid_mass, dmb_pieces_of(count)};
-    dmb_parts_run(sim, in.pieces, 1, make_pieces, &in);
+    node_chunks in = {evaluation, node, count, rigid_mass, dmb_chunks_of(count)};
+    dmb_chunks_run(sim, in.pieces, 1, make_pieces, &in);
     for (uint32_t i = 0; i < in.pieces; i++) {
-        evaluation->power[DMB_POWER_INERTIA] += sim->piece_sums[i].inertia;
-        evaluation->power[DMB_POWER_POTENTIAL] += sim->piece_sums[i].potential;
-        evaluation->power[DMB_POWER_DAMPING] += sim->piece_sums[i].damping;
+        evaluation->power[DMB_POWER_INERTIA] += sim->chunk_sums[i].inertia;
+        evaluation->power[DMB_POWER_POTENTIAL] += sim->chunk_sums[i].potential;
+        evaluation->power[DMB_POWER_DAMPING] += sim->chunk_sums[i].damping;
     }
 }
 
-static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+static void assemble_six_dof(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
-    dmb_node_force_job job = job_of(evaluation, node, count, rigid_mass);
-    if (!job.gravity && !job.damping && !job.rigid_mass_count) return;
-    if (dmb_pieces_of(count) > 1) {
-        gather_pieces(evaluation, node, count, rigid_mass);
+    dmb_node_force_args args = args_of(evaluation, node, count, rigid_mass);
+    if (!args.gravity && !args.damping && !args.rigid_mass_count) return;
+    if (dmb_chunks_of(count) > 1) {
+        assemble_chunks(evaluation, node, count, rigid_mass);
         return;
     }
-    job.inertia_power = evaluation->power[DMB_POWER_INERTIA];
-    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    job.damping_power = evaluation->power[DMB_POWER_DAMPING];
-    evaluation->sim->scene->kernels->node_forces(&job);
-    evaluation->power[DMB_POWER_INERTIA] = job.inertia_power;
-    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
-    evaluation->power[DMB_POWER_DAMPING] = job.damping_power;
+    args.inertia_power = evaluation->power[DMB_POWER_INERTIA];
+    args.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    args.damping_power = evaluation->power[DMB_POWER_DAMPING];
+    evaluation->sim->scene->kernels->node_forces(&args);
+    evaluation->power[DMB_POWER_INERTIA] = args.inertia_power;
+    evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
+    evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
 }
 
 /* ---- PATH nodes: along the axis and about it -----------------------------------------------------------------------
  */
 
 /* Only mass and the inertia about the axis are felt. */
-static void gather_path_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
+static void assemble_axial_torsional_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t row = sim->scene->layout.row[rigid_mass->node];
@@ -127,7 +128,7 @@ static void gather_path_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_m
     dmb_inertia_of(sim, rigid_mass->node)[3] += evaluation->mass_factor * rigid_mass->inertia[0];
 }
 
-static void gather_path_weight(dmb_evaluation *evaluation, uint32_t node)
+static void assemble_axial_torsional_weight(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -141,7 +142,7 @@ static void gather_path_weight(dmb_evaluation *evaluation, uint32_t node)
     evaluation->power[DMB_POWER_POTENTIAL] += dmb_vec6_dot(f, v);
 }
 
-static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node)
+static void assemble_axial_torsional_damping(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
     const double *c = sim->scene->node_damping + 5 * node;
@@ -154,27 +155,27 @@ static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node)
     dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
 }
 
-static void gather_path(dmb_evaluation *evaluation, uint32_t node, const dmb_rigid_mass *rigid_mass)
+static void assemble_axial_torsional(dmb_evaluation *evaluation, uint32_t node, const dmb_rigid_mass *rigid_mass)
 {
     const int32_t features = evaluation->sim->scene->features;
-    if (rigid_mass && evaluation->dynamic) gather_path_rigid_mass(evaluation, rigid_mass);
-    if (features & DMB_FEATURE_GRAVITY) gather_path_weight(evaluation, node);
-    if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) gather_path_damping(evaluation, node);
+    if (rigid_mass && evaluation->dynamic) assemble_axial_torsional_rigid_mass(evaluation, rigid_mass);
+    if (features & DMB_FEATURE_GRAVITY) assemble_axial_torsional_weight(evaluation, node);
+    if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) assemble_axial_torsional_damping(evaluation, node);
 }
 
 /* Node by node in their order, and so are the rigid_masses on them. */
-void dmb_gather_nodes(dmb_evaluation *evaluation)
+void dmb_assemble_nodes(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     if (!(scene->features & (DMB_FEATURE_GRAVITY | DMB_FEATURE_DAMPING)) && scene->rigid_mass_count == 0) return;
     for (uint32_t i = 0, rigid_mass = 0, count; i < scene->node_count; i += count) {
-        count = dmb_full_nodes_at(scene, i);
+        count = dmb_six_dof_nodes_at(scene, i);
         while (rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node < i) rigid_mass++;
         if (count > 0) {
-            gather_full(evaluation, i, count, rigid_mass);
+            assemble_six_dof(evaluation, i, count, rigid_mass);
         } else {
             const int has = rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node == i;
-            gather_path(evaluation, i, has ? scene->rigid_masses + rigid_mass : NULL);
+            assemble_axial_torsional(evaluation, i, has ? scene->rigid_masses + rigid_mass : NULL);
             count = 1;
         }
     }
@@ -182,7 +183,7 @@ void dmb_gather_nodes(dmb_evaluation *evaluation)
 
 /* ---- Mud --------------------------------------------------------------------------------------------------------- */
 
-static void gather_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
+static void assemble_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
 {
     dmb_sim *sim = evaluation->sim;
     double v[6], a[6], p[6], f[6], turning[6];
@@ -200,7 +201,7 @@ static void gather_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *
 }
 
 /* A PATH node moves along its x axis. */
-static void gather_path_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
+static void assemble_axial_torsional_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t row = sim->scene->layout.row[added->node];
@@ -210,15 +211,15 @@ static void gather_path_added_mass(dmb_evaluation *evaluation, const dmb_added_m
     if (evaluation->tangent) dmb_inertia_of(sim, added->node)[0] += evaluation->mass_factor * added->along;
 }
 
-void dmb_gather_added_masses(dmb_evaluation *evaluation)
+void dmb_assemble_added_masses(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t i = 0; i < scene->added_mass_count; i++) {
         const dmb_added_mass *added = scene->added_masses + i;
-        if (scene->layout.size[added->node] == DMB_NODE_FULL)
-            gather_added_mass(evaluation, added);
+        if (scene->layout.size[added->node] == DMB_NODE_SIX_DOF)
+            assemble_added_mass(evaluation, added);
         else
-            gather_path_added_mass(evaluation, added);
+            assemble_axial_torsional_added_mass(evaluation, added);
     }
 }
 
@@ -226,7 +227,7 @@ void dmb_gather_added_masses(dmb_evaluation *evaluation)
  * annulus (of a pipe that is tilted in it: Taylor 1952; Paidoussis 2014). With the tangent t(s) at the depth s of the
  * node, and b = (lever, 0, 0), it is f = -pull R^T t,   m = -b x R^T t,   d(R^T t) = (R^T t)~ dtheta + R^T dt/ds J t.R
  * dx, J = ds/dx of a point beside the axis. */
-static void pull_full(dmb_evaluation *evaluation, uint32_t node, const double pull[2])
+static void pull_six_dof(dmb_evaluation *evaluation, uint32_t node, const double pull[2])
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -267,15 +268,15 @@ static void pull_along(dmb_evaluation *evaluation, uint32_t node, double pull)
     if (evaluation->dynamic) evaluation->power[DMB_POWER_LOADS] -= pull * sim->trial.velocity[row];
 }
 
-void dmb_gather_flow(dmb_evaluation *evaluation)
+void dmb_assemble_flow(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const double *node = scene->flow_node + 2 * (size_t)i, factor = evaluation->load_factor;
         const double pull[2] = {factor * node[0], factor * node[1]};
         if (!(node[0] > 0.0)) continue;
-        if (scene->layout.size[i] == DMB_NODE_FULL)
-            pull_full(evaluation, i, pull);
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF)
+            pull_six_dof(evaluation, i, pull);
         else
             pull_along(evaluation, i, pull[0]);
     }
@@ -314,17 +315,18 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
     }
 }
 
-static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
+static void assemble_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
 {
     dmb_sim *sim = evaluation->sim;
     double w[6], v[6], K[36];
     if (load->point != DMB_NONE) {
         frame_of_load(sim, &sim->trial, load, K);
-        dmb_gather_point_load(evaluation, load, evaluation->load_factor * factor, K);
+        dmb_assemble_point_load(evaluation, load, evaluation->load_factor * factor, K);
         return;
     }
     wrench_of(sim, load, evaluation->load_factor * factor, w);
-    if (evaluation->tangent && load->frame != DMB_FRAME_BODY && sim->scene->layout.size[load->node] == DMB_NODE_FULL) {
+    if (evaluation->tangent && load->frame != DMB_FRAME_BODY &&
+        sim->scene->layout.size[load->node] == DMB_NODE_SIX_DOF) {
         dmb_mat6_zero(K); /* d(R^T f) = (R^T f)~ dtheta */
         dmb_mat6_add_skew(1.0, w, 0, 1, K);
         dmb_mat6_add_skew(1.0, w + 3, 1, 1, K);
@@ -338,11 +340,11 @@ static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, 
     evaluation->power[DMB_POWER_LOADS] += dmb_vec6_dot(w, v);
 }
 
-void dmb_gather_loads(dmb_evaluation *evaluation)
+void dmb_assemble_loads(dmb_evaluation *evaluation)
 {
     const dmb_sim *sim = evaluation->sim;
     for (uint32_t i = 0; i < sim->scene->load_count; i++)
-        gather_load(evaluation, sim->scene->loads + i, sim->trial.load_factor[i]);
+        assemble_load(evaluation, sim->scene->loads + i, sim->trial.load_factor[i]);
 }
 
 /* ---- Loads at points --------------------------------------------------------------------------------------------- */
@@ -396,7 +398,8 @@ void dmb_point_load_of(const dmb_sim *sim, const dmb_configuration *configuratio
     point_wrench(of, configuration->load_factor[load], frame, m.R, w);
 }
 
-void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor, const double frame[9])
+void dmb_assemble_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor,
+                             const double frame[9])
 {
     dmb_sim *sim = evaluation->sim;
     dmb_point_motion m;

@@ -16,8 +16,8 @@ static const dmb_element_type *type_of(const dmb_scene *scene, const dmb_scene_p
 
 static void shape_of(const dmb_scene *scene, const dmb_scene_point *point, dmb_section_shape *shape)
 {
-    const int path =
-        scene->layout.size[point->node] == DMB_NODE_PATH && scene->layout.size[point->node + 1] == DMB_NODE_PATH;
+    const int path = scene->layout.size[point->node] == DMB_NODE_AXIAL_TORSIONAL &&
+                     scene->layout.size[point->node + 1] == DMB_NODE_AXIAL_TORSIONAL;
     dmb_section_shape_at(type_of(scene, point), point->fraction, !path, shape);
 }
 
@@ -146,7 +146,7 @@ static uint32_t column_of(const dmb_scene *scene, const dmb_force_tangent *tange
     const uint32_t node = motion->node[k / 6], c = k % 6;
     uint32_t i = 0;
     while (tangent->node[i] != node) i++;
-    if (scene->layout.size[node] == DMB_NODE_FULL) return tangent->column[i] + c;
+    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) return tangent->column[i] + c;
     return c % 3 != 0 ? DMB_NONE : tangent->column[i] + c / 3;
 }
 
@@ -185,7 +185,7 @@ static void to_parameters(const dmb_sim *sim, const dmb_force_tangent *tangent, 
 {
     const uint32_t at = tangent->node[node];
     dmb_se3_tangent T;
-    if (sim->scene->layout.size[at] != DMB_NODE_FULL) return;
+    if (sim->scene->layout.size[at] != DMB_NODE_SIX_DOF) return;
     dmb_se3_tangent_at(sim->increment + sim->scene->layout.row[at], NULL, &T);
     for (uint32_t r = 0; r < tangent->columns; r++) {
         double *row = K + (size_t)r * tangent->columns + tangent->column[node];

@@ -202,7 +202,7 @@ static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion
     return own.heat - damper * m->rate;
 }
 
-static void gather_spring(dmb_evaluation *evaluation, uint32_t i)
+static void assemble_spring(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_spring *spring = sim->scene->springs + i;
@@ -227,9 +227,9 @@ void dmb_spring_press(dmb_sim *sim, uint32_t spring, double tension)
     pull(sim, &m.a, m.n, tension);
 }
 
-void dmb_gather_springs(dmb_evaluation *evaluation)
+void dmb_assemble_springs(dmb_evaluation *evaluation)
 {
-    for (uint32_t i = 0; i < evaluation->sim->scene->spring_count; i++) gather_spring(evaluation, i);
+    for (uint32_t i = 0; i < evaluation->sim->scene->spring_count; i++) assemble_spring(evaluation, i);
 }
 
 double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *configuration)
@@ -409,7 +409,7 @@ static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint
     for (uint32_t i = 0; i < constraint->node_count; i++) {
         const uint32_t node = constraint->node[i];
         dmb_se3_tangent T;
-        if (scene->layout.size[node] != DMB_NODE_FULL) continue;
+        if (scene->layout.size[node] != DMB_NODE_SIX_DOF) continue;
         dmb_se3_tangent_at(sim->increment + scene->layout.row[node], NULL, &T);
         for (uint32_t r = 0; r < constraint->columns; r++) {
             double *row = K + (size_t)r * constraint->columns + constraint->column[i];
@@ -448,7 +448,7 @@ static void rest_laws(dmb_sim *sim, const dmb_scene_joint *joint)
     }
 }
 
-static void gather_forces(dmb_evaluation *evaluation)
+static void assemble_forces(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t j = 0; j < scene->joint_count; j++) {
@@ -485,9 +485,9 @@ static int32_t gather_curvatures(dmb_evaluation *evaluation)
     return status;
 }
 
-int32_t dmb_gather_joints(dmb_evaluation *evaluation)
+int32_t dmb_assemble_joints(dmb_evaluation *evaluation)
 {
-    gather_forces(evaluation);
+    assemble_forces(evaluation);
     dmb_clusters_balance(evaluation);
     return evaluation->tangent ? gather_curvatures(evaluation) : DMB_OK;
 }

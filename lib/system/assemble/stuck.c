@@ -222,7 +222,7 @@ static void gather(dmb_evaluation *evaluation, uint32_t i)
     if (evaluation->tangent) add_tangent(evaluation, stuck, &m, hold.force, w);
 }
 
-void dmb_gather_stuck(dmb_evaluation *evaluation)
+void dmb_assemble_stuck(dmb_evaluation *evaluation)
 {
     for (uint32_t i = 0; i < evaluation->sim->scene->stuck_count; i++)
         if (evaluation->sim->stuck_held[i]) gather(evaluation, i);

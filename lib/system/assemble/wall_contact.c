@@ -22,7 +22,7 @@ void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, ui
     if (full)
         dmb_site_force_of(scene, c, site, &f);
     else
-        dmb_path_site_force_of(scene, c, site - scene->site_count, &f);
+        dmb_axial_torsional_site_force(scene, c, site - scene->site_count, &f);
     if (!f.closed) return;
     if (full) {
         const double length = scene->sites[site].length;
@@ -43,16 +43,18 @@ const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const d
                                                  dmb_friction_law *local)
 {
     if (scene->hole.pieces == 0) return &scene->friction_law;
-    const double depth = site < scene->site_count
-                             ? c->site_depth[site]
-                             : dmb_path_depth(scene, c, scene->path_sites[site - scene->site_count].node);
+    const double depth =
+        site < scene->site_count
+            ? c->site_depth[site]
+            : dmb_axial_torsional_depth(scene, c, scene->axial_torsional_sites[site - scene->site_count].node);
     *local = dmb_friction_law_at(&scene->hole, &scene->friction_law, depth);
     return local;
 }
 
 uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site)
 {
-    return site < scene->site_count ? scene->sites[site].node : scene->path_sites[site - scene->site_count].node;
+    return site < scene->site_count ? scene->sites[site].node
+                                    : scene->axial_torsional_sites[site - scene->site_count].node;
 }
 
 /* ---- Friction of a ring that slips ------------------------------------------------------------------------------- */
@@ -124,10 +126,10 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
 }
 
 /* Inputs and outputs of the kernels for the sites. */
-static dmb_wall_job job_of(const dmb_sim *sim)
+static dmb_wall_args args_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_wall_job job = {
+    const dmb_wall_args args = {
         .count = dmb_node_sites(scene),
         .sites = scene->sites,
         .hole = &scene->hole,
@@ -153,7 +155,7 @@ static dmb_wall_job job_of(const dmb_sim *sim)
         .stiffness = sim->stiffness_diagonal,
         .inertia = sim->inertia_diagonal,
     };
-    return job;
+    return args;
 }
 
 dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
@@ -172,66 +174,66 @@ typedef struct own_laws {
 } own_laws;
 
 /* Friction of rings with a share of it left out: the law's own coefficients, and those of sections of the hole. */
-static void leave_friction_out(const dmb_evaluation *evaluation, own_laws *laws, dmb_wall_job *job)
+static void leave_friction_out(const dmb_evaluation *evaluation, own_laws *laws, dmb_wall_args *args)
 {
     const double share = 1.0 - evaluation->frictionless;
-    laws->partial = *job->friction_law;
+    laws->partial = *args->friction_law;
     laws->partial.mu_static *= share;
     laws->partial.mu_dynamic *= share;
-    laws->hole = *job->hole;
+    laws->hole = *args->hole;
     laws->hole.friction *= share;
-    job->friction_law = &laws->partial;
-    job->hole = &laws->hole;
+    args->friction_law = &laws->partial;
+    args->hole = &laws->hole;
 }
 
-static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
+static dmb_wall_args args_for(const dmb_evaluation *evaluation, own_laws *laws)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    dmb_wall_job job = job_of(evaluation->sim);
+    dmb_wall_args args = args_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
-        job.friction_law = &scene->friction_law;
+        args.friction_law = &scene->friction_law;
     if (evaluation->wall_softness > 0.0) {
         laws->soft = scene->normal_law;
         laws->soft.stiffness /= evaluation->wall_softness;
-        job.normal_law = &laws->soft;
+        args.normal_law = &laws->soft;
     }
-    job.softer = evaluation->wall_softness > 0.0 ? evaluation->wall_softness : 1.0;
-    if (evaluation->steady && job.friction_law != NULL && job.bristles) {
-        laws->sliding = dmb_sliding_law(job.friction_law);
-        job.friction_law = &laws->sliding;
-        job.bristles = 0;
+    args.softer = evaluation->wall_softness > 0.0 ? evaluation->wall_softness : 1.0;
+    if (evaluation->steady && args.friction_law != NULL && args.bristles) {
+        laws->sliding = dmb_sliding_law(args.friction_law);
+        args.friction_law = &laws->sliding;
+        args.bristles = 0;
     }
-    if (evaluation->frictionless > 0.0 && job.friction_law != NULL) leave_friction_out(evaluation, laws, &job);
-    job.slip[0] = evaluation->slip[0];
-    job.slip[1] = evaluation->slip[1];
-    job.step = evaluation->step;
-    job.own_factor = evaluation->dynamic && evaluation->step > 0.0 ? evaluation->own_factor : 0.0;
-    if (evaluation->predicted && job.own_factor > 0.0) { /* beta/gamma h^2 and h of the acceleration */
-        job.yield = evaluation->step / evaluation->velocity_factor * scene->site_mobility;
-        job.slows = evaluation->step * scene->site_mobility;
+    if (evaluation->frictionless > 0.0 && args.friction_law != NULL) leave_friction_out(evaluation, laws, &args);
+    args.slip[0] = evaluation->slip[0];
+    args.slip[1] = evaluation->slip[1];
+    args.step = evaluation->step;
+    args.own_factor = evaluation->dynamic && evaluation->step > 0.0 ? evaluation->own_factor : 0.0;
+    if (evaluation->predicted && args.own_factor > 0.0) { /* beta/gamma h^2 and h of the acceleration */
+        args.yield = evaluation->step / evaluation->velocity_factor * scene->site_mobility;
+        args.slows = evaluation->step * scene->site_mobility;
     }
-    job.bounces = job.own_factor > 0.0 && *evaluation->sim->sites_bounce;
-    job.velocity_factor = evaluation->velocity_factor;
-    job.dynamic = evaluation->dynamic;
-    job.tangent = evaluation->tangent;
-    return job;
+    args.bounces = args.own_factor > 0.0 && *evaluation->sim->sites_bounce;
+    args.velocity_factor = evaluation->velocity_factor;
+    args.dynamic = evaluation->dynamic;
+    args.tangent = evaluation->tangent;
+    return args;
 }
 
-void dmb_gather_contacts(dmb_evaluation *evaluation)
+void dmb_assemble_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     own_laws laws;
-    dmb_wall_job job = job_for(evaluation, &laws);
-    job.rounding = evaluation->rounding;
-    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    job.impact = evaluation->power[DMB_POWER_IMPACT];
-    job.friction = evaluation->power[DMB_POWER_FRICTION];
-    dmb_press_rings(evaluation->sim, &job);
-    if (scene->inside_count > 0) dmb_gather_contacts_inside(evaluation, 0, &job);
-    evaluation->rounding = job.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
-    evaluation->power[DMB_POWER_IMPACT] = job.impact;
-    evaluation->power[DMB_POWER_FRICTION] = job.friction;
+    dmb_wall_args args = args_for(evaluation, &laws);
+    args.rounding = evaluation->rounding;
+    args.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    args.impact = evaluation->power[DMB_POWER_IMPACT];
+    args.friction = evaluation->power[DMB_POWER_FRICTION];
+    dmb_press_rings(evaluation->sim, &args);
+    if (scene->inside_count > 0) dmb_assemble_contacts_inside(evaluation, 0, &args);
+    evaluation->rounding = args.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
+    evaluation->power[DMB_POWER_IMPACT] = args.impact;
+    evaluation->power[DMB_POWER_FRICTION] = args.friction;
 }
 
 void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
@@ -249,9 +251,9 @@ void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *c, uint
 void dmb_contacts_accept(dmb_evaluation *evaluation)
 {
     own_laws laws;
-    dmb_wall_job job = job_for(evaluation, &laws);
-    job.tangent = 0;
-    dmb_gather_contacts_inside(evaluation, 1, &job);
+    dmb_wall_args args = args_for(evaluation, &laws);
+    args.tangent = 0;
+    dmb_assemble_contacts_inside(evaluation, 1, &args);
 }
 
 /* ---- Questions about a finished configuration -------------------------------------------------------------------- */
@@ -465,7 +467,7 @@ void dmb_contacts_forget(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     if (dmb_scene_has_bristles(scene)) {
         memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
-        memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+        memset(sim->trial.axial_torsional_bristle, 0, 2 * scene->axial_torsional_site_count * sizeof(double));
     }
     memset(sim->trial.site_impact_speed, 0, scene->site_count * sizeof(double));
     if (dmb_scene_has_touch(scene))
@@ -496,10 +498,10 @@ void dmb_contacts_slide(dmb_sim *sim)
             deflect(law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
                     sim->now.site_sticks + s);
     }
-    for (uint32_t p = 0; p < scene->path_site_count; p++) {
+    for (uint32_t p = 0; p < scene->axial_torsional_site_count; p++) {
         dmb_friction_law local;
         const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, scene->site_count + p, &local);
-        deflect(law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
-                sim->now.path_sticks + p);
+        deflect(law, sim->now.axial_torsional_slip + 2 * (size_t)p, sim->now.axial_torsional_bristle + 2 * (size_t)p,
+                sim->now.axial_torsional_sticks + p);
     }
 }

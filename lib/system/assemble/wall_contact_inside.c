@@ -32,7 +32,8 @@ static void host_of(const dmb_scene *scene, const dmb_configuration *c, const dm
     of->type = scene->types + scene->element_type[point->element];
     of->element = point->element;
     of->node = a;
-    of->bending = scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH;
+    of->bending =
+        scene->layout.size[a] != DMB_NODE_AXIAL_TORSIONAL || scene->layout.size[a + 1] != DMB_NODE_AXIAL_TORSIONAL;
     dmb_node_pose(scene, c, a, of->Ra, of->ua);
     dmb_node_pose(scene, c, a + 1, Rb, ub);
     dmb_vec3_sub(ub, of->ua, span);
@@ -154,28 +155,28 @@ static int touches(const dmb_sim *sim, uint32_t s, const section_node *at)
 }
 
 /* The wall of one ring: sums go on from those given. */
-static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at, const dmb_wall_job *sums,
-                  dmb_wall_job *job)
+static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at, const dmb_wall_args *sums,
+                  dmb_wall_args *args)
 {
     static const uint32_t first = 0;
     const dmb_scene *scene = evaluation->sim->scene;
-    *job = *sums;
-    job->count = 1;
-    job->sites = &at->site;
-    job->row = job->diagonal = &first;
-    job->reference += 3 * (size_t)dmb_inside_point(scene, s)->node;
-    job->displacement = at->displacement;
-    job->quaternion = at->quaternion;
-    job->velocity = at->velocity;
-    job->now_quaternion = at->now_quaternion;
-    job->now_velocity = at->now_velocity;
-    job->velocity_factor = 1.0;
-    job->residual = at->residual;
-    job->scale = at->scale;
-    job->stiffness = at->stiffness;
-    job->inertia = at->inertia;
-    dmb_wall_job_skip(job, s);
-    dmb_kernels_of(1)->walls(job);
+    *args = *sums;
+    args->count = 1;
+    args->sites = &at->site;
+    args->row = args->diagonal = &first;
+    args->reference += 3 * (size_t)dmb_inside_point(scene, s)->node;
+    args->displacement = at->displacement;
+    args->quaternion = at->quaternion;
+    args->velocity = at->velocity;
+    args->now_quaternion = at->now_quaternion;
+    args->now_velocity = at->now_velocity;
+    args->velocity_factor = 1.0;
+    args->residual = at->residual;
+    args->scale = at->scale;
+    args->stiffness = at->stiffness;
+    args->inertia = at->inertia;
+    dmb_wall_args_skip(args, s);
+    dmb_kernels_of(1)->walls(args);
 }
 
 /* The ring meets the wall: the last accepted motion tells how fast it comes. */
@@ -194,23 +195,23 @@ static void take_before(const dmb_sim *sim, uint32_t s, const section *motion, s
     take_motion(&before, at->now_quaternion, at->now_velocity);
 }
 
-static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_wall_job *sums)
+static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_wall_args *sums)
 {
     dmb_sim *sim = evaluation->sim;
-    dmb_wall_job job;
+    dmb_wall_args args;
     section in;
     section_node at;
     section_of(of, dmb_inside_point(sim->scene, s), &in);
     take_node(sim, s, &in, &at);
-    press(evaluation, s, &at, sums, &job);
+    press(evaluation, s, &at, sums, &args);
     if (meets(sim, s)) {
         take_before(sim, s, &in, &at);
-        press(evaluation, s, &at, sums, &job);
+        press(evaluation, s, &at, sums, &args);
     }
-    sums->rounding = job.rounding;
-    sums->potential = job.potential;
-    sums->impact = job.impact;
-    sums->friction = job.friction;
+    sums->rounding = args.rounding;
+    sums->potential = args.potential;
+    sums->impact = args.impact;
+    sums->friction = args.friction;
     if (!touches(sim, s, &at)) return;
     double w[6], f[12];
     for (int i = 0; i < 6; i++) w[i] = -at.residual[i];
@@ -249,11 +250,11 @@ static int stays_open(const dmb_evaluation *evaluation, const dmb_scene_point *p
     const dmb_sim *sim = evaluation->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
     if (!evaluation->dynamic || !(evaluation->step > 0.0) || sim->scene->hole.pieces > 0) return 0;
-    if (layout->size[point->node] != DMB_NODE_FULL || layout->size[point->node + 1] != DMB_NODE_FULL) return 0;
+    if (layout->size[point->node] != DMB_NODE_SIX_DOF || layout->size[point->node + 1] != DMB_NODE_SIX_DOF) return 0;
     return sim->now.site_penetration[s] + 2.0 * reach_of(sim, point) < 0.0;
 }
 
-void dmb_gather_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_job *job)
+void dmb_assemble_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_args *args)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -267,7 +268,7 @@ void dmb_gather_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wal
         }
         if (waits != waiting) continue;
         if (of.type == NULL || of.element != point->element) host_of(scene, &sim->trial, point, &of);
-        gather(evaluation, &of, s, job);
+        gather(evaluation, &of, s, args);
     }
 }
 

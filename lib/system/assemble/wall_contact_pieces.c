@@ -1,69 +1,69 @@
-/* Rings that are pressed on the wall in pieces (sim/parts); no node has rings in two of them. */
+/* Rings that are pressed on the wall in pieces (sim/chunks); no node has rings in two of them. */
 #include "kernel/kernels.h"
-#include "sim/parts.h"
+#include "sim/chunks.h"
 #include "system/assemble/assemble.h"
 
-typedef struct wall_pieces {
+typedef struct wall_chunks {
     const dmb_sim *sim;
-    const dmb_wall_job *all;
+    const dmb_wall_args *all;
     const dmb_kernels *kernels;
     uint32_t count, pieces;
-} wall_pieces;
+} wall_chunks;
 
-static uint32_t begin_of(const wall_pieces *in, uint32_t piece)
+static uint32_t begin_of(const wall_chunks *in, uint32_t piece)
 {
     const dmb_site *sites = in->all->sites;
-    uint32_t begin = dmb_piece_begin(in->count, in->pieces, piece);
+    uint32_t begin = dmb_chunk_begin(in->count, in->pieces, piece);
     while (begin > 0 && begin < in->count && sites[begin].node == sites[begin - 1].node) begin++;
     return begin;
 }
 
 /* The same for the sites from `first` to before `end`; nothing is summed yet. */
-static dmb_wall_job part_of(const dmb_wall_job *all, uint32_t first, uint32_t end)
+static dmb_wall_args part_of(const dmb_wall_args *all, uint32_t first, uint32_t end)
 {
-    dmb_wall_job job = *all;
-    job.count = end - first;
-    job.sites += first;
-    dmb_wall_job_skip(&job, first);
-    job.rounding = job.potential = job.impact = job.friction = 0.0;
-    return job;
+    dmb_wall_args args = *all;
+    args.count = end - first;
+    args.sites += first;
+    dmb_wall_args_skip(&args, first);
+    args.rounding = args.potential = args.impact = args.friction = 0.0;
+    return args;
 }
 
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
-    const wall_pieces *in = work;
+    const wall_chunks *in = work;
     for (uint32_t i = first; i < end; i++) {
-        dmb_wall_job job = part_of(in->all, begin_of(in, i), begin_of(in, i + 1));
-        in->kernels->walls(&job);
-        const dmb_piece_sums sums = {
-            .rounding = job.rounding, .potential = job.potential, .impact = job.impact, .friction = job.friction};
-        in->sim->piece_sums[i] = sums;
+        dmb_wall_args args = part_of(in->all, begin_of(in, i), begin_of(in, i + 1));
+        in->kernels->walls(&args);
+        const dmb_chunk_sums sums = {
+            .rounding = args.rounding, .potential = args.potential, .impact = args.impact, .friction = args.friction};
+        in->sim->chunk_sums[i] = sums;
     }
 }
 
-static void add_sums(const dmb_piece_sums *sums, dmb_wall_job *job)
+static void add_sums(const dmb_chunk_sums *sums, dmb_wall_args *args)
 {
-    job->rounding += sums->rounding;
-    job->potential += sums->potential;
-    job->impact += sums->impact;
-    job->friction += sums->friction;
+    args->rounding += sums->rounding;
+    args->potential += sums->potential;
+    args->impact += sums->impact;
+    args->friction += sums->friction;
 }
 
 /* Sites of strings stand in the order of their nodes; those of bodies come behind them, and last. */
-void dmb_press_rings(const dmb_sim *sim, dmb_wall_job *job)
+void dmb_press_rings(const dmb_sim *sim, dmb_wall_args *args)
 {
     const dmb_kernels *kernels = sim->scene->kernels;
-    const uint32_t pieces = dmb_pieces_of(sim->scene->sites_in_order);
+    const uint32_t pieces = dmb_chunks_of(sim->scene->sites_in_order);
     if (pieces == 1) {
-        kernels->walls(job);
+        kernels->walls(args);
         return;
     }
-    wall_pieces in = {sim, job, kernels, sim->scene->sites_in_order, pieces};
-    dmb_parts_run(sim, pieces, 1, make_pieces, &in);
-    for (uint32_t i = 0; i < pieces; i++) add_sums(sim->piece_sums + i, job);
-    dmb_wall_job rest = part_of(job, in.count, job->count);
+    wall_chunks in = {sim, args, kernels, sim->scene->sites_in_order, pieces};
+    dmb_chunks_run(sim, pieces, 1, make_pieces, &in);
+    for (uint32_t i = 0; i < pieces; i++) add_sums(sim->chunk_sums + i, args);
+    dmb_wall_args rest = part_of(args, in.count, args->count);
     kernels->walls(&rest);
-    const dmb_piece_sums sums = {
+    const dmb_chunk_sums sums = {
         .rounding = rest.rounding, .potential = rest.potential, .impact = rest.impact, .friction = rest.friction};
-    add_sums(&sums, job);
+    add_sums(&sums, args);
 }

@@ -52,7 +52,7 @@ static void gather_matrix(dmb_sim *sim, const dmb_cluster *cluster)
     }
 }
 
-int32_t dmb_clusters_gather(dmb_evaluation *evaluation)
+int32_t dmb_clusters_assemble(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const int32_t status = dmb_constraint_rows(evaluation);

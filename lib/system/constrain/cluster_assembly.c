@@ -188,7 +188,7 @@ static void move_chain(dmb_sim *sim, const dmb_chain *chain, uint32_t base, cons
 }
 
 /* Moves by row into `increment`; the largest violation is brought down by them. */
-static void gather_moves(dmb_sim *sim, double damping, double apart)
+static void assemble_moves(dmb_sim *sim, double damping, double apart)
 {
     const dmb_scene *scene = sim->scene;
     memset(sim->increment, 0, scene->row_count * sizeof(double));
@@ -226,16 +226,16 @@ static int32_t iterate_damped(dmb_evaluation *evaluation, int rigid)
     double best = (double)INFINITY;
     uint32_t row = 0, stalled = 0;
     for (uint32_t k = 0; k < DMB_ASSEMBLY_MAX && stalled < DMB_ASSEMBLY_STALLED; k++) {
-        const int32_t status = dmb_clusters_gather(evaluation);
+        const int32_t status = dmb_clusters_assemble(evaluation);
         if (status < 0) return status;
         const double apart = dmb_clusters_violation(sim, 0, &row), part = apart / sim->reduced_mode->length;
         if (part <= DMB_ASSEMBLY_CLOSED) break;
         stalled = apart < 0.9 * best ? 0 : stalled + 1;
         best = fmin(best, apart);
-        gather_moves(sim, fmax(DMB_DAMPING_LEAST, fmin(DMB_DAMPING_MOST, part * part)), apart);
+        assemble_moves(sim, fmax(DMB_DAMPING_LEAST, fmin(DMB_DAMPING_MOST, part * part)), apart);
         take_moves(sim, rigid);
     }
-    const int32_t status = dmb_clusters_gather(evaluation);
+    const int32_t status = dmb_clusters_assemble(evaluation);
     if (status >= 0) dmb_clusters_choose(sim);
     return status;
 }
@@ -257,7 +257,7 @@ static int32_t iterate_newton(dmb_evaluation *evaluation)
 
 enum { BODIES_MOVE, CHAINS_MOVE, NODES_MOVE };
 
-static int32_t attempt(dmb_evaluation *evaluation, int movers)
+static int32_t trial_step(dmb_evaluation *evaluation, int movers)
 {
     dmb_sim *sim = evaluation->sim;
     uint32_t row = 0;
@@ -313,12 +313,12 @@ static int32_t close_sparse(dmb_evaluation *evaluation, int start, int *closed)
 {
     dmb_sim *sim = evaluation->sim;
     uint32_t row = 0;
-    int32_t status = dmb_clusters_gather(evaluation);
+    int32_t status = dmb_clusters_assemble(evaluation);
     *closed = 0;
     if (status < 0) return status;
     dmb_clusters_choose(sim);
     if (has_elements(sim->scene) && start != FROM_DESCRIBED_STRAINING && !is_closed(sim, &row)) return status;
-    status = attempt(evaluation, NODES_MOVE);
+    status = trial_step(evaluation, NODES_MOVE);
     *closed = status >= 0 && is_closed(sim, &row);
     return status;
 }
@@ -332,7 +332,7 @@ static int32_t close_dense(dmb_evaluation *evaluation, int start, int *closed)
     *closed = 0;
     for (int movers = has_elements(sim->scene) ? BODIES_MOVE : NODES_MOVE;
          movers <= (rigid ? CHAINS_MOVE : NODES_MOVE) && !*closed && status != DMB_ERR_CALLBACK; movers++) {
-        status = attempt(evaluation, movers);
+        status = trial_step(evaluation, movers);
         *closed = status >= 0 && is_closed(sim, &row);
     }
     return status;

@@ -28,7 +28,7 @@ uint32_t dmb_chain_base(const dmb_scene *scene, const dmb_chain *chain, double o
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
         const uint8_t *solved = scene->solved_row + scene->layout.row[i];
         uint32_t here = 0;
-        if (scene->layout.size[i] != DMB_NODE_FULL) return DMB_NONE;
+        if (scene->layout.size[i] != DMB_NODE_SIX_DOF) return DMB_NONE;
         for (int c = 0; c < 6; c++) here += solved[c] == 0;
         if (here == 0) continue;
         if (++held > 1) return DMB_NONE;

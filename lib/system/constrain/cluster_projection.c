@@ -36,7 +36,7 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
     if (cluster->sparse) {
-        dmb_sparse_take(sim, k, sim->cluster_move);
+        dmb_sparse_get(sim, k, sim->cluster_move);
         return sim->cluster_move;
     }
     const dmb_partition partition = dmb_cluster_partition(sim, k);
@@ -72,7 +72,7 @@ static void move_motion(const dmb_evaluation *step, uint32_t node, const double 
     double *const raw[3] = {sim->raw_velocity, sim->raw_acceleration, sim->raw_pseudo_acceleration};
     double *const trial[3] = {sim->trial.velocity, sim->trial.acceleration, sim->trial.pseudo_acceleration};
     double dz[6] = {x[0], x[1]};
-    if (size == DMB_NODE_FULL) {
+    if (size == DMB_NODE_SIX_DOF) {
         dmb_se3_inverse_tangent T;
         dmb_se3_inverse_tangent_at(sim->increment + row, NULL, &T);
         dmb_se3_tangent_apply(&T, x, dz);
@@ -90,7 +90,7 @@ static void move_motion(const dmb_evaluation *step, uint32_t node, const double 
 
 void dmb_trial_move_node(dmb_sim *sim, uint32_t node, const double *x)
 {
-    if (sim->scene->layout.size[node] == DMB_NODE_FULL) {
+    if (sim->scene->layout.size[node] == DMB_NODE_SIX_DOF) {
         dmb_se3_advance(sim->trial.quaternion + 4 * (size_t)node, sim->trial.displacement + 3 * (size_t)node, x);
         return;
     }
@@ -142,7 +142,7 @@ static double move_poses(dmb_sim *sim, double most, const dmb_evaluation *step)
 int32_t dmb_clusters_correct(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
-    int32_t status = dmb_clusters_gather(evaluation);
+    int32_t status = dmb_clusters_assemble(evaluation);
     if (status < 0) return status;
     dmb_clusters_choose(sim);
     status = factor_gram(sim);
@@ -160,7 +160,7 @@ static int32_t settle_poses(dmb_evaluation *evaluation, int32_t motion)
     double last = (double)INFINITY;
     uint32_t row = 0;
     for (uint32_t k = 0;; k++) {
-        int32_t status = dmb_clusters_gather(evaluation);
+        int32_t status = dmb_clusters_assemble(evaluation);
         if (status < 0) return status;
         const double violation = dmb_clusters_pivot_violation(sim, &row);
         const int done =
@@ -211,17 +211,17 @@ static void take_raw(dmb_sim *sim)
     memcpy(sim->trial.pseudo_acceleration, sim->raw_pseudo_acceleration, bytes);
 }
 
-static void leave_weak(dmb_sim *sim)
+static void drop_near_redundant(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
         if (cluster->sparse) continue;
-        dmb_partition_leave_weak(
+        dmb_partition_drop_near_redundant(
             &(dmb_jacobian){dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column},
             &partition, sim->cluster_gram + cluster->square);
     }
-    if (sim->scene->sparse_count && sim->reduced_mode->weak) (void)dmb_sparse_factor(sim, 1);
+    if (sim->scene->sparse_count && sim->reduced_mode->near_redundant) (void)dmb_sparse_factor(sim, 1);
 }
 
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw)
@@ -234,9 +234,9 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     if (levels & DMB_SETTLE_POSE)
         status = settle_poses(evaluation, from_raw);
     else
-        status = dmb_clusters_gather(evaluation);
+        status = dmb_clusters_assemble(evaluation);
     if (status >= 0 && !(levels & DMB_SETTLE_POSE)) status = factor_gram(sim);
-    if (status >= 0 && from_raw) leave_weak(sim);
+    if (status >= 0 && from_raw) drop_near_redundant(sim);
     if (status >= 0 && levels & DMB_SETTLE_SPEED) {
         settle_rows(sim, sim->constraint_rate, sim->trial.velocity, NULL, 0.0);
         if (from_raw && sim->scene->rotor_count) dmb_rotors_follow(sim, sim->raw_velocity);

@@ -34,7 +34,7 @@ static size_t largest_work(const dmb_scene *scene)
     return most;
 }
 
-/* All that dmb_clusters_gather writes. Its pose and motion are those of the accepted state, read in place. */
+/* All that dmb_clusters_assemble writes. Its pose and motion are those of the accepted state, read in place. */
 static void lay_out(dmb_arena *arena, scratch *s)
 {
     const dmb_scene *scene = s->sim.scene;
@@ -79,7 +79,7 @@ static int32_t evaluate_rows(scratch *s)
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.sim = &s->sim;
     evaluation.time = s->sim.clock->time;
-    return dmb_clusters_gather(&evaluation);
+    return dmb_clusters_assemble(&evaluation);
 }
 
 /* ---- Rank -------------------------------------------------------------------------------------------------------- */

@@ -56,15 +56,15 @@ void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint,
 /* Refuses active joints whose trial stands where their angles or equations are not defined: a universal joint, or one
  * with springs, drives or couplings on its angles, at a right angle of RZ; a rim that lies flat. moving: the way from
  * now counts too. DMB_ERR_GEOMETRY with a message. */
-int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time);
+int32_t dmb_joints_refuse_gimbal_singularity(dmb_sim *sim, int moving, double time);
 /* Refuses active universal joints with something on their angles whose trial stands beyond the right angle that `now`
  * is before: on the way of a search for equilibrium, however long, they would have passed it. DMB_ERR_GEOMETRY with a
  * message. */
-int32_t dmb_joints_refuse_folds(dmb_sim *sim);
+int32_t dmb_joints_refuse_gimbal_flip(dmb_sim *sim);
 /* [-] smallest cos RZ of the joints of the trial with something on their angles, and which one it is; 1, DMB_NONE: of
  * none.
  */
-double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint);
+double dmb_joints_nearest_gimbal_singularity(const dmb_sim *sim, uint32_t *joint);
 
 /* ---- Memory from step to step ------------------------------------------------------------------------------------ */
 
@@ -138,7 +138,7 @@ enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, D
 /* Units of the columns and the first partition, from the rows at the trial. Once a sim, when its memory is new. */
 void dmb_clusters_prepare(dmb_sim *sim);
 /* Rows and matrices at the trial. DMB_OK, DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
-int32_t dmb_clusters_gather(dmb_evaluation *evaluation);
+int32_t dmb_clusters_assemble(dmb_evaluation *evaluation);
 /* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_CORRECTION_MOST long.
  * DMB_NOTE_STOPPED: it no longer moves. Errors as dmb_clusters_settle. */
 int32_t dmb_clusters_correct(dmb_evaluation *evaluation);
@@ -276,16 +276,16 @@ static inline int32_t dmb_is_sparse(const dmb_scene *scene, uint32_t constraint)
 void dmb_sparse_choose(dmb_sim *sim);
 /* Sizes of blocks and places of the rows that are chosen: the choice may have come back with an older state. */
 void dmb_sparse_note(dmb_sim *sim);
-/* Factors of the rows at hand in the metric of projections. leave_weak: without rows that those before nearly hold.
- * DMB_OK, or DMB_ERR_SINGULAR with the row for the message. */
-int32_t dmb_sparse_factor(dmb_sim *sim, int leave_weak);
+/* Factors of the rows at hand in the metric of projections. drop_near_redundant: without rows that those before nearly
+ * hold. DMB_OK, or DMB_ERR_SINGULAR with the row for the message. */
+int32_t dmb_sparse_factor(dmb_sim *sim, int drop_near_redundant);
 /* The same where the factors are not those of the rows at hand. */
 int32_t dmb_sparse_refresh(dmb_sim *sim);
 
 /* Least move with B x = d of the chosen rows; d by constraint row. */
 void dmb_sparse_project(dmb_sim *sim, const double *d);
 /* Result of dmb_sparse_project for cluster k, in its columns. */
-void dmb_sparse_take(const dmb_sim *sim, uint32_t k, double *x);
+void dmb_sparse_get(const dmb_sim *sim, uint32_t k, double *x);
 /* d = -(level + B v) in the rows of sparse clusters. */
 void dmb_sparse_deficit(const dmb_sim *sim, const double *level, const double *v, double *d);
 /* As dmb_clusters_balance, of sparse clusters. */

@@ -245,7 +245,8 @@ static void add_block(const dmb_scene *scene, const dmb_constraint *constraint, 
     const uint32_t first = dmb_constraint_column(constraint, node[i]), at = dmb_constraint_column(constraint, node[k]);
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t s = 0; s < columns; s++) {
-            const uint32_t from = rows == DMB_NODE_PATH ? path[r] : r, to = columns == DMB_NODE_PATH ? path[s] : s;
+            const uint32_t from = rows == DMB_NODE_AXIAL_TORSIONAL ? path[r] : r,
+                           to = columns == DMB_NODE_AXIAL_TORSIONAL ? path[s] : s;
             out[(size_t)(first + r) * constraint->columns + at + s] +=
                 K[12 * (6 * (uint32_t)i + from) + 6 * (uint32_t)k + to];
         }

@@ -118,7 +118,7 @@ uint32_t dmb_constraint_column(const dmb_constraint *constraint, uint32_t node)
 
 void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double vector[6], double *columns)
 {
-    if (scene->layout.size[node] == DMB_NODE_PATH) { /* on a straight axis only: see the compile step */
+    if (scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL) { /* on a straight axis only: see the compile step */
         columns[0] += vector[0];
         columns[1] += vector[3];
         return;
@@ -148,7 +148,7 @@ static void row_times(const double J[6], const double map[36], double factor, do
 static void add_part(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t node, double part[6],
                      double *row)
 {
-    if (scene->layout.size[node] == DMB_NODE_PATH) clear_rounding(scene, part);
+    if (scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL) clear_rounding(scene, part);
     dmb_add_node_columns(scene, node, part, row + dmb_constraint_column(constraint, node));
 }
 
@@ -273,7 +273,7 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
 
 /* With RX = 0 of a universal joint n = (cos RZ, 0): its sign is the side. One that swings freely comes to the same
  * place round its other axis. */
-static int is_folded(const dmb_sim *sim, uint32_t j)
+static int is_beyond_gimbal_singularity(const dmb_sim *sim, uint32_t j)
 {
     dmb_relative before, here;
     if (sim->joint_state[j] != DMB_JOINT_ACTIVE || sim->scene->joints[j].kind != DMB_ROWS_UNIVERSAL) return 0;
@@ -283,11 +283,11 @@ static int is_folded(const dmb_sim *sim, uint32_t j)
     return before.R[4] * here.R[4] + before.R[5] * here.R[5] < 0.0;
 }
 
-int32_t dmb_joints_refuse_folds(dmb_sim *sim)
+int32_t dmb_joints_refuse_gimbal_flip(dmb_sim *sim)
 {
     dmb_message owner;
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
-        if (!is_folded(sim, j)) continue;
+        if (!is_beyond_gimbal_singularity(sim, j)) continue;
         dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
         dmb_message_set(
             &sim->message,
@@ -299,7 +299,7 @@ int32_t dmb_joints_refuse_folds(dmb_sim *sim)
     return DMB_OK;
 }
 
-double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint)
+double dmb_joints_nearest_gimbal_singularity(const dmb_sim *sim, uint32_t *joint)
 {
     double nearest = 1.0;
     *joint = DMB_NONE;
@@ -316,7 +316,7 @@ double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint)
     return nearest;
 }
 
-int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
+int32_t dmb_joints_refuse_gimbal_singularity(dmb_sim *sim, int moving, double time)
 {
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
         const int32_t status = check_joint(sim, j, moving, time);

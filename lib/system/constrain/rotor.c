@@ -106,13 +106,13 @@ static void begin(const dmb_sim *sim, uint32_t rotor, double h)
     dmb_se3_advance(step->quaternion, step->displacement, travel);
 }
 
-void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_job *job)
+void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {
         const uint32_t row = row_of(sim, i);
         const double *start = sim->rotor_step[i].start;
-        dmb_predict_job rows = *job;
-        begin(sim, i, job->step);
+        dmb_predict_args rows = *args;
+        begin(sim, i, args->step);
         rows.count = 6;
         rows.now_velocity = start;
         rows.now_acceleration = start + 6;
@@ -127,15 +127,15 @@ void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_job *job)
     }
 }
 
-void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_job *job)
+void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) {
         const uint32_t row = row_of(sim, i);
         double turning[6];
-        dmb_rotor_turning(sim, i, job->correction + row, turning);
+        dmb_rotor_turning(sim, i, args->correction + row, turning);
         for (uint32_t k = 0; k < 6; k++) {
-            job->acceleration[row + k] -= job->to_velocity * turning[k];
-            job->pseudo_acceleration[row + k] -= job->to_velocity * turning[k];
+            args->acceleration[row + k] -= args->to_velocity * turning[k];
+            args->pseudo_acceleration[row + k] -= args->to_velocity * turning[k];
         }
     }
 }

@@ -25,9 +25,9 @@
 #include "system/assemble/evaluation.h"
 
 /* Rows of rotors of the prediction; the coefficients are those of the run. */
-void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_job *job);
+void dmb_rotors_predict(dmb_sim *sim, const dmb_predict_args *args);
 /* Their rows of a correction, which all rows have taken. */
-void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_job *job);
+void dmb_rotors_correct(dmb_sim *sim, const dmb_correct_args *args);
 /* Their poses in the trial, H0 P(h) exp(z). */
 void dmb_rotors_place(dmb_sim *sim);
 /* Their turns in the trial, revolutions counted, at the end of a step. */

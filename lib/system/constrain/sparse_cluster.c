@@ -174,7 +174,7 @@ void dmb_sparse_choose(dmb_sim *sim)
 static int note_quality(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    int weak = 0;
+    int near_redundant = 0;
     for (uint32_t k = 0; k < scene->cluster_count; k++)
         if (scene->clusters[k].sparse) sim->cluster_quality[k] = 1.0;
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
@@ -182,11 +182,11 @@ static int note_quality(dmb_sim *sim)
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++) {
             if (sim->sparse_slot[r] == DMB_NONE) continue;
             const double ratio = sim->sparse_length[sim->sparse_row[c->block] + sim->sparse_slot[r]];
-            weak = weak || ratio < DMB_WEAK_PIVOT;
+            near_redundant = near_redundant || ratio < DMB_NEAR_REDUNDANT_PIVOT;
             sim->cluster_quality[c->cluster] = fmin(sim->cluster_quality[c->cluster], sqrt(fmax(ratio, 0.0)));
         }
     }
-    return weak;
+    return near_redundant;
 }
 
 /* First constraint row of a block's multipliers, for the message. */
@@ -197,15 +197,16 @@ static uint32_t row_of_block(const dmb_scene *scene, uint32_t block)
     return 0;
 }
 
-int32_t dmb_sparse_factor(dmb_sim *sim, int leave_weak)
+int32_t dmb_sparse_factor(dmb_sim *sim, int drop_near_redundant)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_signed matrix = dmb_sparse_matrix(sim);
-    if (!leave_weak) dmb_sparse_note(sim);
+    if (!drop_near_redundant) dmb_sparse_note(sim);
     put_matrix(sim, sim->cluster_metric);
-    const int64_t bad = dmb_block_signed_factor(&scene->pattern, &matrix, leave_weak ? DMB_WEAK_PIVOT : 0.0);
+    const int64_t bad =
+        dmb_block_signed_factor(&scene->pattern, &matrix, drop_near_redundant ? DMB_NEAR_REDUNDANT_PIVOT : 0.0);
     if (bad >= 0) return dmb_cluster_singular(sim, row_of_block(scene, (uint32_t)bad), 0.0);
-    if (!leave_weak) sim->reduced_mode->weak = note_quality(sim);
+    if (!drop_near_redundant) sim->reduced_mode->near_redundant = note_quality(sim);
     sim->reduced_mode->metric = 1;
     return DMB_OK;
 }
@@ -237,7 +238,7 @@ void dmb_sparse_project(dmb_sim *sim, const double *d)
     dmb_block_signed_solve(&sim->scene->pattern, &matrix, sim->sparse_vector);
 }
 
-void dmb_sparse_take(const dmb_sim *sim, uint32_t k, double *x)
+void dmb_sparse_get(const dmb_sim *sim, uint32_t k, double *x)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_cluster *cluster = scene->clusters + k;

@@ -15,7 +15,7 @@
 
 /* ---- Columns of nodes in their block ----------------------------------------------------------------------------- */
 
-static int is_full(const dmb_sim *sim)
+static int is_six_dof(const dmb_sim *sim)
 {
     return sim->reduced_mode->bordered;
 }
@@ -31,7 +31,7 @@ static uint32_t cluster_of(const dmb_scene *scene, uint32_t node)
 static uint32_t cluster_size(const dmb_sim *sim, uint32_t k)
 {
     const uint32_t columns = sim->scene->clusters[k].columns, rank = sim->partition_rank[k];
-    return is_full(sim) ? columns + rank : columns - rank;
+    return is_six_dof(sim) ? columns + rank : columns - rank;
 }
 
 /* Row of R that column c of cluster k has: G's, or a single 1. *one: place of the 1, or DMB_NONE. */
@@ -40,7 +40,7 @@ static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t 
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const uint32_t rank = sim->partition_rank[k], place = sim->cluster_place[cluster->column + c];
     *one = DMB_NONE;
-    if (is_full(sim))
+    if (is_six_dof(sim))
         *one = c;
     else if (place >= rank)
         *one = place - rank;
@@ -235,7 +235,7 @@ static void assemble_clusters(dmb_sim *sim, dmb_block_sparse *matrix)
         if (cluster->sparse) continue;
         const double *D = full_matrix(sim, cluster);
         double *A = dmb_block_sparse_diagonal(&scene->pattern, matrix, cluster->block);
-        if (is_full(sim)) {
+        if (is_six_dof(sim)) {
             border_cluster(sim, k, D, A);
             continue;
         }
@@ -244,7 +244,7 @@ static void assemble_clusters(dmb_sim *sim, dmb_block_sparse *matrix)
 }
 
 /* A_ij += R_i^T S_ij R_j; the work array is that of a cluster that one of the nodes belongs to. */
-static void assemble_link(dmb_sim *sim, uint32_t i, uint32_t j, const double *S, size_t offset)
+static void assemble_off_diagonal(dmb_sim *sim, uint32_t i, uint32_t j, const double *S, size_t offset)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t size = scene->layout.size[i], width = sim->reduced_size[scene->node_block[j]];
@@ -266,14 +266,15 @@ static void assemble_link(dmb_sim *sim, uint32_t i, uint32_t j, const double *S,
     null_space_times(sim, i, half, width, sim->reduced_value + offset);
 }
 
-static void assemble_links(dmb_sim *sim)
+static void assemble_off_diagonals(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i + 1 < scene->node_count; i++) {
-        if (scene->link_offset[2 * (size_t)i] == SIZE_MAX) continue;
-        assemble_link(sim, i, i + 1, sim->stiffness_upper + scene->layout.link[i], scene->link_offset[2 * (size_t)i]);
-        assemble_link(sim, i + 1, i, sim->stiffness_lower + scene->layout.link[i],
-                      scene->link_offset[2 * (size_t)i + 1]);
+        if (scene->off_diagonal_offset[2 * (size_t)i] == SIZE_MAX) continue;
+        assemble_off_diagonal(sim, i, i + 1, sim->stiffness_upper + scene->layout.link[i],
+                              scene->off_diagonal_offset[2 * (size_t)i]);
+        assemble_off_diagonal(sim, i + 1, i, sim->stiffness_lower + scene->layout.link[i],
+                              scene->off_diagonal_offset[2 * (size_t)i + 1]);
     }
 }
 
@@ -304,11 +305,11 @@ static void assemble(dmb_sim *sim, int32_t method, int hold)
     sim->reduced_mode->bordered = method == DMB_METHOD_MULTIPLIERS;
     set_sizes(sim);
     dmb_block_sparse_clear(&scene->pattern, &matrix);
-    for (uint32_t k = 0; k < scene->cluster_count && !is_full(sim); k++)
+    for (uint32_t k = 0; k < scene->cluster_count && !is_six_dof(sim); k++)
         if (!scene->clusters[k].sparse) make_null_space(sim, k);
     assemble_nodes(sim, &matrix);
     assemble_clusters(sim, &matrix);
-    assemble_links(sim);
+    assemble_off_diagonals(sim);
     dmb_reduced_sparse_put(sim, hold);
 }
 
@@ -341,7 +342,7 @@ uint32_t dmb_reduced_negative(dmb_sim *sim)
 /* ---- Solution ---------------------------------------------------------------------------------------------------- */
 
 /* R^T of what the rows hold, into the block's part of the solution. */
-static void gather_node(const dmb_sim *sim, uint32_t node, const double *rows)
+static void assemble_node(const dmb_sim *sim, uint32_t node, const double *rows)
 {
     const dmb_scene *scene = sim->scene;
     double *to = sim->reduced_solution + sim->reduced_row[scene->node_block[node]];
@@ -387,9 +388,9 @@ void dmb_reduced_solve(dmb_sim *sim, double *z)
     const dmb_block_sparse matrix = matrix_of(sim);
     memset(sim->reduced_solution, 0, scene->pattern.rows * sizeof(double));
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != DMB_NONE) gather_node(sim, i, z);
+        if (scene->node_block[i] != DMB_NONE) assemble_node(sim, i, z);
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->reduced_row, sim->reduced_solution);
     dmb_reduced_expand(sim, z);
-    if (is_full(sim)) move_multipliers(sim);
+    if (is_six_dof(sim)) move_multipliers(sim);
     if (scene->sparse_count) dmb_reduced_sparse_move(sim);
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "kernel/kernels.h"
+#include "sim/chunks.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
@@ -35,38 +35,38 @@ static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end
 }
 
 /* Rows of nodes of one size that are summed in pieces. */
-typedef struct square_pieces {
+typedef struct square_chunks {
     const dmb_sim *sim;
     uint32_t row, count, size, pieces; /* first row, nodes, rows of each */
-} square_pieces;
+} square_chunks;
 
-static void sum_pieces(void *work, uint32_t first, uint32_t end)
+static void sum_chunks(void *work, uint32_t first, uint32_t end)
 {
-    const square_pieces *in = work;
+    const square_chunks *in = work;
     const dmb_sim *sim = in->sim;
     for (uint32_t i = first; i < end; i++) {
-        const uint32_t begin = dmb_piece_begin(in->count, in->pieces, i), row = in->row + in->size * begin;
-        const uint32_t count = dmb_piece_begin(in->count, in->pieces, i + 1) - begin;
-        dmb_piece_squares *out = sim->piece_squares + i;
+        const uint32_t begin = dmb_chunk_begin(in->count, in->pieces, i), row = in->row + in->size * begin;
+        const uint32_t count = dmb_chunk_begin(in->count, in->pieces, i + 1) - begin;
+        dmb_chunk_squares *out = sim->chunk_squares + i;
         sim->scene->kernels->squares(in->size * count, sim->residual + row, sim->scale_row + row,
                                      sim->scene->solved_row + row, out->rest, out->all);
     }
 }
 
-static void squares_of(const dmb_sim *sim, uint32_t row, uint32_t count, uint32_t size, dmb_piece_squares *sum)
+static void squares_of(const dmb_sim *sim, uint32_t row, uint32_t count, uint32_t size, dmb_chunk_squares *sum)
 {
-    square_pieces in = {sim, row, count, size, dmb_pieces_of(count)};
+    square_chunks in = {sim, row, count, size, dmb_chunks_of(count)};
     if (in.pieces == 1) {
         sim->scene->kernels->squares(size * count, sim->residual + row, sim->scale_row + row,
                                      sim->scene->solved_row + row, sum->rest, sum->all);
         return;
     }
     memset(sum, 0, sizeof *sum);
-    dmb_parts_run(sim, in.pieces, 1, sum_pieces, &in);
+    dmb_chunks_run(sim, in.pieces, 1, sum_chunks, &in);
     for (uint32_t i = 0; i < in.pieces; i++)
         for (uint32_t c = 0; c < DMB_SQUARES; c++) {
-            sum->rest[c] += sim->piece_squares[i].rest[c];
-            sum->all[c] += sim->piece_squares[i].all[c];
+            sum->rest[c] += sim->chunk_squares[i].rest[c];
+            sum->all[c] += sim->chunk_squares[i].all[c];
         }
 }
 
@@ -78,7 +78,7 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     norms n = {0.0, 0.0};
     for (uint32_t i = chain->first, count; i < end; i += count) {
         const uint32_t size = scene->layout.size[i];
-        dmb_piece_squares sum;
+        dmb_chunk_squares sum;
         count = nodes_alike(scene, i, end);
         squares_of(sim, scene->layout.row[i], count, size, &sum);
         add_components(size, arm, sum.rest, sum.all, &n);
@@ -216,10 +216,10 @@ static int64_t factor_chain(const dmb_sim *sim, dmb_block_matrix *matrix, uint32
 /* Chains that no joints connect. */
 static int64_t factor_chains(const dmb_sim *sim, dmb_block_matrix *matrix)
 {
-    const int parts = dmb_parts_are_open(sim);
+    const int parts = dmb_chunks_are_open(sim);
     ends_work work = {sim, *matrix, NULL, 0, 0};
     int64_t bad = -1;
-    if (parts) dmb_parts_run(sim, 2 * sim->scene->chain_count, 1, factor_ends, &work);
+    if (parts) dmb_chunks_run(sim, 2 * sim->scene->chain_count, 1, factor_ends, &work);
     for (uint32_t c = 0; c < sim->scene->chain_count && bad < 0; c++) bad = factor_chain(sim, matrix, c, parts);
     return bad;
 }
@@ -249,12 +249,12 @@ static void solve_chain(const dmb_scene *scene, const dmb_block_matrix *factors,
 static void solve_chains(const dmb_sim *sim, const dmb_block_matrix *factors, double *z)
 {
     const uint32_t chains = sim->scene->chain_count;
-    const int parts = dmb_parts_are_open(sim);
+    const int parts = dmb_chunks_are_open(sim);
     ends_work work = {sim, *factors, z, 0, 0};
-    if (parts) dmb_parts_run(sim, 2 * chains, 1, solve_ends, &work);
+    if (parts) dmb_chunks_run(sim, 2 * chains, 1, solve_ends, &work);
     for (uint32_t c = 0; c < chains; c++) solve_chain(sim->scene, factors, c, parts, z);
     work.away = 1;
-    if (parts) dmb_parts_run(sim, 2 * chains, 1, solve_ends, &work);
+    if (parts) dmb_chunks_run(sim, 2 * chains, 1, solve_ends, &work);
 }
 
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method)
@@ -303,7 +303,7 @@ static int32_t make_mass_matrix(dmb_evaluation *evaluation)
     const int32_t status = dmb_system_evaluate(evaluation);
     evaluation->inertia_only = 0;
     if (status < 0) return status;
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, clear_stiffness, sim);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, clear_stiffness, sim);
     memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
     return status;
@@ -328,10 +328,10 @@ int32_t dmb_factor_mass_in_step(dmb_evaluation *evaluation)
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
-static void clear_held(const dmb_scene *scene, double *z)
+static void clear_constrained(const dmb_scene *scene, double *z)
 {
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        z[scene->layout.row[scene->held_node[i]] + scene->held_component[i]] = 0.0;
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        z[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]] = 0.0;
 }
 
 /* By LU factors, as dmb_factor_stiffness makes them. */
@@ -347,7 +347,7 @@ void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix matrix = matrix_of(sim);
     scene->kernels->negate(scene->row_count, residual, z);
-    clear_held(scene, z);
+    clear_constrained(scene, z);
     if (*sim->factors == DMB_FACTORS_REUSED) {
         dmb_solve_reused(sim, z);
         return;
@@ -428,10 +428,10 @@ static void twist_nodes(void *work, uint32_t first, uint32_t end)
 {
     const twist_work *in = work;
     for (uint32_t i = first, count; i < end; i += count) {
-        count = dmb_full_nodes_before(in->scene, i, end);
-        const dmb_twist_job job = {count, 0, in->from + 4 * i, in->to + 4 * i, in->rows + in->scene->layout.row[i]};
+        count = dmb_six_dof_nodes_before(in->scene, i, end);
+        const dmb_twist_args args = {count, 0, in->from + 4 * i, in->to + 4 * i, in->rows + in->scene->layout.row[i]};
         if (count > 0)
-            in->scene->kernels->twist(&job);
+            in->scene->kernels->twist(&args);
         else
             count = 1;
     }
@@ -440,7 +440,7 @@ static void twist_nodes(void *work, uint32_t first, uint32_t end)
 static void twist_rows(const dmb_sim *sim, const double *from, const double *to, double *rows)
 {
     twist_work work = {sim->scene, from, to, rows};
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, twist_nodes, &work);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, twist_nodes, &work);
 }
 
 void dmb_solve_reused(const dmb_sim *sim, double *z)
@@ -450,5 +450,6 @@ void dmb_solve_reused(const dmb_sim *sim, double *z)
     if (twisted) twist_rows(sim, sim->trial.quaternion, sim->reused_quaternion, z);
     solve_chains(sim, &factors, z);
     if (twisted) twist_rows(sim, sim->reused_quaternion, sim->trial.quaternion, z);
-    clear_held(sim->scene, z); /* the twist moves them, and so may factors that were restored from forged bytes */
+    clear_constrained(sim->scene,
+                      z); /* the twist moves them, and so may factors that were restored from forged bytes */
 }

@@ -76,10 +76,10 @@ static void too_small_a_block(void **state)
         assert_true(arena.overflow);
         assert_null(l.forces);
         assert_true(dmb_arena_block_size(&arena) == SIZE_MAX);
-        assert_null(dmb_arena_take(&arena, 0, 1, 1));
+        assert_null(dmb_arena_allocate(&arena, 0, 1, 1));
     }
     dmb_arena_place(&arena, NULL, 4096);
-    assert_null(dmb_arena_take(&arena, 1, 8, 8));
+    assert_null(dmb_arena_allocate(&arena, 1, 8, 8));
     assert_true(arena.overflow);
 }
 
@@ -88,22 +88,22 @@ static void sizes_that_overflow(void **state)
     dmb_arena arena;
     (void)state;
     dmb_arena_count(&arena);
-    dmb_arena_take(&arena, SIZE_MAX / 4, 8, 64);
+    dmb_arena_allocate(&arena, SIZE_MAX / 4, 8, 64);
     assert_true(arena.overflow);
-    dmb_arena_take(&arena, 1, 8, 64); /* stays */
+    dmb_arena_allocate(&arena, 1, 8, 64); /* stays */
     assert_true(dmb_arena_block_size(&arena) == SIZE_MAX);
 
     dmb_arena_count(&arena);
-    dmb_arena_take(&arena, SIZE_MAX - 100, 1, 1);
+    dmb_arena_allocate(&arena, SIZE_MAX - 100, 1, 1);
     assert_false(arena.overflow);
-    dmb_arena_take(&arena, 101, 1, 1);
+    dmb_arena_allocate(&arena, 101, 1, 1);
     assert_true(arena.overflow);
 
     dmb_arena_count(&arena);
-    dmb_arena_take(&arena, SIZE_MAX - 10, 1, 1);
+    dmb_arena_allocate(&arena, SIZE_MAX - 10, 1, 1);
     assert_true(dmb_arena_block_size(&arena) == SIZE_MAX);
     assert_false(arena.overflow);
-    assert_null(dmb_arena_take(&arena, 0, 1, 64)); /* no multiple of 64 is left */
+    assert_null(dmb_arena_allocate(&arena, 0, 1, 64)); /* no multiple of 64 is left */
     assert_true(arena.overflow);
 }
 
@@ -114,7 +114,7 @@ static void alignments_that_are_none(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         dmb_arena_count(&arena);
-        dmb_arena_take(&arena, 1, 8, bad[i]);
+        dmb_arena_allocate(&arena, 1, 8, bad[i]);
         assert_true(arena.overflow);
     }
 }

@@ -793,7 +793,7 @@ static void project_graph(graph *g, const double *d, double *x)
     for (size_t i = 0; i < end; i++) g->gram[i] = (double)NAN; /* of what was there nothing must be used */
     g->gram[end] = 12345.0;
     assert_int_equal(dmb_partition_gram(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram), 0);
-    dmb_partition_leave_weak(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram);
+    dmb_partition_drop_near_redundant(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram);
     assert_true(g->gram[end] == 12345.0);
     memcpy(copy, d, sizeof copy);
     dmb_partition_project(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram, copy, x);

@@ -5,7 +5,7 @@
 #include "ode.h"
 #include "rig.h"
 
-#include "integrator/attempt.h"
+#include "integrator/trial_step.h"
 #include "sim/sim.h"
 
 static dmb_id open_pendulum(rig *s, const dmb_sim_options *options)
@@ -35,10 +35,10 @@ static double angle_of(const rig *s, dmb_id id)
     return atan2(pose.rotation[3], pose.rotation[0]);
 }
 
-static int32_t try_step(const rig *s, double h, dmb_attempt *attempt)
+static int32_t try_step(const rig *s, double h, dmb_trial_step *trial_step)
 {
     const dmb_step_end end = dmb_step_end_after(s->sim, h);
-    return dmb_attempt_step(s->sim, &end, 1, attempt);
+    return dmb_trial_step_run(s->sim, &end, 1, trial_step);
 }
 
 /* Estimate over the error of one step started on the exact solution, after many steps (the a of the scheme lags then as
@@ -46,7 +46,7 @@ static int32_t try_step(const rig *s, double h, dmb_attempt *attempt)
 static double estimate_over_error(double r, double h)
 {
     rig s;
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     dmb_sim_options options = dmb_sim_options_default();
     options.spectral_radius = r;
     options.newton_tolerance = 1e-13;
@@ -55,9 +55,9 @@ static double estimate_over_error(double r, double h)
     take_steps(&s, h, 100);
     double y[2] = {angle_of(&s, id), motion_at(&s, dmb_station(id, 0, 0.0), DMB_FRAME_BODY).velocity[5]};
     ode_solve(pendulum_rate, NULL, 0.0, h, 2, 2, y);
-    assert_int_equal(try_step(&s, h, &attempt), DMB_OK);
-    const double estimate = dmb_attempt_error(s.sim, h).here;
-    dmb_attempt_commit(s.sim, &attempt);
+    assert_int_equal(try_step(&s, h, &trial_step), DMB_OK);
+    const double estimate = dmb_trial_step_error(s.sim, h).here;
+    dmb_trial_step_commit(s.sim, &trial_step);
     const double error = fabs(angle_of(&s, id) - y[0]);
     rig_close(&s);
     return estimate / error;
@@ -79,18 +79,18 @@ static void attempt_leaves_the_accepted_state_alone(void **state)
 {
     (void)state;
     rig s;
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     uint64_t before = 0, after = 0;
     const dmb_id id = open_pendulum(&s, NULL);
     take_steps(&s, 1e-3, 10);
     must(&s, dmb_sim_hash(s.sim, &before));
-    assert_int_equal(try_step(&s, 5e-3, &attempt), DMB_OK);
+    assert_int_equal(try_step(&s, 5e-3, &trial_step), DMB_OK);
     const double first = s.sim->trial.velocity[5];
-    assert_int_equal(try_step(&s, 5e-3, &attempt), DMB_OK);
+    assert_int_equal(try_step(&s, 5e-3, &trial_step), DMB_OK);
     assert_true(s.sim->trial.velocity[5] == first);
     must(&s, dmb_sim_hash(s.sim, &after));
     assert_true(before == after);
-    dmb_attempt_commit(s.sim, &attempt);
+    dmb_trial_step_commit(s.sim, &trial_step);
     must(&s, dmb_sim_hash(s.sim, &after));
     assert_true(before != after);
     assert_true(fabs(dmb_sim_time(s.sim) - 0.015) < 1e-15);
@@ -104,7 +104,7 @@ static void free_body_converges(void **state)
 {
     (void)state;
     rig s;
-    dmb_attempt attempt;
+    dmb_trial_step trial_step;
     dmb_body_def body = dmb_body_def_default();
     dmb_sim_options options = dmb_sim_options_default();
     rig_open(&s, 0.0, 0.0, 0.0);
@@ -116,9 +116,9 @@ static void free_body_converges(void **state)
     options.newton_tolerance = 1e-13;
     (void)rig_start(&s, &options);
     for (int i = 0; i < 10; i++) {
-        assert_int_equal(try_step(&s, 2e-3, &attempt), DMB_OK);
-        assert_true(attempt.iterations <= 3);
-        dmb_attempt_commit(s.sim, &attempt);
+        assert_int_equal(try_step(&s, 2e-3, &trial_step), DMB_OK);
+        assert_true(trial_step.iterations <= 3);
+        dmb_trial_step_commit(s.sim, &trial_step);
     }
     rig_close(&s);
 }

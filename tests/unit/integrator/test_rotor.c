@@ -5,8 +5,8 @@
 
 #include "mechanism.h"
 
-#include "integrator/attempt.h"
 #include "integrator/step_motion.h"
+#include "integrator/trial_step.h"
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "sim/sim.h"
@@ -57,11 +57,11 @@ static rig open_spinning(int supportd)
 }
 
 /* The trial of a step with its increments at z beyond the prediction; its residual. */
-static void evaluate_at(dmb_sim *sim, const double z[ROWS], int32_t tangent, dmb_attempt *attempt)
+static void evaluate_at(dmb_sim *sim, const double z[ROWS], int32_t tangent, dmb_trial_step *trial_step)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
-    attempt->end = dmb_step_end_after(sim, STEP);
-    dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
+    trial_step->end = dmb_step_end_after(sim, STEP);
+    dmb_trial_step_set_up(sim, &trial_step->end, &trial_step->evaluation);
     dmb_step_motion_predict(sim, &c, STEP, 0.0);
     dmb_step_motion_place(sim);
     for (int i = 0; i < ROWS; i++) sim->correction[i] = sim->scene->solved_row[i] ? z[i] : 0.0;
@@ -69,22 +69,22 @@ static void evaluate_at(dmb_sim *sim, const double z[ROWS], int32_t tangent, dmb
     const dmb_step_motion to = dmb_step_motion_of(sim);
     memcpy(sim->trial.velocity, to.velocity, ROWS * sizeof(double));
     memcpy(sim->trial.acceleration, to.acceleration, ROWS * sizeof(double));
-    attempt->evaluation.tangent = tangent;
-    assert_int_equal(dmb_system_evaluate(&attempt->evaluation), DMB_OK);
+    trial_step->evaluation.tangent = tangent;
+    assert_int_equal(dmb_system_evaluate(&trial_step->evaluation), DMB_OK);
 }
 
 static void matrix_by_differences(dmb_sim *sim, const double z[ROWS], double out[ROWS][ROWS])
 {
     const double step = 1e-4;
-    dmb_attempt attempt;
-    memset(&attempt, 0, sizeof attempt);
+    dmb_trial_step trial_step;
+    memset(&trial_step, 0, sizeof trial_step);
     for (int column = 0; column < ROWS; column++) {
         double f[6][ROWS];
         for (int p = 0; p < 6; p++) {
             double moved[ROWS];
             memcpy(moved, z, sizeof moved);
             moved[column] += step * difference6_place[p];
-            evaluate_at(sim, moved, 0, &attempt);
+            evaluate_at(sim, moved, 0, &trial_step);
             memcpy(f[p], sim->residual, sizeof f[p]);
         }
         for (int i = 0; i < ROWS; i++) {
@@ -101,13 +101,13 @@ static void matrix_is_the_derivative_by_the_increments(void **state)
         rig s = open_spinning(supportd);
         const double z[ROWS] = {0.02, -0.03, 0.01, 0.2, -0.1, 0.15};
         double want[ROWS][ROWS], worst = 0.0;
-        dmb_attempt attempt;
+        dmb_trial_step trial_step;
         assert_int_equal(s.sim->scene->rotor_count, 1);
         assert_int_equal(s.sim->scene->cluster_count, !supportd);
         matrix_by_differences(s.sim, z, want);
-        memset(&attempt, 0, sizeof attempt);
-        evaluate_at(s.sim, z, 1, &attempt);
-        dmb_system_iteration_matrix(&attempt.evaluation);
+        memset(&trial_step, 0, sizeof trial_step);
+        evaluate_at(s.sim, z, 1, &trial_step);
+        dmb_system_iteration_matrix(&trial_step.evaluation);
         for (int i = 0; i < ROWS; i++)
             for (int j = 0; j < ROWS; j++) {
                 const int held = !s.sim->scene->solved_row[i] || !s.sim->scene->solved_row[j];

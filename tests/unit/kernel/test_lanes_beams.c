@@ -108,7 +108,7 @@ static void clear(const beam_input *in, const beam_case *c, beam_output *out)
 static int32_t run_part(uint32_t lanes, const beam_case *c, const beam_input *in, beam_output *out, uint32_t first,
                         uint32_t count, uint32_t *failed)
 {
-    dmb_beam_job job = {
+    dmb_beam_args args = {
         .count = count,
         .failed = DMB_NONE,
         .types = c->curved ? in->curved : in->types,
@@ -143,10 +143,10 @@ static int32_t run_part(uint32_t lanes, const beam_case *c, const beam_input *in
         .damping = out->sums[2],
         .inertia = out->sums[3],
     };
-    const int32_t status = dmb_kernels_of(lanes)->beams(&job);
-    const double sums[4] = {job.rounding, job.potential, job.damping, job.inertia};
+    const int32_t status = dmb_kernels_of(lanes)->beams(&args);
+    const double sums[4] = {args.rounding, args.potential, args.damping, args.inertia};
     memcpy(out->sums, sums, sizeof sums);
-    *failed = job.failed;
+    *failed = args.failed;
     return status;
 }
 

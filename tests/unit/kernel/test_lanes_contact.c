@@ -189,9 +189,9 @@ static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 /* Sites first .. first + count - 1, from and to the places where they stand. */
-static dmb_wall_job run_of(const wall_case *c, wall_input *in, wall_output *out, uint32_t first, uint32_t count)
+static dmb_wall_args run_of(const wall_case *c, wall_input *in, wall_output *out, uint32_t first, uint32_t count)
 {
-    const dmb_wall_job job = {
+    const dmb_wall_args args = {
         .count = count,
         .sites = in->sites + first,
         .bristles = c->friction_law == DMB_FRICTION_BRISTLE,
@@ -236,7 +236,7 @@ static dmb_wall_job run_of(const wall_case *c, wall_input *in, wall_output *out,
         .impact = out->sums[2],
         .friction = out->sums[3],
     };
-    return job;
+    return args;
 }
 
 /* -0 at the nodes whose rings do not touch: adding 0 would show. */
@@ -250,12 +250,12 @@ static void clear(wall_output *out)
 static void run_part(const dmb_kernels *kernels, const wall_case *c, wall_input *in, wall_output *out, uint32_t first,
                      uint32_t count)
 {
-    dmb_wall_job job = run_of(c, in, out, first, count);
-    kernels->walls(&job);
-    out->sums[0] = job.rounding;
-    out->sums[1] = job.potential;
-    out->sums[2] = job.impact;
-    out->sums[3] = job.friction;
+    dmb_wall_args args = run_of(c, in, out, first, count);
+    kernels->walls(&args);
+    out->sums[0] = args.rounding;
+    out->sums[1] = args.potential;
+    out->sums[2] = args.impact;
+    out->sums[3] = args.friction;
 }
 
 static void no_trace_of_open_rings(const wall_case *c, const wall_output *out)

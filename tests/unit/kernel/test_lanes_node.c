@@ -54,10 +54,10 @@ static void draw_input(uint64_t *seed, uint32_t spacing, node_input *in)
 }
 
 /* Nodes first .. first + count - 1, from and to the places where they stand. */
-static dmb_node_force_job run_of(const node_case *c, const node_input *in, node_output *out, uint32_t first,
-                                 uint32_t count)
+static dmb_node_force_args run_of(const node_case *c, const node_input *in, node_output *out, uint32_t first,
+                                  uint32_t count)
 {
-    const dmb_node_force_job job = {
+    const dmb_node_force_args args = {
         .count = count,
         .first = FIRST + first,
         .rigid_masses = in->rigid_masses,
@@ -82,18 +82,19 @@ static dmb_node_force_job run_of(const node_case *c, const node_input *in, node_
         .potential = out->power[1],
         .damping_power = out->power[2],
     };
-    return job;
+    return args;
 }
 
 static void run_part(const dmb_kernels *kernels, const node_case *c, const node_input *in, node_output *out,
                      uint32_t first, uint32_t count)
 {
-    dmb_node_force_job job = run_of(c, in, out, first, count);
-    while (job.rigid_mass_count > 0 && job.rigid_masses->node < job.first) job.rigid_masses++, job.rigid_mass_count--;
-    kernels->node_forces(&job);
-    out->power[0] = job.inertia_power;
-    out->power[1] = job.potential;
-    out->power[2] = job.damping_power;
+    dmb_node_force_args args = run_of(c, in, out, first, count);
+    while (args.rigid_mass_count > 0 && args.rigid_masses->node < args.first)
+        args.rigid_masses++, args.rigid_mass_count--;
+    kernels->node_forces(&args);
+    out->power[0] = args.inertia_power;
+    out->power[1] = args.potential;
+    out->power[2] = args.damping_power;
 }
 
 static void compare_widths(const node_case *c, const node_input *in)

@@ -96,29 +96,29 @@ typedef struct solution {
 static uint32_t solve_group(uint32_t lanes, const chain *c, uint32_t from, uint32_t used, solution *out)
 {
     static double work[NUMBERS * PARTS];
-    dmb_response_job job = {.count = BLOCKS,
-                            .used = used,
-                            .columns = SIDES,
-                            .stride = SIDES + 1,
-                            .layout = &c->layout,
-                            .diagonal = {c->M[0], c->C[0], c->K[0]},
-                            .lower = {c->M[1], c->C[1], c->K[1]},
-                            .upper = {c->M[2], c->C[2], c->K[2]},
-                            .solved = c->solved,
-                            .structural_damping = eta,
-                            .sides = out->sides[0][0][0],
-                            .work = work};
+    dmb_response_job args = {.count = BLOCKS,
+                             .used = used,
+                             .columns = SIDES,
+                             .stride = SIDES + 1,
+                             .layout = &c->layout,
+                             .diagonal = {c->M[0], c->C[0], c->K[0]},
+                             .lower = {c->M[1], c->C[1], c->K[1]},
+                             .upper = {c->M[2], c->C[2], c->K[2]},
+                             .solved = c->solved,
+                             .structural_damping = eta,
+                             .sides = out->sides[0][0][0],
+                             .work = work};
     memset(out, 0, sizeof *out);
     for (uint32_t l = 0; l < DMB_FREQUENCIES; l++) {
         const uint32_t at = from + (l < used ? l : used - 1);
-        job.omega[l] = c->omega[at];
+        args.omega[l] = c->omega[at];
         for (int r = 0; r < ROWS; r++)
             for (int s = 0; s <= SIDES; s++)
                 for (int part = 0; part < 2; part++)
                     out->sides[r][s][part][l] = s == SIDES ? 77.0 : (at + 1) * c->b[part][s][r];
     }
-    dmb_kernels_of(lanes)->responses(&job);
-    return job.bad;
+    dmb_kernels_of(lanes)->responses(&args);
+    return args.bad;
 }
 
 /* Entries of frequency `l` in place `lane` that differ from scalar ones, or of the free room that changed. */

@@ -40,10 +40,10 @@ static void exact_sums(const rows *x, uint32_t count, long double sums[4])
 static void sums_by(const dmb_kernels *kernels, const rows *x, uint32_t count, double sums[4])
 {
     sums[0] = kernels->product(count, x->a, x->v);
-    dmb_power_job job = {.count = count, .residual = x->a, .scale = x->b, .velocity = x->v, .solved = x->solved};
-    kernels->powers(&job);
-    sums[1] = job.left;
-    sums[2] = job.exchanged;
+    dmb_power_args args = {.count = count, .residual = x->a, .scale = x->b, .velocity = x->v, .solved = x->solved};
+    kernels->powers(&args);
+    sums[1] = args.left;
+    sums[2] = args.exchanged;
     sums[3] = kernels->magnitude(count, x->a);
 }
 
@@ -112,9 +112,9 @@ static double turned_by(const dmb_kernels *kernels, const double *z, uint32_t co
     memset(displacement, 0, sizeof displacement);
     memset(quaternion, 0, sizeof quaternion);
     for (int i = 0; i < NODES; i++) quaternion[4 * i] = 1.0;
-    dmb_node_job job = {count, 0, z, displacement, quaternion, u, q, before};
-    kernels->advance(&job);
-    return job.turned;
+    dmb_node_args args = {count, 0, z, displacement, quaternion, u, q, before};
+    kernels->advance(&args);
+    return args.turned;
 }
 
 static void the_largest_turn_is_told(void **state)

@@ -37,8 +37,8 @@ static void draw_input(uint64_t *seed, twist_input *in)
 
 static void twist(uint32_t lanes, const twist_input *in, uint32_t first, uint32_t count, double *rows)
 {
-    const dmb_twist_job job = {count, 0, in->from + 4 * first, in->to + 4 * first, rows + 6 * first};
-    dmb_kernels_of(lanes)->twist(&job);
+    const dmb_twist_args args = {count, 0, in->from + 4 * first, in->to + 4 * first, rows + 6 * first};
+    dmb_kernels_of(lanes)->twist(&args);
 }
 
 static void all_widths_give_the_same_bits(void **state)
@@ -90,9 +90,9 @@ static void half_turns_across(void **state)
     (void)state;
     for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) {
         double rows[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
-        const dmb_twist_job job = {1, 0, from, to, rows};
+        const dmb_twist_args args = {1, 0, from, to, rows};
         if (!dmb_kernels_of(lanes)) continue;
-        dmb_kernels_of(lanes)->twist(&job);
+        dmb_kernels_of(lanes)->twist(&args);
         for (int c = 0; c < 6; c++) assert_true(rows[c] == c + 1.0);
     }
 }

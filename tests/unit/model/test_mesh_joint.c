@@ -280,7 +280,7 @@ static void two_bodies(void **state)
     assert_true(scene->chains[0].jointed && !scene->chains[1].jointed && scene->chains[2].jointed);
     assert_int_equal(scene->dense_count, 72);
     assert_int_equal(scene->square_count, 36);
-    assert_int_equal(scene->full_count, 144);
+    assert_int_equal(scene->six_dof_count, 144);
     assert_int_equal(scene->jacobian_count, 72);
     assert_int_equal(scene->tangent_count, 144);
     dmb_model_destroy(&model);
@@ -325,13 +325,13 @@ static void expect_consistent(const dmb_scene *scene)
     assert_int_equal(column, scene->cluster_column_count);
     assert_int_equal(dense, scene->dense_count);
     assert_int_equal(square, scene->square_count);
-    assert_int_equal(full, scene->full_count);
+    assert_int_equal(full, scene->six_dof_count);
 }
 
 static void expect_links(const dmb_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; ++i) {
-        const size_t *link = scene->link_offset + 2 * i;
+        const size_t *link = scene->off_diagonal_offset + 2 * i;
         const int leads = scene->node_element[i] != DMB_NONE && scene->node_block[i] != DMB_NONE &&
                           scene->node_block[i] != scene->node_block[i + 1];
         if (!leads) {
@@ -412,8 +412,8 @@ static void within_a_string(void **state)
     const dmb_scene *scene = compiled(model);
     assert_int_equal(scene->reduced_count, 5);
     assert_int_equal(scene->block_count, 4);
-    assert_true(scene->link_offset[2] == SIZE_MAX);
-    assert_true(scene->link_offset[0] != SIZE_MAX && scene->link_offset[4] != SIZE_MAX);
+    assert_true(scene->off_diagonal_offset[2] == SIZE_MAX);
+    assert_true(scene->off_diagonal_offset[0] != SIZE_MAX && scene->off_diagonal_offset[4] != SIZE_MAX);
     assert_int_equal(scene->chains[1].jointed, 0);
     expect_consistent(scene);
     expect_links(scene);
@@ -492,7 +492,7 @@ static void plain_string(void **state)
     assert_int_equal(scene->block_count + scene->constraint_row_count + scene->cluster_column_count, 0);
     assert_null(scene->joints);
     assert_null(scene->node_block);
-    assert_null(scene->link_offset);
+    assert_null(scene->off_diagonal_offset);
     assert_null(scene->pattern.block);
     assert_int_equal(scene->chains[0].jointed, 0);
     assert_int_equal(scene->drives[0].joint, DMB_NONE);

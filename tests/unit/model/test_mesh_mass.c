@@ -347,7 +347,7 @@ static void what_is_left_out_is_not_there(void **state)
     assert_int_equal(scene->features, 0);
     assert_near(scene->gravity[2], 0.0, 0.0);
     assert_int_equal(scene->site_count, 0);
-    assert_int_equal(scene->path_site_count, 0);
+    assert_int_equal(scene->axial_torsional_site_count, 0);
     assert_int_equal(scene->normal_law.kind, DMB_NORMAL_NONE);
     assert_int_equal(scene->friction_law.kind, DMB_FRICTION_NONE);
     assert_near(scene->types[0].damping_time, 0.0, 0.0);

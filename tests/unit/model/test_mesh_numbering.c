@@ -40,7 +40,7 @@ static void reference_scene(void **state)
     assert_int_equal(scene->batch_count, 1);
     assert_int_equal(scene->chain_count, 1);
     assert_int_equal(scene->row_count, 606);
-    assert_int_equal(scene->held_count, 6);
+    assert_int_equal(scene->constrained_count, 6);
     assert_near(scene->length_scale, 1.0, 1e-15);
     dmb_model_destroy(&model);
 }
@@ -141,7 +141,7 @@ static void mixed_string(void **state)
     dmb_model *model = mixed_model(DMB_FREE_CYLINDRICAL, DMB_FREE_ALL);
     const dmb_scene *scene = compiled(model);
     static const uint8_t size[] = {6, 6, 6, 2, 2, 6};
-    static const int32_t kernel[] = {DMB_KERNEL_BEAM, DMB_KERNEL_MIXED, DMB_KERNEL_PATH, DMB_KERNEL_MIXED};
+    static const int32_t kernel[] = {DMB_KERNEL_BEAM, DMB_KERNEL_MIXED, DMB_KERNEL_AXIAL_TORSIONAL, DMB_KERNEL_MIXED};
     static const uint32_t batch[] = {2, 1, 1, 1};
     (void)state;
     assert_int_equal(scene->node_count, 6);
@@ -301,10 +301,10 @@ static void path_string_and_its_drives(void **state)
     assert_int_equal(scene->drives[1].row, 0);
     assert_int_equal(scene->solved_row[0], 1);
     assert_int_equal(scene->solved_row[1], 0);
-    assert_int_equal(scene->held_count, 1);
-    assert_int_equal(scene->held_node[0], 0);
-    assert_int_equal(scene->held_component[0], 1);
-    assert_int_equal(scene->batches[0].kernel, DMB_KERNEL_PATH);
+    assert_int_equal(scene->constrained_count, 1);
+    assert_int_equal(scene->constrained_node[0], 0);
+    assert_int_equal(scene->constrained_component[0], 1);
+    assert_int_equal(scene->batches[0].kernel, DMB_KERNEL_AXIAL_TORSIONAL);
     dmb_model_destroy(&model);
 }
 
@@ -456,7 +456,7 @@ static void free_body_masks_and_drives(void **state)
     assert_int_equal(scene->node_count, 2);
     assert_int_equal(scene->free_count, 5);
     assert_int_equal(scene->prescribed_count, 1);
-    assert_int_equal(scene->held_count, 7);
+    assert_int_equal(scene->constrained_count, 7);
     assert_int_equal(scene->drives[0].row, 10);
     assert_int_equal(scene->drives[0].node, 1);
     assert_near(scene->initial_velocity[4], 2.5, 0.0);

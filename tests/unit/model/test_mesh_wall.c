@@ -187,7 +187,7 @@ static void path_nodes_rub(void **state)
 {
     static const struct {
         int32_t features;
-        uint32_t sites, path_sites;
+        uint32_t sites, axial_torsional_sites;
     } cases[] = {{DMB_FEATURE_ALL, 2, 3},
                  {DMB_FEATURE_ALL & ~DMB_FEATURE_FRICTION, 2, 0},
                  {DMB_FEATURE_ALL & ~DMB_FEATURE_CONTACT, 0, 0}};
@@ -203,14 +203,14 @@ static void path_nodes_rub(void **state)
         add_pipes(model, &pipe, 1);
         scene = compiled_with(model, cases[i].features, -1);
         assert_int_equal(scene->site_count, cases[i].sites);
-        assert_int_equal(scene->path_site_count, cases[i].path_sites);
-        if (cases[i].path_sites > 0) {
-            assert_near(scene->path_sites[0].length, 0.75, 0.0);
-            assert_near(scene->path_sites[1].length, 1.5, 0.0);
-            assert_int_equal(scene->path_sites[2].node, 2);
-            assert_int_equal(scene->path_sites[0].pipe, DMB_NONE);
-            assert_int_equal(scene->path_sites[2].pipe, 1);
-            assert_near(scene->path_sites[2].radius, 0.0365, 0.0);
+        assert_int_equal(scene->axial_torsional_site_count, cases[i].axial_torsional_sites);
+        if (cases[i].axial_torsional_sites > 0) {
+            assert_near(scene->axial_torsional_sites[0].length, 0.75, 0.0);
+            assert_near(scene->axial_torsional_sites[1].length, 1.5, 0.0);
+            assert_int_equal(scene->axial_torsional_sites[2].node, 2);
+            assert_int_equal(scene->axial_torsional_sites[0].pipe, DMB_NONE);
+            assert_int_equal(scene->axial_torsional_sites[2].pipe, 1);
+            assert_near(scene->axial_torsional_sites[2].radius, 0.0365, 0.0);
         }
         dmb_model_destroy(&model);
     }

@@ -31,7 +31,7 @@ static inline void one_element_make(one_element *o, double length, double near_a
     const double along[3] = {near_arm + length + far_arm, 0.0, 0.0};
     double q[4];
     memset(o, 0, sizeof *o);
-    o->size[0] = o->size[1] = DMB_NODE_FULL;
+    o->size[0] = o->size[1] = DMB_NODE_SIX_DOF;
     o->row[1] = 6, o->row[2] = 12;
     o->scene.node_count = 2, o->scene.row_count = 12, o->scene.element_count = o->scene.type_count = 1;
     o->scene.layout.n = 2, o->scene.layout.size = o->size, o->scene.layout.row = o->row;

@@ -26,7 +26,7 @@ static void fill(counts_scene *c, uint32_t scale)
     c->scene.node_count = NODES;
     c->scene.row_count = 5 * scale + 2;
     c->scene.site_count = 3 * scale + 1;
-    c->scene.path_site_count = scale;
+    c->scene.axial_torsional_site_count = scale;
     c->scene.element_count = 6;
     c->scene.drive_count = 2 * scale;
     c->scene.bit_count = scale % 3;

@@ -45,7 +45,7 @@ static inline void move_to(dmb_sim *sim, int32_t dynamic, const double *base, ui
     }
     for (uint32_t i = 0; i < at->node_count; i++) {
         const double *h = sim->increment + at->layout.row[i];
-        if (at->layout.size[i] == DMB_NODE_FULL) {
+        if (at->layout.size[i] == DMB_NODE_SIX_DOF) {
             dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, h);
         } else {
             sim->trial.displacement[3 * i] += h[0];

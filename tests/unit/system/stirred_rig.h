@@ -26,7 +26,7 @@ static inline void stir_nodes(dmb_sim *sim, uint64_t *seed)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         double h[6];
         for (int k = 0; k < 6; k++) h[k] = draw_between(seed, -0.08, 0.08);
-        if (scene->layout.size[i] == DMB_NODE_PATH) {
+        if (scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL) {
             sim->now.displacement[3 * i] = h[0];
             sim->now.turn[i] = 3.0 * h[3];
         } else {
@@ -56,10 +56,10 @@ static inline void stir(rig *s, uint64_t seed)
             sim->now.site_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
         for (uint32_t k = 0; k < 2; k++) sim->now.site_slip[2 * i + k] = draw_between(&seed, -0.3, 0.3);
     }
-    for (uint32_t i = 0; i < sim->scene->path_site_count; i++) {
-        if (bristles) sim->now.path_sticks[i] = (int32_t)(i % 2);
+    for (uint32_t i = 0; i < sim->scene->axial_torsional_site_count; i++) {
+        if (bristles) sim->now.axial_torsional_sticks[i] = (int32_t)(i % 2);
         for (uint32_t k = 0; k < 2 * bristles; k++)
-            sim->now.path_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
+            sim->now.axial_torsional_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
     }
     for (uint32_t k = 0; k < sim->scene->bit_count; k++) sim->now.bit_bottom[k] = -0.3; /* well into the rock */
     dmb_configuration_copy(sim, &sim->now, &sim->trial);

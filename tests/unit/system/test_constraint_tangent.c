@@ -252,7 +252,7 @@ static void stir_nodes(dmb_sim *sim, uint64_t *seed)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         double h[6];
         for (int k = 0; k < 6; k++) h[k] = draw_between(seed, -0.1, 0.1) * (k < 3 ? 1.0 : 2.0);
-        if (scene->layout.size[i] == DMB_NODE_PATH) {
+        if (scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL) {
             sim->now.displacement[3 * i] += h[0];
             sim->now.turn[i] += h[3];
         } else {
@@ -337,7 +337,7 @@ static void move_row(dmb_sim *sim, int by_velocity, uint32_t node, uint32_t c, d
         return;
     }
     h[c] = x;
-    if (sim->scene->layout.size[node] == DMB_NODE_FULL)
+    if (sim->scene->layout.size[node] == DMB_NODE_SIX_DOF)
         dmb_se3_advance(sim->trial.quaternion + 4 * node, sim->trial.displacement + 3 * node, h);
     else if (c == 0)
         sim->trial.displacement[3 * node] += x;
@@ -354,7 +354,7 @@ static void move_along(dmb_sim *sim, double s)
         const double *v = sim->now.velocity + scene->layout.row[i];
         double h[6] = {0.0};
         for (uint32_t c = 0; c < scene->layout.size[i]; c++) h[c] = s * v[c];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) {
             dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, h);
             continue;
         }
@@ -372,7 +372,7 @@ static void make_rows(dmb_sim *sim, double later)
 {
     dmb_evaluation e = evaluation_of(sim, 1);
     e.time += later;
-    assert_int_equal(dmb_clusters_gather(&e), DMB_OK);
+    assert_int_equal(dmb_clusters_assemble(&e), DMB_OK);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -545,7 +545,7 @@ static void rows_of_nodes_on_a_straight_axis(void **state)
 
 static void evaluate(dmb_sim *sim, dmb_evaluation *e)
 {
-    assert_int_equal(dmb_clusters_gather(e), DMB_OK);
+    assert_int_equal(dmb_clusters_assemble(e), DMB_OK);
     assert_int_equal(dmb_system_evaluate(e), DMB_OK);
     (void)sim;
 }

@@ -212,7 +212,7 @@ static void stir_poses(rig *s, uint64_t seed)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         double h[6];
         for (int k = 0; k < 6; k++) h[k] = draw_between(&seed, -0.2, 0.2);
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
+        if (scene->layout.size[i] == DMB_NODE_SIX_DOF) {
             dmb_se3_advance(now->quaternion + 4 * i, now->displacement + 3 * i, h);
         } else {
             now->displacement[3 * i] += h[0];

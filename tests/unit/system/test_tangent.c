@@ -43,7 +43,7 @@ static void move_row(dmb_sim *sim, int kind, uint32_t node, uint32_t c, double x
     if (kind != 0) return;
     sim->increment[row] = x;
     h[c] = x;
-    if (sim->scene->layout.size[node] == DMB_NODE_FULL)
+    if (sim->scene->layout.size[node] == DMB_NODE_SIX_DOF)
         dmb_se3_advance(sim->trial.quaternion + 4 * node, sim->trial.displacement + 3 * node, h);
     else if (c == 0)
         sim->trial.displacement[3 * node] += x;

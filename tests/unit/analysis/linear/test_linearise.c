@@ -48,7 +48,7 @@ static void add_turning(const dmb_linear *linear, const double *v, const double 
     const dmb_block_layout *layout = &linear->scene.layout;
     for (uint32_t i = 0; i < layout->n; i++) {
         double product[6];
-        if (layout->size[i] != DMB_NODE_FULL) continue;
+        if (layout->size[i] != DMB_NODE_SIX_DOF) continue;
         dmb_ad_apply(v + layout->row[i], x + layout->row[i], product);
         for (uint32_t k = 0; k < 6; k++) to[layout->row[i] + k] += factor * product[k];
     }
@@ -60,7 +60,7 @@ static void move_nodes(dmb_sim *work, const double *d, double e)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         double h[6];
         const double *x = d + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_PATH) {
+        if (scene->layout.size[i] == DMB_NODE_AXIAL_TORSIONAL) {
             work->trial.displacement[3 * i] = work->now.displacement[3 * i] + e * x[0];
             work->trial.turn[i] = work->now.turn[i] + e * x[1];
             continue;
@@ -106,7 +106,7 @@ static void residual_at(dmb_linear *linear, const dmb_sim *sim, const perturbati
     move_integrals(work, sim, p->d, e);
     for (uint32_t i = 0; i < rows; i++) work->increment[i] = e * p->d[i]; /* turns of bits follow it */
     evaluation.given = 1;
-    if (work->scene->cluster_count) assert_int_equal(dmb_clusters_gather(&evaluation), DMB_OK);
+    if (work->scene->cluster_count) assert_int_equal(dmb_clusters_assemble(&evaluation), DMB_OK);
     assert_int_equal(dmb_system_evaluate(&evaluation), DMB_OK);
     for (uint32_t i = 0; i < rows; i++)
         if (!linear->scene.solved_row[i]) work->residual[i] = 0.0;

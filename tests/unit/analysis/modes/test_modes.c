@@ -48,9 +48,9 @@ static uint32_t count_below(const dmb_linear *linear, double square)
         lower[i] = linear->stiffness.lower[i] - square * linear->mass.lower[i];
         upper[i] = linear->stiffness.upper[i] - square * linear->mass.upper[i];
     }
-    for (uint32_t i = 0; i < linear->scene.held_count; i++) {
-        const uint32_t node = linear->scene.held_node[i];
-        diagonal[layout->diag[node] + (layout->size[node] + 1) * linear->scene.held_component[i]] = 1.0;
+    for (uint32_t i = 0; i < linear->scene.constrained_count; i++) {
+        const uint32_t node = linear->scene.constrained_node[i];
+        diagonal[layout->diag[node] + (layout->size[node] + 1) * linear->scene.constrained_component[i]] = 1.0;
     }
     return dmb_block_negative(layout, diagonal, lower, upper, NULL, 0, layout->n);
 }

@@ -1,4 +1,4 @@
-#include "integrator/follow.h"
+#include "integrator/companion.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,40 +10,40 @@
 #include "system/solve/solve.h"
 #include "system/system.h"
 
-/* The follower's own attempt at the leader's step. */
-typedef struct course {
+/* The follower's own trial step at the leader's step. */
+typedef struct companion {
     dmb_sim *sim;
-    const dmb_lead *lead;
+    const dmb_nominal_step *nominal;
     dmb_generalized_alpha c;
-    dmb_attempt attempt;
-} course;
+    dmb_trial_step trial_step;
+} companion;
 
-static course course_of(dmb_sim *follower, const dmb_lead *lead)
+static companion course_of(dmb_sim *follower, const dmb_nominal_step *nominal)
 {
-    course to;
+    companion to;
     memset(&to, 0, sizeof to);
     to.sim = follower;
-    to.lead = lead;
+    to.nominal = nominal;
     to.c = dmb_generalized_alpha_of(follower->options.spectral_radius);
-    to.attempt.end = lead->attempt->end;
-    to.attempt.block = DMB_NONE;
+    to.trial_step.end = nominal->trial_step->end;
+    to.trial_step.block = DMB_NONE;
     return to;
 }
 
-static int32_t evaluate(course *of, int32_t tangent)
+static int32_t evaluate(companion *of, int32_t tangent)
 {
-    dmb_evaluation *evaluation = &of->attempt.evaluation;
+    dmb_evaluation *evaluation = &of->trial_step.evaluation;
     evaluation->tangent = tangent;
     const int32_t status = of->sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
 
 /* Prediction from the follower's own state. */
-static int32_t predict(course *of)
+static int32_t predict(companion *of)
 {
-    dmb_attempt_set_up(of->sim, &of->attempt.end, &of->attempt.evaluation);
-    dmb_step_motion_predict(of->sim, &of->c, of->attempt.end.step, 0.0);
-    const int32_t status = dmb_system_prescribe(&of->attempt.evaluation);
+    dmb_trial_step_set_up(of->sim, &of->trial_step.end, &of->trial_step.evaluation);
+    dmb_step_motion_predict(of->sim, &of->c, of->trial_step.end.step, 0.0);
+    const int32_t status = dmb_system_prescribe(&of->trial_step.evaluation);
     if (status < 0) return status;
     if (of->sim->scene->cluster_count) dmb_step_motion_keep_prescribed(of->sim);
     dmb_step_motion_place(of->sim);
@@ -60,12 +60,12 @@ static void keep_matrix(const dmb_sim *sim, dmb_block_matrix *to)
 }
 
 /* Residual, tangent and factors at the trial. */
-static int32_t factor(course *of)
+static int32_t factor(companion *of)
 {
     const int32_t status = evaluate(of, 1);
     if (status < 0) return status;
-    dmb_system_iteration_matrix_held(&of->attempt.evaluation, of->lead->room->held_row);
-    if (of->lead->room->exact) keep_matrix(of->sim, &of->lead->room->matrix);
+    dmb_system_iteration_matrix_constrained(&of->trial_step.evaluation, of->nominal->workspace->constrained_row);
+    if (of->nominal->workspace->exact) keep_matrix(of->sim, &of->nominal->workspace->matrix);
     return dmb_factor_matrix(of->sim, of->sim->options.constraint_method) >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
@@ -97,16 +97,16 @@ static void take_matrix(dmb_arena *arena, const dmb_scene *scene, dmb_block_matr
     matrix->upper = DMB_ARENA_DOUBLES(arena, layout->link[n - 1]);
 }
 
-void dmb_follow_room_take(dmb_arena *arena, const dmb_scene *scene, dmb_follow_room *room)
+void dmb_companion_workspace_allocate(dmb_arena *arena, const dmb_scene *scene, dmb_companion_workspace *workspace)
 {
-    room->opening = DMB_ARENA_DOUBLES(arena, scene->row_count);
-    room->released = DMB_ARENA_DOUBLES(arena, scene->row_count);
-    room->product = DMB_ARENA_DOUBLES(arena, scene->row_count);
-    room->held_row = DMB_ARENA_DOUBLES(arena, 18 * (size_t)scene->held_count);
-    room->held_residual = DMB_ARENA_DOUBLES(arena, scene->held_count);
-    take_matrix(arena, scene, &room->matrix);
-    take_factors(arena, scene, &room->before);
-    take_factors(arena, scene, &room->mass);
+    workspace->opening = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    workspace->released = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    workspace->product = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    workspace->constrained_row = DMB_ARENA_DOUBLES(arena, 18 * (size_t)scene->constrained_count);
+    workspace->constrained_residual = DMB_ARENA_DOUBLES(arena, scene->constrained_count);
+    take_matrix(arena, scene, &workspace->matrix);
+    take_factors(arena, scene, &workspace->before);
+    take_factors(arena, scene, &workspace->mass);
 }
 
 /* A ring that meets the wall in the step: its tangent leaves out how the speed at first touch changes. */
@@ -123,7 +123,7 @@ static int32_t is_exact(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     return scene->cluster_count == 0 && scene->free_rigid_count == 0 && scene->bit_count == 0 &&
-           scene->path_site_count == 0 && scene->actuator_count == 0 && scene->force_count == 0 &&
+           scene->axial_torsional_site_count == 0 && scene->actuator_count == 0 && scene->force_count == 0 &&
            scene->stuck_count == 0 && !meets(sim);
 }
 
@@ -143,30 +143,30 @@ enum { DMB_CORRECTIONS_MAX = 12 };
 
 /* One correction, and the memory that follows from it; the residual of rows that are held by their rows of the matrix.
  */
-static int32_t correct_once(course *of)
+static int32_t correct_once(companion *of)
 {
     dmb_sim *sim = of->sim;
     const dmb_scene *scene = sim->scene;
-    double *held = of->lead->room->held_residual;
-    dmb_solve_refined(sim, &of->lead->room->matrix, of->lead->room->product);
-    dmb_system_held_times(sim, of->lead->room->held_row, sim->correction, held);
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        held[i] += sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]];
-    dmb_step_motion_correct(sim, &of->c, of->attempt.end.step);
-    dmb_system_remember(&of->attempt.evaluation, held);
+    double *held = of->nominal->workspace->constrained_residual;
+    dmb_solve_refined(sim, &of->nominal->workspace->matrix, of->nominal->workspace->product);
+    dmb_system_constrained_times(sim, of->nominal->workspace->constrained_row, sim->correction, held);
+    for (uint32_t i = 0; i < scene->constrained_count; i++)
+        held[i] += sim->residual[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]];
+    dmb_step_motion_correct(sim, &of->c, of->trial_step.end.step);
+    dmb_system_remember(&of->trial_step.evaluation, held);
     return DMB_OK;
 }
 
 /* Corrections by the factors at hand, until one is small. Tangents of contacts that close and of bits that meet the
  * rock are off by some 1e-5, and the iteration matrix of joints by some 1e-2. */
-static int32_t correct_often(course *of)
+static int32_t correct_often(companion *of)
 {
     const int jointed = of->sim->scene->cluster_count > 0; /* what moves is put on the joints by the evaluation */
     double first = 0.0;
     for (uint32_t k = 0; k < DMB_CORRECTIONS_MAX; k++) {
         dmb_solve_correction(of->sim);
         const double size = size_of_correction(of->sim);
-        dmb_step_motion_correct(of->sim, &of->c, of->attempt.end.step);
+        dmb_step_motion_correct(of->sim, &of->c, of->trial_step.end.step);
         if (k == 0) first = size;
         const int done = k > 0 && size <= fmax(DMB_SETTLED_PART * first, DMB_SETTLED_SIZE);
         const int32_t status = done && !jointed ? DMB_OK : evaluate(of, 0);
@@ -176,63 +176,63 @@ static int32_t correct_often(course *of)
     return DMB_OK;
 }
 
-static int32_t correct(course *of)
+static int32_t correct(companion *of)
 {
-    return of->lead->room->exact ? correct_once(of) : correct_often(of);
+    return of->nominal->workspace->exact ? correct_once(of) : correct_often(of);
 }
 
 /* Contacts, stops and springs are treated as the leader treats them. */
-static void take_modes(course *of)
+static void take_modes(companion *of)
 {
-    *of->sim->sites_bounce = *of->lead->sim->sites_bounce;
-    memcpy(of->sim->site_coarse, of->lead->sim->site_coarse, of->sim->scene->site_count * sizeof(uint8_t));
-    memcpy(of->sim->site_mode, of->lead->sim->site_mode, of->sim->scene->site_count * sizeof(uint8_t));
-    memcpy(of->sim->bounce_mode, of->lead->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
+    *of->sim->sites_bounce = *of->nominal->sim->sites_bounce;
+    memcpy(of->sim->site_coarse, of->nominal->sim->site_coarse, of->sim->scene->site_count * sizeof(uint8_t));
+    memcpy(of->sim->site_mode, of->nominal->sim->site_mode, of->sim->scene->site_count * sizeof(uint8_t));
+    memcpy(of->sim->bounce_mode, of->nominal->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
 }
 
 /* Corrected to where contacts open, and the accelerations that these forces had there. The matrix of the room is that
  * of the step once more, where a contact may be closed again: it does not belong to these factors. */
-static int32_t open_beside(course *of)
+static int32_t open_beside(companion *of)
 {
     dmb_sim *sim = of->sim;
-    dmb_follow_room *room = of->lead->room;
-    dmb_factors_swap(sim, &room->before);
+    dmb_companion_workspace *workspace = of->nominal->workspace;
+    dmb_factors_swap(sim, &workspace->before);
     int32_t status = evaluate(of, 0);
     if (status >= 0) status = correct_often(of);
-    dmb_factors_swap(sim, &room->before);
+    dmb_factors_swap(sim, &workspace->before);
     if (status < 0) return status;
     take_modes(of);
-    dmb_factors_swap(sim, &room->mass);
-    status = dmb_released_beside(&of->attempt.evaluation, room->released, sim->correction, sim->released_part,
-                                 room->product);
-    dmb_factors_swap(sim, &room->mass);
+    dmb_factors_swap(sim, &workspace->mass);
+    status = dmb_released_beside(&of->trial_step.evaluation, workspace->released, sim->correction, sim->released_part,
+                                 workspace->product);
+    dmb_factors_swap(sim, &workspace->mass);
     return status;
 }
 
-static int32_t open_alone(course *of)
+static int32_t open_alone(companion *of)
 {
     int32_t status = factor(of);
     if (status >= 0) status = correct(of);
     if (status < 0) return status;
     take_modes(of);
-    return dmb_released_acceleration(&of->attempt.evaluation, of->sim->correction, of->sim->released_part);
+    return dmb_released_acceleration(&of->trial_step.evaluation, of->sim->correction, of->sim->released_part);
 }
 
 /* The step once more, from the leader's increments. */
-static void go_again(course *of)
+static void go_again(companion *of)
 {
-    dmb_step_motion_take(of->sim, of->lead->sim->increment);
-    dmb_attempt_refit(of->sim, &of->c, of->attempt.end.step);
+    dmb_step_motion_take(of->sim, of->nominal->sim->increment);
+    dmb_trial_step_refit(of->sim, &of->c, of->trial_step.end.step);
     dmb_step_motion_place(of->sim);
-    dmb_attempt_set_up(of->sim, &of->attempt.end, &of->attempt.evaluation);
+    dmb_trial_step_set_up(of->sim, &of->trial_step.end, &of->trial_step.evaluation);
 }
 
-/* Contacts that open are treated as in integrator/attempt, from the leader's increments before and after. */
-static int32_t follow_release(course *of)
+/* Contacts that open are treated as in integrator/trial_step, from the leader's increments before and after. */
+static int32_t follow_release(companion *of)
 {
     dmb_sim *sim = of->sim;
     const int shared = shares(sim->scene);
-    dmb_step_motion_go_to(of->sim, &of->c, of->attempt.end.step, of->lead->room->opening);
+    dmb_step_motion_go_to(of->sim, &of->c, of->trial_step.end.step, of->nominal->workspace->opening);
     int32_t status = shared ? open_beside(of) : open_alone(of);
     if (status < 0) return status;
     go_again(of);
@@ -242,44 +242,44 @@ static int32_t follow_release(course *of)
 }
 
 /* Accelerations that mean forces leave behind; the factors that followers share stay. */
-static int32_t end_bounces(course *of)
+static int32_t end_bounces(companion *of)
 {
     const int shared = shares(of->sim->scene);
     int32_t found = 0;
-    if (of->lead->attempt->bounced) {
-        if (shared) dmb_factors_swap(of->sim, &of->lead->room->mass);
-        const int32_t status = dmb_bounces_end(&of->attempt.evaluation, &found);
-        if (shared) dmb_factors_swap(of->sim, &of->lead->room->mass);
+    if (of->nominal->trial_step->bounced) {
+        if (shared) dmb_factors_swap(of->sim, &of->nominal->workspace->mass);
+        const int32_t status = dmb_bounces_end(&of->trial_step.evaluation, &found);
+        if (shared) dmb_factors_swap(of->sim, &of->nominal->workspace->mass);
         if (status < 0) return status;
     }
-    of->attempt.bounced = found;
+    of->trial_step.bounced = found;
     return DMB_OK;
 }
 
-static int32_t follow(course *of)
+static int32_t follow(companion *of)
 {
     int32_t status = predict(of);
     if (status < 0) return status;
-    if (of->lead->attempt->released) return follow_release(of);
-    dmb_step_motion_go_to(of->sim, &of->c, of->attempt.end.step, of->lead->sim->increment);
+    if (of->nominal->trial_step->released) return follow_release(of);
+    dmb_step_motion_go_to(of->sim, &of->c, of->trial_step.end.step, of->nominal->sim->increment);
     status = evaluate(of, 0);
     return status < 0 ? status : correct(of);
 }
 
 /* The leader's factors where contacts opened, the accelerations there, and its factors of the step taken again. */
-static int32_t prepare_release(course *of)
+static int32_t prepare_release(companion *of)
 {
     dmb_sim *sim = of->sim;
-    dmb_follow_room *room = of->lead->room;
+    dmb_companion_workspace *workspace = of->nominal->workspace;
     if (!shares(sim->scene)) return DMB_OK;
-    dmb_step_motion_go_to(sim, &of->c, of->attempt.end.step, room->opening);
+    dmb_step_motion_go_to(sim, &of->c, of->trial_step.end.step, workspace->opening);
     int32_t status = factor(of);
     if (status < 0) return status;
-    dmb_factors_swap(sim, &room->before);
+    dmb_factors_swap(sim, &workspace->before);
     take_modes(of);
-    status = dmb_released_acceleration(&of->attempt.evaluation, sim->correction, sim->released_part);
-    memcpy(room->released, sim->correction, sim->scene->row_count * sizeof(double));
-    dmb_factors_swap(sim, &room->mass);
+    status = dmb_released_acceleration(&of->trial_step.evaluation, sim->correction, sim->released_part);
+    memcpy(workspace->released, sim->correction, sim->scene->row_count * sizeof(double));
+    dmb_factors_swap(sim, &workspace->mass);
     if (status >= 0) {
         go_again(of);
         status = factor(of);
@@ -287,30 +287,30 @@ static int32_t prepare_release(course *of)
     return status;
 }
 
-int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
+int32_t dmb_companion_prepare(dmb_sim *follower, const dmb_nominal_step *nominal)
 {
-    course of = course_of(follower, lead);
-    dmb_bounces_begin(follower, dmb_step_end_asked(&lead->attempt->end));
-    if (!lead->attempt->released) take_modes(&of);
+    companion of = course_of(follower, nominal);
+    dmb_bounces_begin(follower, dmb_step_end_asked(&nominal->trial_step->end));
+    if (!nominal->trial_step->released) take_modes(&of);
     int32_t status = predict(&of);
     if (status < 0) return status;
-    lead->room->exact = is_exact(lead->sim);
-    if (lead->attempt->released) return prepare_release(&of);
-    dmb_step_motion_go_to(of.sim, &of.c, of.attempt.end.step, lead->sim->increment);
+    nominal->workspace->exact = is_exact(nominal->sim);
+    if (nominal->trial_step->released) return prepare_release(&of);
+    dmb_step_motion_go_to(of.sim, &of.c, of.trial_step.end.step, nominal->sim->increment);
     return factor(&of);
 }
 
-int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead)
+int32_t dmb_companion_step(dmb_sim *follower, const dmb_nominal_step *nominal)
 {
-    course of = course_of(follower, lead);
-    dmb_bounces_begin(follower, dmb_step_end_asked(&lead->attempt->end));
-    if (!lead->attempt->released) take_modes(&of);
+    companion of = course_of(follower, nominal);
+    dmb_bounces_begin(follower, dmb_step_end_asked(&nominal->trial_step->end));
+    if (!nominal->trial_step->released) take_modes(&of);
     int32_t status = follow(&of);
     if (status >= 0) status = end_bounces(&of);
     if (status < 0) return status;
     dmb_system_unwrap(of.sim);
     dmb_rotors_unwrap(of.sim);
-    dmb_system_accept(&of.attempt.evaluation);
-    dmb_bounces_accept(&of.attempt.evaluation, of.attempt.bounced);
+    dmb_system_accept(&of.trial_step.evaluation);
+    dmb_bounces_accept(&of.trial_step.evaluation, of.trial_step.bounced);
     return DMB_OK;
 }

@@ -20,7 +20,7 @@ static double sink(const dmb_scene *scene, const dmb_site *site, double depth, d
 int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node)
 {
     const uint8_t *solved = scene->solved_row + scene->layout.row[node];
-    return scene->layout.size[node] == DMB_NODE_FULL && solved[DMB_Y] && solved[DMB_Z];
+    return scene->layout.size[node] == DMB_NODE_SIX_DOF && solved[DMB_Y] && solved[DMB_Z];
 }
 
 void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3])
@@ -43,7 +43,7 @@ static int lies(const dmb_scene *scene, uint32_t s)
 
 /* ---- By weight --------------------------------------------------------------------------------------------------- */
 
-static void lay_site(dmb_sim *sim, const dmb_site *site)
+static void guess_site(dmb_sim *sim, const dmb_site *site)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t node = site->node;
@@ -65,12 +65,12 @@ static void lay_site(dmb_sim *sim, const dmb_site *site)
     dmb_static_stay_along(sim, node, down);
 }
 
-void dmb_static_lay_on_wall(dmb_sim *sim)
+void dmb_static_guess_on_wall(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (!(scene->features & DMB_FEATURE_GRAVITY)) return;
     for (uint32_t s = 0; s < scene->site_count; s++)
-        if (lies(scene, s)) lay_site(sim, scene->sites + s);
+        if (lies(scene, s)) guess_site(sim, scene->sites + s);
 }
 
 /* ---- Tension of strings ------------------------------------------------------------------------------------------ */
@@ -88,7 +88,7 @@ int dmb_static_tensions(dmb_sim *sim, uint32_t string)
     const uint32_t first = scene->strings[string].first_node, last = first + scene->strings[string].node_count - 1;
     const int back = dmb_static_is_free_along(scene, last);
     double sum = 0.0;
-    if (scene->layout.size[first] != DMB_NODE_FULL || first == last) return 0;
+    if (scene->layout.size[first] != DMB_NODE_SIX_DOF || first == last) return 0;
     if (dmb_static_is_free_along(scene, first) == back) return 0;
     for (uint32_t k = first; k < last; k++) {
         const uint32_t i = back ? first + last - k : k;
@@ -135,7 +135,7 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
 
 /* Soft-string torque and drag (Johancsik, Friesen, Dawson 1984; eq:drilling.soft-string): a node at this depth lies on
  * the side to which weight and tension in the curved hole press it, u = w + T k l, and the wall carries |u|. */
-static void lay_pressed(const dmb_static_search *search, const dmb_site *site, double depth, double tension)
+static void guess_pressed(const dmb_static_search *search, const dmb_site *site, double depth, double tension)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
@@ -174,7 +174,7 @@ static void stretch(dmb_sim *sim, const dmb_string_map *string)
     }
 }
 
-void dmb_static_lay_by_pull(dmb_static_search *search)
+void dmb_static_guess_by_pull(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
@@ -189,7 +189,8 @@ void dmb_static_lay_by_pull(dmb_static_search *search)
             if (!known || node < string->first_node || !lies(scene, s)) continue;
             const double behind = tension[node + 1 < end ? node : node - 1];
             const double before = node > string->first_node ? tension[node - 1] : behind;
-            lay_pressed(search, scene->sites + s, scene->reference_depth[node] + along[node], 0.5 * (before + behind));
+            guess_pressed(search, scene->sites + s, scene->reference_depth[node] + along[node],
+                          0.5 * (before + behind));
         }
     }
 }
@@ -236,7 +237,7 @@ int32_t dmb_static_from_pull(dmb_static_search *search)
         const int32_t found = dmb_static_find_pull(search, &pull);
         if (found <= 0) return found < 0 ? found : status;
         search->load_steps = 1;
-        dmb_static_lay_by_pull(search);
+        dmb_static_guess_by_pull(search);
         status = harden(search, dmb_static_softness(search, &pull, pressed_in[k]));
         if (status >= 0 || dmb_is_final(status)) return status;
     }

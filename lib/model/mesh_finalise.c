@@ -20,7 +20,7 @@ static void count_rows(const dmb_mesh *mesh, dmb_scene *scene)
             const uint32_t is_open = open >> k & 1, is_moved = moved >> k & 1;
             scene->free_count += is_open & ~is_moved;
             scene->prescribed_count += is_moved;
-            scene->held_count += 1 - (is_open & ~is_moved);
+            scene->constrained_count += 1 - (is_open & ~is_moved);
         }
     }
 }
@@ -61,7 +61,7 @@ static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const int alone = node->string == DMB_NONE || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
-    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != DMB_NONE &&
+    return alone && node->size == DMB_NODE_SIX_DOF && node->rigid_mass != DMB_NONE &&
            dmb_free_rows(node) == DMB_FREE_ALL && dmb_prescribed_rows(node) == 0;
 }
 
@@ -137,7 +137,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->added_mass_count = (uint32_t)mesh->added_masses.count;
     scene->site_count = (uint32_t)mesh->sites.count;
     scene->inside_count = (uint32_t)mesh->inside.count;
-    scene->path_site_count = (uint32_t)mesh->path_sites.count;
+    scene->axial_torsional_site_count = (uint32_t)mesh->axial_torsional_sites.count;
     scene->drive_count = (uint32_t)mesh->drives.count;
     scene->actuator_count = (uint32_t)mesh->actuators.count;
     scene->gain_table_count = (uint32_t)mesh->gain_tables.count;
@@ -171,7 +171,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
 
 static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w)
 {
-    const size_t n = counts->node_count, rows = counts->row_count, held = counts->held_count;
+    const size_t n = counts->node_count, rows = counts->row_count, held = counts->constrained_count;
     w->size = DMB_ARENA_ARRAY(arena, uint8_t, n);
     w->row = DMB_ARENA_ARRAY(arena, uint32_t, n + 1);
     w->diag = DMB_ARENA_ARRAY(arena, uint32_t, n + 1);
@@ -182,8 +182,8 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->initial_velocity = DMB_ARENA_DOUBLES(arena, counts->velocity_count);
     to->free_row = DMB_ARENA_ARRAY(arena, uint8_t, rows);
     to->solved_row = DMB_ARENA_ARRAY(arena, uint8_t, rows);
-    to->held_node = DMB_ARENA_ARRAY(arena, uint32_t, held);
-    to->held_component = DMB_ARENA_ARRAY(arena, uint32_t, held);
+    to->constrained_node = DMB_ARENA_ARRAY(arena, uint32_t, held);
+    to->constrained_component = DMB_ARENA_ARRAY(arena, uint32_t, held);
     to->weight_mass = DMB_ARENA_DOUBLES(arena, n);
     to->weight_moment = DMB_ARENA_DOUBLES(arena, 3 * n);
     to->node_damping = DMB_ARENA_DOUBLES(arena, 5 * n);
@@ -202,7 +202,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
 static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
 {
     const size_t e = counts->element_count;
-    to->types = (dmb_element_type *)dmb_arena_take(arena, counts->type_count, sizeof *to->types, DMB_ALIGNMENT);
+    to->types = (dmb_element_type *)dmb_arena_allocate(arena, counts->type_count, sizeof *to->types, DMB_ALIGNMENT);
     to->element_type = DMB_ARENA_ARRAY(arena, uint32_t, e);
     to->element_node = DMB_ARENA_ARRAY(arena, uint32_t, e);
     to->element_span = DMB_ARENA_DOUBLES(arena, 3 * e);
@@ -215,7 +215,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     w->stations = DMB_ARENA_ARRAY(arena, dmb_hole_station, hole->stations);
     w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
     to->sites = DMB_ARENA_ARRAY(arena, dmb_site, counts->site_count);
-    to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
+    to->axial_torsional_sites = DMB_ARENA_ARRAY(arena, dmb_axial_torsional_site, counts->axial_torsional_site_count);
     if (hole->stations > 0) to->near_contact = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
     if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
@@ -259,7 +259,7 @@ static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to
     to->node_block = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->node_place = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->node_cluster = DMB_ARENA_ARRAY(arena, uint32_t, n);
-    to->link_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * n);
+    to->off_diagonal_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * n);
 }
 
 /* The struct comes first, so that its address is that of the block. Its counts are copied, its arrays point behind it.
@@ -279,7 +279,7 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
 
 /* ---- Freeze ------------------------------------------------------------------------------------------------------ */
 
-int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
+int32_t dmb_mesh_finalise(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
     const dmb_hole *hole = &mesh->hole;
@@ -302,7 +302,7 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     int32_t status = dmb_scene_fill(mesh, scene, &w);
     if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene))
         status = DMB_ERR_TOO_LARGE;
-    if (status >= 0) status = dmb_scene_link(scene, allocator);
+    if (status >= 0) status = dmb_scene_number_blocks(scene, allocator);
     if (status >= 0) status = dmb_scene_make_dense(scene, allocator);
     if (status < 0) {
         dmb_block_pattern_release(&scene->pattern, allocator);

@@ -1,4 +1,4 @@
-#include "integrator/attempt.h"
+#include "integrator/trial_step.h"
 
 #include <string.h>
 
@@ -6,8 +6,8 @@
 #include "integrator/prediction.h"
 #include "integrator/step_motion.h"
 #include "math/so3.h"
+#include "sim/chunks.h"
 #include "sim/node.h"
-#include "sim/parts.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
@@ -101,7 +101,7 @@ static motion_norms norms_of(const dmb_sim *sim, double h)
 /* Local error (eq:integration.local-error), and what it may become within a quarter of a period
  * (eq:integration.error-ahead). Where steps do not resolve the motion, h w > 1, the acceleration does not change by
  * more than itself. */
-dmb_step_error dmb_attempt_error(const dmb_sim *sim, double h)
+dmb_step_error dmb_trial_step_error(const dmb_sim *sim, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     const motion_norms most = norms_of(sim, h);
@@ -112,7 +112,7 @@ dmb_step_error dmb_attempt_error(const dmb_sim *sim, double h)
     return error;
 }
 
-void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *evaluation)
+void dmb_trial_step_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *evaluation)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     const double h = end->step;
@@ -134,16 +134,16 @@ void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *e
 
 /* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
-static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     if (sim->follower != NULL) sim->follower->open(sim->follower->context);
-    int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->correction, sim->released_part);
+    int32_t status = dmb_released_acceleration(&trial_step->evaluation, sim->correction, sim->released_part);
     if (status < 0) return status;
-    dmb_attempt_refit(sim, c, attempt->end.step);
+    dmb_trial_step_refit(sim, c, trial_step->end.step);
     dmb_free_rigids_place(sim);
-    dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
-    attempt->released = 1;
-    return dmb_newton(sim, c, attempt);
+    dmb_trial_step_set_up(sim, &trial_step->end, &trial_step->evaluation);
+    trial_step->released = 1;
+    return dmb_newton(sim, c, trial_step);
 }
 
 /* A row that was found redundant has to hold with the others; where it does not, the constraints have become singular.
@@ -171,10 +171,10 @@ enum { DMB_RELEASES_MAX = 4 };
 #define DMB_GAIN_DIVIDED 0.1
 
 /* A step that gains energy at the wall. 1: it is to be taken again, < 0: divided. */
-static int32_t carry(dmb_sim *sim, const dmb_attempt *attempt)
+static int32_t carry(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
-    const double gain = dmb_bounces_gain(&attempt->evaluation);
-    if (attempt->iterations >= sim->options.max_iterations)
+    const double gain = dmb_bounces_gain(&trial_step->evaluation);
+    if (trial_step->iterations >= sim->options.max_iterations)
         return gain > DMB_GAIN_DIVIDED && !sim->options.bounded_work ? DMB_ERR_NO_CONVERGENCE : 0;
     if (!(gain > DMB_GAIN_CARRIED)) return 0;
     dmb_bounces_carry(sim);
@@ -182,84 +182,84 @@ static int32_t carry(dmb_sim *sim, const dmb_attempt *attempt)
 }
 
 /* Contacts that open, and those that open when it is taken again without their forces. */
-static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
     opens |= dmb_bounces_open(sim);
-    const int32_t carries = carry(sim, attempt);
+    const int32_t carries = carry(sim, trial_step);
     if (carries < 0) return carries;
     opens |= carries;
     for (int k = 0; k < DMB_RELEASES_MAX && opens && status == DMB_OK; k++) {
-        status = step_released(sim, c, attempt);
+        status = step_released(sim, c, trial_step);
         opens = dmb_bounces_open(sim);
     }
     return status;
 }
 
 /* From the prediction to the end of the iteration, and over again where contacts open. */
-static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
-    dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
-    attempt->released = 0;
-    dmb_bounces_begin(sim, dmb_step_end_asked(&attempt->end));
-    dmb_prediction_make(sim, c, attempt);
-    int32_t status = dmb_system_prescribe(&attempt->evaluation);
+    dmb_trial_step_set_up(sim, &trial_step->end, &trial_step->evaluation);
+    trial_step->released = 0;
+    dmb_bounces_begin(sim, dmb_step_end_asked(&trial_step->end));
+    dmb_prediction_make(sim, c, trial_step);
+    int32_t status = dmb_system_prescribe(&trial_step->evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_step_motion_keep_prescribed(sim);
     dmb_step_motion_place(sim);
-    status = dmb_newton(sim, c, attempt);
-    if (status >= 0 && attempt->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
-    return status == DMB_OK ? release(sim, c, attempt) : status;
+    status = dmb_newton(sim, c, trial_step);
+    if (status >= 0 && trial_step->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
+    return status == DMB_OK ? release(sim, c, trial_step) : status;
 }
 
-static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
+static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
-    memset(attempt, 0, sizeof *attempt);
-    attempt->end = *end;
-    attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
-    attempt->block = DMB_NONE;
+    memset(trial_step, 0, sizeof *trial_step);
+    trial_step->end = *end;
+    trial_step->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
+    trial_step->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
-    status = solve_step(sim, &c, attempt);
+    status = solve_step(sim, &c, trial_step);
     if (status == DMB_CHANGES) {
-        attempt->constant = 1;
-        attempt->iterations = 0;
-        status = solve_step(sim, &c, attempt);
+        trial_step->constant = 1;
+        trial_step->iterations = 0;
+        status = solve_step(sim, &c, trial_step);
     }
-    if ((attempt->tried || attempt->linear) && status < 0 && !dmb_is_final(status)) {
+    if ((trial_step->tried || trial_step->linear) && status < 0 && !dmb_is_final(status)) {
         /* once more, with factors of its own, from accelerations that stay */
-        attempt->astray = 1;
-        attempt->iterations = 0;
-        status = solve_step(sim, &c, attempt);
+        trial_step->diverged = 1;
+        trial_step->iterations = 0;
+        status = solve_step(sim, &c, trial_step);
     }
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
     if (status >= 0 && sim->scene->joint_count) {
-        const int32_t refused = dmb_joints_refuse_edges(sim, 1, attempt->evaluation.time);
+        const int32_t refused = dmb_joints_refuse_gimbal_singularity(sim, 1, trial_step->evaluation.time);
         if (refused < 0) status = refused;
     }
     if (status >= 0) {
-        const int32_t refused = dmb_bounces_end(&attempt->evaluation, &attempt->bounced);
-        if (attempt->bounced) attempt->whole = 0;
+        const int32_t refused = dmb_bounces_end(&trial_step->evaluation, &trial_step->bounced);
+        if (trial_step->bounced) trial_step->whole = 0;
         if (refused < 0) status = refused;
     }
     *sim->factors = DMB_FACTORS_NONE;
     if (status >= 0) {
-        attempt->evaluation.element = dmb_element_turned_too_far(sim);
-        if (attempt->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;
+        trial_step->evaluation.element = dmb_element_turned_too_far(sim);
+        if (trial_step->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;
         dmb_system_unwrap(sim);
         dmb_rotors_unwrap(sim);
     }
-    attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
-    return attempt->status;
+    trial_step->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
+    return trial_step->status;
 }
 
 /* With the threads of the caller's, whose failure is that of the step whatever else came of it. */
-int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
+int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
 {
-    dmb_parts_open(sim);
-    const int32_t status = try_step(sim, end, whole, attempt), failed = dmb_parts_close(sim);
-    if (failed < 0) attempt->status = failed;
+    dmb_chunks_open(sim);
+    const int32_t status = try_step(sim, end, whole, trial_step), failed = dmb_chunks_close(sim);
+    if (failed < 0) trial_step->status = failed;
     return failed < 0 ? failed : status;
 }
 
@@ -275,11 +275,11 @@ static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
 }
 
 /* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) over the length of the step, by steps really taken. */
-int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
+int32_t dmb_trial_step_to_release(dmb_sim *sim, dmb_trial_step *trial_step)
 {
-    double low = 0.0, high = attempt->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
-    const double asked = attempt->end.asked;
-    int32_t last_side = 0, status = attempt->status;
+    double low = 0.0, high = trial_step->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
+    const double asked = trial_step->end.asked;
+    int32_t last_side = 0, status = trial_step->status;
     if (!(f_high > DMB_RELEASE_TOLERANCE) || !(f_low < 0.0)) return status;
     double weight_low = f_low, weight_high = f_high;
     for (int i = 0; i < DMB_RELEASE_TRIALS && f_high > DMB_RELEASE_TOLERANCE; i++) {
@@ -287,7 +287,7 @@ int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
         dmb_step_end end = dmb_step_end_after(sim, length);
         end.asked = asked;
         if (!(end.time > sim->clock->time) || !(length > low) || !(length < high)) break;
-        status = dmb_attempt_step(sim, &end, 0, attempt);
+        status = dmb_trial_step_run(sim, &end, 0, trial_step);
         if (status < 0) return status;
         const double f = beyond(sim, &sim->trial);
         const int32_t side = f > 0.0 ? 1 : -1;
@@ -305,29 +305,29 @@ int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
     if (last_side > 0) return status;
     dmb_step_end end = dmb_step_end_after(sim, high);
     end.asked = asked;
-    return dmb_attempt_step(sim, &end, 0, attempt);
+    return dmb_trial_step_run(sim, &end, 0, trial_step);
 }
 
-void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
+void dmb_trial_step_commit(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     dmb_counters *counters = sim->counters;
-    dmb_system_accept(&attempt->evaluation);
-    if (!attempt->deferred) dmb_factor_reuse_end(sim, attempt, &sim->trial);
-    dmb_prediction_note(sim, attempt);
-    if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation, attempt->released);
-    dmb_bounces_accept(&attempt->evaluation, attempt->bounced);
+    dmb_system_accept(&trial_step->evaluation);
+    if (!trial_step->deferred) dmb_factor_reuse_end(sim, trial_step, &sim->trial);
+    dmb_prediction_note(sim, trial_step);
+    if (sim->options.energy_ledger) dmb_ledger_add(sim, &trial_step->evaluation, trial_step->released);
+    dmb_bounces_accept(&trial_step->evaluation, trial_step->bounced);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;
     sim->trial = old;
-    sim->clock->time = attempt->end.time;
-    sim->clock->rest = attempt->end.rest;
-    sim->clock->step = attempt->end.step;
-    if (attempt->end.breakpoint > 0.0) sim->clock->breakpoint = attempt->end.breakpoint;
+    sim->clock->time = trial_step->end.time;
+    sim->clock->rest = trial_step->end.rest;
+    sim->clock->step = trial_step->end.step;
+    if (trial_step->end.breakpoint > 0.0) sim->clock->breakpoint = trial_step->end.breakpoint;
     counters->steps++;
-    counters->iterations += attempt->iterations;
-    if (attempt->status == DMB_NOTE_WORK_LIMITED) counters->limited++;
-    if (attempt->iterations > counters->most_iterations) counters->most_iterations = attempt->iterations;
-    counters->largest_residual = fmax(counters->largest_residual, attempt->residual);
+    counters->iterations += trial_step->iterations;
+    if (trial_step->status == DMB_NOTE_WORK_LIMITED) counters->limited++;
+    if (trial_step->iterations > counters->most_iterations) counters->most_iterations = trial_step->iterations;
+    counters->largest_residual = fmax(counters->largest_residual, trial_step->residual);
 }
 
 #define DMB_TURNING_MAX (2.0 * (DMB_PI - 2.5)) /* [rad] */
@@ -336,7 +336,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
 static double turned_squared(const dmb_sim *sim, uint32_t node)
 {
     const double *z = sim->increment + sim->scene->layout.row[node];
-    return sim->scene->layout.size[node] == DMB_NODE_FULL ? dmb_vec3_norm_squared(z + 3) : z[1] * z[1];
+    return sim->scene->layout.size[node] == DMB_NODE_SIX_DOF ? dmb_vec3_norm_squared(z + 3) : z[1] * z[1];
 }
 
 /* z_B - R^T z_A, R the orientation of B seen from A */
@@ -361,7 +361,8 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
     if (scene->cluster_count == 0 && 4.0 * most <= DMB_TURNING_MAX * DMB_TURNING_MAX) return DMB_NONE; /* as below */
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t a = scene->element_node[e];
-        if (scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH) continue;
+        if (scene->layout.size[a] == DMB_NODE_AXIAL_TORSIONAL && scene->layout.size[a + 1] == DMB_NODE_AXIAL_TORSIONAL)
+            continue;
         const double squares = turned_squared(sim, a) + turned_squared(sim, a + 1); /* (x + y)^2 <= 2 (x^2 + y^2) */
         if (2.0 * squares <= DMB_TURNING_MAX * DMB_TURNING_MAX) continue;           /* nearly always */
         if (!(turned_apart(sim, a) <= DMB_TURNING_MAX)) return e;
@@ -369,7 +370,7 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
     return DMB_NONE;
 }
 
-/* Message of a failed attempt: which part, at what time. */
+/* Message of a failed trial step: which part, at what time. */
 
 /* Tells what to do about a step that does not converge, where that is known. */
 static void advise(const dmb_sim *sim, dmb_message *text)
@@ -384,46 +385,46 @@ static void advise(const dmb_sim *sim, dmb_message *text)
                     bit, spin);
 }
 
-void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
+void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     dmb_owner owner;
-    switch (attempt->status) {
+    switch (trial_step->status) {
     case DMB_ERR_ROTATION:
-        owner = dmb_owner_of_element(sim->scene, attempt->evaluation.element);
+        owner = dmb_owner_of_element(sim->scene, trial_step->evaluation.element);
         dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad at time %g, step %g",
-                        owner.text.text, attempt->evaluation.time, attempt->end.step);
+                        owner.text.text, trial_step->evaluation.time, trial_step->end.step);
         break;
     case DMB_ERR_SINGULAR:
-        if (attempt->block == DMB_NONE) {
+        if (trial_step->block == DMB_NONE) {
             dmb_clusters_explain(sim, "its equations are singular");
             break;
         }
-        owner = dmb_owner_of_node(sim->scene, attempt->block);
+        owner = dmb_owner_of_node(sim->scene, trial_step->block);
         dmb_message_set(&sim->message, "%s: iteration matrix singular at time %g, step %g", owner.text.text,
-                        attempt->evaluation.time, attempt->end.step);
+                        trial_step->evaluation.time, trial_step->end.step);
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_NOT_FINITE:
-        dmb_message_set(&sim->message, "step to time %g of length %g: forces not finite", attempt->end.time,
-                        attempt->end.step);
+        dmb_message_set(&sim->message, "step to time %g of length %g: forces not finite", trial_step->end.time,
+                        trial_step->end.step);
         break;
     case DMB_ERR_CALLBACK:
-        if (dmb_parts_explain(sim)) break;
+        if (dmb_chunks_explain(sim)) break;
         if (dmb_failed_force(sim, &owner.text)) {
             dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
-                            owner.text.text, attempt->evaluation.time);
+                            owner.text.text, trial_step->evaluation.time);
             break;
         }
         if (sim->reduced_mode->row != DMB_NONE) {
             dmb_message name;
             dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &name);
             dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
-                            name.text, attempt->evaluation.time);
+                            name.text, trial_step->evaluation.time);
             break;
         }
         dmb_message_set(&sim->message,
                         "callback of a time function or constraint: it failed or gave a value beyond +-1e30 at time %g",
-                        attempt->evaluation.time);
+                        trial_step->evaluation.time);
         break;
     default:
         if (sim->reduced_mode->row != DMB_NONE) {
@@ -433,7 +434,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         advise(sim, &owner.text);
         dmb_message_set(&sim->message,
                         "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g%s",
-                        attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual,
-                        attempt->bound, owner.text.text);
+                        trial_step->evaluation.time, trial_step->end.step, trial_step->iterations, trial_step->residual,
+                        trial_step->bound, owner.text.text);
     }
 }

@@ -13,10 +13,10 @@ static int is_reduced(const dmb_scene *scene, uint32_t node)
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
 
 /* Every block holds at most the coordinates of its capacity. */
-dmb_links_size dmb_dynamic_links_size(const dmb_linear *linear)
+dmb_jointed_chains_size dmb_jointed_chains_sizes(const dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
-    dmb_links_size size = {0, DMB_NODE_FULL, 0};
+    dmb_jointed_chains_size size = {0, DMB_NODE_SIX_DOF, 0};
     for (uint32_t i = 0; i < linear->coordinates; i++)
         size.count += (uint32_t)is_reduced(scene, dmb_node_of_row(scene, linear->row_of[i]));
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
@@ -34,7 +34,8 @@ static dmb_complex_array take(dmb_arena *arena, size_t count)
     return array;
 }
 
-void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out)
+void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_jointed_chains_size size,
+                                dmb_jointed_chains *out)
 {
     const dmb_scene *scene = &linear->scene;
     out->multiplier = take(arena, size.rows);
@@ -46,13 +47,13 @@ void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_l
     out->matrix.values = take(arena, scene->pattern.values);
     out->matrix.pivot = DMB_ARENA_ARRAY(arena, uint32_t, scene->pattern.rows);
     out->solution = take(arena, size.count);
-    out->half = take(arena, (size_t)DMB_NODE_FULL * size.widest);
+    out->half = take(arena, (size_t)DMB_NODE_SIX_DOF * size.widest);
     out->stiffness = DMB_ARENA_DOUBLES(arena, size.count);
     out->mass = DMB_ARENA_DOUBLES(arena, size.count);
 }
 
 /* Coordinates stand in the order of their rows inside each block. */
-static void number(const dmb_linear *linear, dmb_dynamic_links *links)
+static void number(const dmb_linear *linear, dmb_jointed_chains *links)
 {
     const dmb_scene *scene = &linear->scene;
     uint32_t row = 0;
@@ -70,7 +71,7 @@ static void number(const dmb_linear *linear, dmb_dynamic_links *links)
 }
 
 /* Share of a row in the diagonals that pivots are held against. */
-static void add_scale(const dmb_linear *linear, const dmb_dynamic_links *links, uint32_t row, double stiffness,
+static void add_scale(const dmb_linear *linear, const dmb_jointed_chains *links, uint32_t row, double stiffness,
                       double mass)
 {
     for (uint32_t e = linear->start[row]; e < linear->start[row + 1]; e++) {
@@ -80,7 +81,7 @@ static void add_scale(const dmb_linear *linear, const dmb_dynamic_links *links, 
     }
 }
 
-static void add_scales(const dmb_linear *linear, const dmb_dynamic_links *links)
+static void add_scales(const dmb_linear *linear, const dmb_jointed_chains *links)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
     for (uint32_t i = 0; i < layout->n; i++)
@@ -97,7 +98,7 @@ static void add_scales(const dmb_linear *linear, const dmb_dynamic_links *links)
     }
 }
 
-void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out)
+void dmb_jointed_chains_number(const dmb_linear *linear, dmb_jointed_chains_size size, dmb_jointed_chains *out)
 {
     out->count = size.count;
     if (linear->scene.cluster_count == 0) return;
@@ -113,7 +114,7 @@ static void times_null_space(const dmb_dynamic_stiffness *s, uint32_t i, uint32_
 {
     const dmb_linear *linear = s->linear;
     const dmb_scene *scene = &linear->scene;
-    const dmb_dynamic_links *links = &s->links;
+    const dmb_jointed_chains *links = &s->links;
     const uint32_t rows = scene->layout.size[i], block = scene->node_block[j], width = links->size[block];
     memset(links->half.re, 0, (size_t)rows * width * sizeof(double));
     memset(links->half.im, 0, (size_t)rows * width * sizeof(double));
@@ -135,7 +136,7 @@ static void add_block(const dmb_dynamic_stiffness *s, uint32_t i, uint32_t j, dm
 {
     const dmb_linear *linear = s->linear;
     const dmb_scene *scene = &linear->scene;
-    const dmb_dynamic_links *links = &s->links;
+    const dmb_jointed_chains *links = &s->links;
     const uint32_t block = scene->node_block[i], width = links->size[scene->node_block[j]];
     times_null_space(s, i, j, X, stride);
     for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
@@ -171,7 +172,7 @@ static void add_nodes(const dmb_dynamic_stiffness *s)
         if (!is_reduced(scene, i)) continue;
         add_block(s, i, i, part(s->factors.diagonal, layout->diag[i]), layout->size[i], diagonal_of(scene, i));
         if (scene->node_element[i] == DMB_NONE) continue;
-        const size_t *link = scene->link_offset + 2 * (size_t)i, inside = diagonal_of(scene, i);
+        const size_t *link = scene->off_diagonal_offset + 2 * (size_t)i, inside = diagonal_of(scene, i);
         const int one = scene->node_block[i] == scene->node_block[i + 1];
         add_block(s, i, i + 1, part(s->factors.upper, layout->link[i]), layout->size[i + 1], one ? inside : link[0]);
         add_block(s, i + 1, i, part(s->factors.lower, layout->link[i]), layout->size[i], one ? inside : link[1]);
@@ -183,7 +184,7 @@ static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, u
 {
     const dmb_scene *scene = &s->linear->scene;
     const uint32_t rows = scene->layout.size[c->node[a]], columns = scene->layout.size[c->node[b]];
-    double re[DMB_NODE_FULL * DMB_NODE_FULL] = {0.0}, im[DMB_NODE_FULL * DMB_NODE_FULL] = {0.0};
+    double re[DMB_NODE_SIX_DOF * DMB_NODE_SIX_DOF] = {0.0}, im[DMB_NODE_SIX_DOF * DMB_NODE_SIX_DOF] = {0.0};
     const dmb_complex_array X = {re, im};
     int acts = 0; /* most joints without laws and loads add nothing */
     for (uint32_t r = 0; r < rows; r++)
@@ -217,22 +218,22 @@ static uint32_t node_of_place(const dmb_dynamic_stiffness *s, uint32_t place)
 }
 
 /* First coordinate whose pivot is of rounding size, or -1. */
-static int64_t loose_place(const dmb_dynamic_stiffness *s)
+static int64_t unconstrained_place(const dmb_dynamic_stiffness *s)
 {
     const dmb_block_pattern *pattern = &s->linear->scene.pattern;
-    const dmb_dynamic_links *links = &s->links;
+    const dmb_jointed_chains *links = &s->links;
     for (uint32_t b = 0; b < pattern->n; b++)
         for (uint32_t i = 0; i < links->size[b]; i++) {
             const size_t at = pattern->diagonal[pattern->position[b]] + (links->size[b] + (size_t)1) * i;
             const uint32_t place = links->row[b] + i;
-            if (dmb_dynamic_is_loose(s, links->matrix.values.re[at], links->matrix.values.im[at],
-                                     links->stiffness[place], links->mass[place]))
+            if (dmb_dynamic_is_unconstrained(s, links->matrix.values.re[at], links->matrix.values.im[at],
+                                             links->stiffness[place], links->mass[place]))
                 return (int64_t)place;
         }
     return -1;
 }
 
-int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *s)
+int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *s)
 {
     const dmb_block_pattern *pattern = &s->linear->scene.pattern;
     dmb_complex_sparse_clear(pattern, &s->links.matrix);
@@ -240,7 +241,7 @@ int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *s)
     add_joints(s);
     const int64_t bad = dmb_complex_sparse_factor(pattern, &s->links.matrix);
     if (bad >= 0) return node_of_place(s, s->links.row[bad]);
-    const int64_t loose = loose_place(s);
+    const int64_t loose = unconstrained_place(s);
     return loose >= 0 ? (int64_t)node_of_place(s, (uint32_t)loose) : -1;
 }
 
@@ -268,7 +269,7 @@ static void expand_rows(const dmb_dynamic_stiffness *s, uint32_t begin, uint32_t
     }
 }
 
-void dmb_dynamic_links_solve(dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_jointed_chains_solve(dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const dmb_scene *scene = &s->linear->scene;
     memset(s->links.solution.re, 0, s->links.count * sizeof(double));

@@ -1,8 +1,8 @@
 /* The motion at the end of a step once more, from the increments found so far and a history that contacts which open
  * have been taken off (eq:contact.release). */
-#include "integrator/attempt.h"
 #include "integrator/step_motion.h"
-#include "sim/parts.h"
+#include "integrator/trial_step.h"
+#include "sim/chunks.h"
 #include "system/assemble/assemble.h"
 #include "system/constrain/rotor.h"
 
@@ -82,10 +82,10 @@ static void refit_nodes(void *work, uint32_t first, uint32_t end)
     for (uint32_t i = first; i < end; i++) refit_node(in->sim, in->c, in->step, i);
 }
 
-void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+void dmb_trial_step_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
     refit_work work = {sim, c, h};
-    dmb_parts_run(sim, sim->scene->node_count, DMB_GRAIN, refit_nodes, &work);
+    dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, refit_nodes, &work);
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
     for (uint32_t i = 0; i < sim->scene->rotor_count; i++) refit_rotor(sim, c, h, i);
 }

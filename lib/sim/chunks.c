@@ -1,9 +1,9 @@
-#include "sim/parts.h"
+#include "sim/chunks.h"
 
 #include <string.h>
 
 /* The first that part number `part` of a run makes. */
-static uint32_t begin_of(const dmb_parts *parts, uint32_t part)
+static uint32_t begin_of(const dmb_chunks *parts, uint32_t part)
 {
     const uint32_t units = (parts->count - 1) / parts->grain + 1;
     const uint64_t begin = (uint64_t)units * part / parts->parts * parts->grain;
@@ -14,30 +14,30 @@ static uint32_t begin_of(const dmb_parts *parts, uint32_t part)
  * run there are none. */
 static void run_part(void *work, uint32_t part)
 {
-    dmb_parts *parts = work;
-    if (part >= parts->parts || parts->mark[part] != DMB_PART_DUE) return;
-    parts->mark[part] = DMB_PART_BEGUN;
+    dmb_chunks *parts = work;
+    if (part >= parts->parts || parts->mark[part] != DMB_CHUNK_DUE) return;
+    parts->mark[part] = DMB_CHUNK_BEGUN;
     const uint32_t first = begin_of(parts, part), end = begin_of(parts, part + 1);
     if (first < end) parts->make(parts->work, first, end);
-    parts->mark[part] = DMB_PART_DONE;
+    parts->mark[part] = DMB_CHUNK_DONE;
 }
 
-void dmb_parts_open(dmb_sim *sim)
+void dmb_chunks_open(dmb_sim *sim)
 {
     const dmb_sim_options *o = &sim->options;
-    sim->parts->failed = 0;
-    sim->parts->parts = 0;
-    sim->parts->open = o->parallel != NULL && o->parallel_parts > 1 && sim->scene->element_count >= o->parallel_least;
+    sim->chunks->failed = 0;
+    sim->chunks->parts = 0;
+    sim->chunks->open = o->parallel != NULL && o->parallel_parts > 1 && sim->scene->element_count >= o->parallel_least;
 }
 
-int32_t dmb_parts_close(dmb_sim *sim)
+int32_t dmb_chunks_close(dmb_sim *sim)
 {
-    sim->parts->open = 0;
-    return sim->parts->failed ? DMB_ERR_CALLBACK : DMB_OK;
+    sim->chunks->open = 0;
+    return sim->chunks->failed ? DMB_ERR_CALLBACK : DMB_OK;
 }
 
 /* After a failure the rest of the step is made here, so that nothing more is asked of the caller's function. */
-static void fail(dmb_parts *parts, int32_t status, uint32_t done)
+static void fail(dmb_chunks *parts, int32_t status, uint32_t done)
 {
     parts->failed = 1;
     parts->open = 0;
@@ -46,9 +46,9 @@ static void fail(dmb_parts *parts, int32_t status, uint32_t done)
     parts->asked = parts->parts;
 }
 
-void dmb_parts_run(const dmb_sim *sim, uint32_t count, uint32_t grain, dmb_range_fn make, void *work)
+void dmb_chunks_run(const dmb_sim *sim, uint32_t count, uint32_t grain, dmb_range_fn make, void *work)
 {
-    dmb_parts *parts = sim->parts;
+    dmb_chunks *parts = sim->chunks;
     if (count == 0) return;
     if (!parts->open || count <= grain) {
         make(work, 0, count);
@@ -59,18 +59,18 @@ void dmb_parts_run(const dmb_sim *sim, uint32_t count, uint32_t grain, dmb_range
     parts->work = work;
     parts->count = count;
     parts->grain = grain;
-    memset(parts->mark, DMB_PART_DUE, sizeof parts->mark);
+    memset(parts->mark, DMB_CHUNK_DUE, sizeof parts->mark);
     parts->parts = units < most ? units : most;
     const int32_t status = sim->options.parallel(sim->options.parallel_context, parts->parts, run_part, parts);
     uint32_t done = 0;
-    for (uint32_t i = 0; i < parts->parts; i++) done += parts->mark[i] == DMB_PART_DONE;
+    for (uint32_t i = 0; i < parts->parts; i++) done += parts->mark[i] == DMB_CHUNK_DONE;
     if (status != 0 || done < parts->parts) fail(parts, status, done);
     parts->parts = 0;
 }
 
-int32_t dmb_parts_explain(dmb_sim *sim)
+int32_t dmb_chunks_explain(dmb_sim *sim)
 {
-    const dmb_parts *parts = sim->parts;
+    const dmb_chunks *parts = sim->chunks;
     if (!parts->failed) return 0;
     if (parts->status != 0)
         dmb_message_set(

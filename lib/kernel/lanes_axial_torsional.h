@@ -1,7 +1,7 @@
 /* Axial-torsional bars (eq:bar.force) side by side: row after row of their nodes, in which stretch and twist take
  * turns. */
-#ifndef DMB_KERNEL_LANES_BAR_H
-#define DMB_KERNEL_LANES_BAR_H
+#ifndef DMB_KERNEL_LANES_AXIAL_TORSIONAL_H
+#define DMB_KERNEL_LANES_AXIAL_TORSIONAL_H
 
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
@@ -30,61 +30,64 @@ static inline double sum_total(const lane_sum *sum)
 }
 
 /* Constants of the bar and coordinate of each lane; kept from group to group while these are the same. */
-typedef struct bar_constants {
+typedef struct axial_torsional_constants {
     uint32_t key[DMB_REAL_LANES]; /* 0: none yet */
     dmb_real stiffness, damping;  /* [N/m, N m/rad], times damping_time */
     dmb_real rest;                /* [m, rad] deformation at the start */
     dmb_real per_length;          /* [1, 1/m] */
     dmb_real mass[2];             /* [kg, kg m2] AA = BB, AB */
-} bar_constants;
+} axial_torsional_constants;
 
-static inline void load_bar(const dmb_bar_job *job, const dmb_element_type *type, int torsion, int l, bar_constants *c)
+static inline void load_axial_torsional(const dmb_axial_torsional_args *args, const dmb_element_type *type, int torsion,
+                                        int l, axial_torsional_constants *c)
 {
     const double stiffness = type->stiffness[torsion ? 3 : 0], *mass = torsion ? type->mass.torsion : type->mass.axial;
     dmb_real_set_lane(&c->stiffness, l, stiffness);
     dmb_real_set_lane(&c->damping, l, type->damping_time * stiffness);
     dmb_real_set_lane(&c->rest, l, torsion ? -type->rest[3] : type->length - type->rest[0]);
-    dmb_real_set_lane(&c->per_length, l, torsion ? job->per_length : 1.0);
+    dmb_real_set_lane(&c->per_length, l, torsion ? args->per_length : 1.0);
     dmb_real_set_lane(c->mass, l, mass[0]);
     dmb_real_set_lane(c->mass + 1, l, mass[1]);
 }
 
 /* True if they are those of whole bars of one type, and the group has these too. */
-static inline int are_same_bars(const dmb_bar_job *job, const lane_group *g, const bar_constants *c)
+static inline int are_same_axial_torsional(const dmb_axial_torsional_args *args, const lane_group *g,
+                                           const axial_torsional_constants *c)
 {
     uint32_t other = g->used < DMB_REAL_LANES || DMB_REAL_LANES == 1 ? 1 : 0;
-    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * job->type[place_at(g, (uint32_t)l) / 2]);
+    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * args->type[place_at(g, (uint32_t)l) / 2]);
     return other == 0;
 }
 
-static inline void load_bars(const dmb_bar_job *job, const lane_group *g, bar_constants *c)
+static inline void load_axial_torsional_group(const dmb_axial_torsional_args *args, const lane_group *g,
+                                              axial_torsional_constants *c)
 {
-    if (are_same_bars(job, g, c)) return;
+    if (are_same_axial_torsional(args, g, c)) return;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = job->type[place_at(g, (uint32_t)l) / 2], torsion = place_at(g, (uint32_t)l) & 1,
+        const uint32_t type = args->type[place_at(g, (uint32_t)l) / 2], torsion = place_at(g, (uint32_t)l) & 1,
                        key = 1 + 2 * type + torsion;
         if (c->key[l] == key) continue;
         c->key[l] = key;
-        load_bar(job, job->types + type, (int)torsion, l, c);
+        load_axial_torsional(args, args->types + type, (int)torsion, l, c);
     }
 }
 
 /* Way along the axis and turn about it of the node that is `after` nodes behind the one of each row. */
-static inline dmb_real load_place(const dmb_bar_job *job, const lane_group *g, size_t after)
+static inline dmb_real load_place(const dmb_axial_torsional_args *args, const lane_group *g, size_t after)
 {
     dmb_real x = dmb_real_of(0.0);
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t node = place_at(g, (uint32_t)l) / 2 + after;
-        dmb_real_set_lane(&x, l, place_at(g, (uint32_t)l) & 1 ? job->turn[node] : job->displacement[3 * node]);
+        dmb_real_set_lane(&x, l, place_at(g, (uint32_t)l) & 1 ? args->turn[node] : args->displacement[3 * node]);
     }
     return x;
 }
 
 /* Forces on the far nodes of the last bars of a group: they are added with the forces on these as near nodes, for
  * memory that is written and read at once in other places keeps the processor waiting. */
-typedef struct bar_ends {
+typedef struct axial_torsional_ends {
     double residual[2], scale[2];
-} bar_ends;
+} axial_torsional_ends;
 
 /* x two rows on: behind the last two of the group before, which those of this one replace. */
 static inline dmb_real two_rows_on(dmb_real x, const lane_group *g, double last[2])
@@ -102,25 +105,25 @@ static inline void add_line(dmb_real a, dmb_real b, const lane_group *g, double 
 }
 
 /* Forces of a bar on the rows of its nodes, a and b, the latter two rows on; and what they do. */
-typedef struct bar_forces {
+typedef struct axial_torsional_forces {
     dmb_real elastic, viscous, mass_a, mass_b;
-} bar_forces;
+} axial_torsional_forces;
 
 /* The length is left out of differences, which keeps their digits. */
-static inline dmb_real elastic_force(const dmb_bar_job *job, const lane_group *g, const bar_constants *c,
-                                     lane_sum *rounding)
+static inline dmb_real elastic_force(const dmb_axial_torsional_args *args, const lane_group *g,
+                                     const axial_torsional_constants *c, lane_sum *rounding)
 {
-    const dmb_real xa = load_place(job, g, 0), xb = load_place(job, g, 1);
+    const dmb_real xa = load_place(args, g, 0), xb = load_place(args, g, 1);
     const dmb_real size = c->stiffness * (c->per_length * (dmb_real_abs(xa) + dmb_real_abs(xb)));
     sum_add(size * size, g, rounding);
     return c->stiffness * ((xb - xa) + c->rest);
 }
 
-static inline void motion_forces(const dmb_bar_job *job, const lane_group *g, const bar_constants *c,
-                                 lane_sum powers[3], bar_forces *f)
+static inline void motion_forces(const dmb_axial_torsional_args *args, const lane_group *g,
+                                 const axial_torsional_constants *c, lane_sum powers[3], axial_torsional_forces *f)
 {
-    const dmb_real va = load_line(job->velocity, g), vb = load_line(job->velocity + 2, g);
-    const dmb_real aa = load_line(job->acceleration, g), ab = load_line(job->acceleration + 2, g);
+    const dmb_real va = load_line(args->velocity, g), vb = load_line(args->velocity + 2, g);
+    const dmb_real aa = load_line(args->acceleration, g), ab = load_line(args->acceleration + 2, g);
     const dmb_real rate = vb - va;
     f->viscous = c->damping * rate;
     f->mass_a = c->mass[0] * aa + c->mass[1] * ab;
@@ -130,39 +133,40 @@ static inline void motion_forces(const dmb_bar_job *job, const lane_group *g, co
     sum_add(va * f->mass_a + vb * f->mass_b, g, powers + 2);
 }
 
-static inline void add_bar_forces(const dmb_bar_job *job, const lane_group *g, const bar_forces *f, bar_ends *ends)
+static inline void add_axial_torsional_forces(const dmb_axial_torsional_args *args, const lane_group *g,
+                                              const axial_torsional_forces *f, axial_torsional_ends *ends)
 {
     const dmb_real force = f->elastic + f->viscous, size = dmb_real_abs(force);
-    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, job->residual);
+    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, args->residual);
     add_line(size + dmb_real_abs(f->mass_a), two_rows_on(size + dmb_real_abs(f->mass_b), g, ends->scale), g,
-             job->scale);
+             args->scale);
 }
 
-static void bars(dmb_bar_job *job)
+static void axial_torsional_elements(dmb_axial_torsional_args *args)
 {
     const dmb_real zero = dmb_real_of(0.0);
     lane_sum rounding, powers[3];
-    bar_constants constants;
-    bar_ends ends = {{0.0, 0.0}, {0.0, 0.0}};
+    axial_torsional_constants constants;
+    axial_torsional_ends ends = {{0.0, 0.0}, {0.0, 0.0}};
     memset(&constants, 0, sizeof constants);
     memset(&rounding, 0, sizeof rounding);
     memset(powers, 0, sizeof powers);
-    for (uint32_t first = 0; first < 2 * job->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, 2 * job->count);
-        bar_forces f = {zero, zero, zero, zero};
-        load_bars(job, &g, &constants);
-        f.elastic = elastic_force(job, &g, &constants, &rounding);
-        if (job->dynamic) motion_forces(job, &g, &constants, powers, &f);
-        add_bar_forces(job, &g, &f, &ends);
+    for (uint32_t first = 0; first < 2 * args->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, 2 * args->count);
+        axial_torsional_forces f = {zero, zero, zero, zero};
+        load_axial_torsional_group(args, &g, &constants);
+        f.elastic = elastic_force(args, &g, &constants, &rounding);
+        if (args->dynamic) motion_forces(args, &g, &constants, powers, &f);
+        add_axial_torsional_forces(args, &g, &f, &ends);
     }
     for (size_t i = 0; i < 2; i++) {
-        job->residual[2 * (size_t)job->count + i] += ends.residual[i];
-        job->scale[2 * (size_t)job->count + i] += ends.scale[i];
+        args->residual[2 * (size_t)args->count + i] += ends.residual[i];
+        args->scale[2 * (size_t)args->count + i] += ends.scale[i];
     }
-    job->rounding += sum_total(&rounding);
-    job->potential -= sum_total(powers);
-    job->damping -= sum_total(powers + 1);
-    job->inertia -= sum_total(powers + 2);
+    args->rounding += sum_total(&rounding);
+    args->potential -= sum_total(powers);
+    args->damping -= sum_total(powers + 1);
+    args->inertia -= sum_total(powers + 2);
 }
 
 #endif
