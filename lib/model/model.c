@@ -103,19 +103,12 @@ static void give_up(dmb_model *model)
     dmb_model_release(model);
 }
 
-static void refuse_re_entry(dmb_model *model)
-{
-    if (model->message.text[0] != '\0') return; /* what the call under way says */
-    dmb_message_set(&model->message, "model: in a call of its own, whose allocator or log function may not change it; "
-                                     "do so when that call has returned");
-}
-
 void dmb_model_destroy(dmb_model **model)
 {
     if (model == NULL) return;
     if (dmb_handle_is(*model, DMB_HANDLE_MODEL)) {
         if ((*model)->busy) {
-            refuse_re_entry(*model);
+            dmb_model_refuse_re_entry(*model);
             return;
         }
         give_up(*model);
@@ -132,185 +125,7 @@ const char *dmb_model_message(const dmb_model *model)
     return failed != NULL ? failed : model->message.text;
 }
 
-/* ---- Ids --------------------------------------------------------------------------------------------------------- */
-
-dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
-{
-    dmb_id id;
-    id.index = kind << DMB_KIND_SHIFT | index;
-    id.generation = model->stamp;
-    return id;
-}
-
-uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
-{
-    switch (kind) {
-    case DMB_PART_TIME_FUNCTION: return model->time_functions.count;
-    case DMB_PART_WALL: return model->wall_count;
-    case DMB_PART_STRING: return model->strings.count;
-    case DMB_PART_BODY: return model->bodies.count;
-    case DMB_PART_BIT: return model->bits.count;
-    case DMB_PART_DRIVE: return model->drives.count;
-    case DMB_PART_LOAD: return model->loads.count;
-    case DMB_PART_JOINT: return model->joints.count;
-    case DMB_PART_COUPLING: return model->couplings.count;
-    case DMB_PART_CONSTRAINT: return model->constraints.count;
-    case DMB_PART_INPUT: return model->inputs.count;
-    case DMB_PART_SPRING: return model->springs.count;
-    case DMB_PART_EVENT: return model->events.count;
-    case DMB_PART_FORCE: return model->forces.count;
-    case DMB_PART_STUCK: return model->stuck.count;
-    case DMB_PART_STABILISER: return model->rings.count;
-    default: return 0;
-    }
-}
-
-uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
-{
-    const uint32_t index = id.index & (uint32_t)DMB_CHUNKS_MAX;
-    if (id.generation != model->stamp || id.index >> DMB_KIND_SHIFT != kind) return DMB_NONE;
-    return index < dmb_model_part_count(model, kind) ? index : DMB_NONE;
-}
-
-/* ---- Couplings --------------------------------------------------------------------------------------------------- */
-
-dmb_coupled_coordinate dmb_coupled_coordinate_of(const dmb_coupling_def *def, uint32_t k)
-{
-    const dmb_coupled_coordinate all[4] = {
-        {def->joint[0], def->component[0], 1.0, "joint[0]", "component[0]", "ratio"},
-        {def->joint[1], def->component[1], def->ratio, "joint[1]", "component[1]", "ratio"},
-        {def->third_joint, def->third_component, def->third_ratio, "third_joint", "third_component", "third_ratio"},
-        {def->fourth_joint, def->fourth_component, def->fourth_ratio, "fourth_joint", "fourth_component",
-         "fourth_ratio"}};
-    return all[k];
-}
-
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
-
-static int32_t refuse_compiled(const dmb_model *model, const char *part)
-{
-    dmb_message message;
-    dmb_message_set(&message, "%s: the model is compiled and does not change any more; describe a new one", part);
-    return dmb_model_fail(model, DMB_ERR_ORDER, part, message.text);
-}
-
-int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def)
-{
-    if (model == NULL) return dmb_model_fail(model, DMB_ERR_NULL, part, NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_fail(model, DMB_ERR_HANDLE, part, NULL);
-    if (model->scene != NULL) return refuse_compiled(model, part);
-    if (model->busy) {
-        refuse_re_entry(model);
-        return dmb_model_fail(model, DMB_ERR_ORDER, part, model->message.text);
-    }
-    model->busy = 1;
-    dmb_model_failure_forget(model);
-    dmb_message_clear(&model->message);
-    if (def != NULL) return DMB_OK;
-    return dmb_describe_end(model, part, NULL, 0, DMB_ERR_NULL);
-}
-
-int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
-{
-    const dmb_log log = {model->log, model->log_context};
-    if (status < 0) {
-        if (model->message.text[0] == '\0') dmb_message_set(&model->message, "%s: %s", part, dmb_status_text(status));
-        dmb_log_text(&log, DMB_LOG_ERROR, model->message.text);
-    }
-    model->busy = 0;
-    return status < 0 ? dmb_model_fail(model, status, part, model->message.text) : status;
-}
-
-int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t status)
-{
-    (void)dmb_describe_close(model, part->part, status);
-    if (status < 0)
-        dmb_refused_remember(&model->refused, part, status, &model->message);
-    else
-        dmb_refused_added(&model->refused, part);
-    return status;
-}
-
-int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string)
-{
-    if (string >= model->strings.count) return DMB_OK;
-    const uint32_t continued = DMB_LIST_AT(const dmb_string_plan, model->strings, string)->continued;
-    if (continued == 0) return DMB_OK;
-    dmb_message_set(&model->message,
-                    "%s: string %u ends at a sub, must be one that nothing continues; take string %u, which continues "
-                    "it",
-                    part, string, continued - 1);
-    return DMB_ERR_ORDER;
-}
-
-int32_t dmb_model_clear_refused(dmb_model *model)
-{
-    if (model == NULL) return dmb_model_fail(model, DMB_ERR_NULL, "model", NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_fail(model, DMB_ERR_HANDLE, "model", NULL);
-    if (model->scene != NULL) return refuse_compiled(model, "model");
-    if (model->busy) return dmb_model_fail(model, DMB_ERR_ORDER, "model", model->message.text);
-    model->refused.kept = model->refused.further = 0; /* the message stays: the refusal is why this is called */
-    return DMB_OK;
-}
-
-int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
-                            dmb_id *id)
-{
-    const int32_t status = dmb_list_append(list, &model->allocator, item, item_size);
-    if (status >= 0 && id != NULL) *id = dmb_model_id(model, kind, list->count - 1);
-    return status;
-}
 
 /* Lists of parts, kept by the growable array of base/vector.h. */
 
-static dmb_vector vector_of(const dmb_list *list, size_t item_size)
-{
-    dmb_vector vector = dmb_vector_of(item_size);
-    vector.items = list->items;
-    vector.count = list->count;
-    vector.capacity = list->capacity;
-    return vector;
-}
-
-int32_t dmb_list_append(dmb_list *list, const dmb_allocator *allocator, const void *item, size_t item_size)
-{
-    dmb_vector vector = vector_of(list, item_size);
-    int32_t status;
-    if (list->count >= (uint32_t)DMB_CHUNKS_MAX) return DMB_ERR_TOO_LARGE;
-    status = dmb_vector_append(&vector, allocator, item, 1);
-    if (status < 0) return status;
-    list->items = vector.items;
-    list->count = (uint32_t)vector.count; /* below 2^24, the capacity below 1.5 times that */
-    list->capacity = (uint32_t)vector.capacity;
-    return DMB_OK;
-}
-
-void dmb_list_release(dmb_list *list, const dmb_allocator *allocator, size_t item_size)
-{
-    dmb_vector vector = vector_of(list, item_size);
-    dmb_vector_release(&vector, allocator);
-    list->items = NULL;
-    list->count = list->capacity = 0;
-}
-
-/* ---- Calls that fail --------------------------------------------------------------------------------------------- */
-
-dmb_failed_object dmb_failed_model(const dmb_model *model)
-{
-    const dmb_failed_object of = {model, model->stamp};
-    return of;
-}
-
-int32_t dmb_model_fail(const dmb_model *model, int32_t status, const char *call, const char *text)
-{
-    if (model == NULL) return dmb_failure(NULL, NULL, status, call, text);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_failure(NULL, NULL, status, call, text);
-    const dmb_failed_object of = dmb_failed_model(model);
-    return dmb_failure(&of, &model->on_error, status, call, text);
-}
-
-void dmb_model_failure_forget(const dmb_model *model)
-{
-    const dmb_failed_object of = dmb_failed_model(model);
-    dmb_failure_forget(&of);
-}

@@ -150,6 +150,8 @@ uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind);
 /* A sim takes hold of a compiled model, and lets go. */
 void dmb_model_hold(dmb_model *model);
 void dmb_model_release(dmb_model *model);
+/* The message of a call that a callback of another call of the same model makes. */
+void dmb_model_refuse_re_entry(dmb_model *model);
 
 /* The part that all dmb_model_add_ functions share: refuse wrong objects, read the caller's struct, append, give out an
  * id, tell the log. */

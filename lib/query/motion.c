@@ -23,11 +23,6 @@
  * the middle, so that a beam loaded at its nodes is exact between them. c is 0 at both ends, so that nodes are
  * reproduced. */
 
-void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose)
-{
-    dmb_node_pose(scene, configuration, node, pose->rotation, pose->displacement);
-}
-
 void dmb_end_pose_at_start(const dmb_scene *scene, uint32_t node, dmb_end_pose *pose)
 {
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * (size_t)node, pose->rotation);

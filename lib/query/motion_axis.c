@@ -2,6 +2,8 @@
  * s_A and s_B of two nodes is at s = (1 - f) s_A + f s_B, with the frame of A transported along the axis and the
  * fraction f of the torsion. */
 #include "element/beam.h"
+#include "math/mat6.h"
+#include "math/se3.h"
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "query/query.h"
@@ -96,4 +98,9 @@ void dmb_axis_start_rotation(const dmb_scene *scene, const dmb_material_point *m
     double carried[9];
     dmb_hole_carry(&scene->hole, ends[0], ends[0] + fraction_of(scene, material_point) * (ends[1] - ends[0]), carried);
     dmb_mat3_mul(carried, R_a, R);
+}
+
+void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose)
+{
+    dmb_node_pose(scene, configuration, node, pose->rotation, pose->displacement);
 }

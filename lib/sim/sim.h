@@ -78,7 +78,7 @@
                                           system/assemble/ledger_work */                                               \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
-    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_motion */   \
+    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */   \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
@@ -120,7 +120,7 @@
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
     X(double, hole_widening, cut, NUMBERS)   /* [m] of the hole's radius at stations, system/assemble/hole_cut,       \
                                                run/state_transfer */                                                  \
-    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_motion */                       \
+    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                       \
     X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */          \
     X(double, stuck_anchor, 12 * stuck, NUMBERS)  /* [-, m] R and x of the place where it got stuck:                  \
                                                      system/assemble/stuck */                                         \
@@ -170,16 +170,17 @@
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
                                 analysis/static/static_newton; without free rotations: analysis/static/static_spin;    \
-                                pulls and stretches: analysis/static/static_guess */                                     \
+                                halved: integrator/newton; pulls and stretches: analysis/static/static_guess */                                     \
     X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin   \
                                      with: system/assemble/inertia_of_change */                                     \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
     X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force  \
-                                  in the history of the step; else 0: system/jump */                                  \
+                                  in the history of the step; else 0: system/jump, system/assemble/bounces */                                  \
     X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/companion */  \
-    X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces */   \
+    X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces,                  \
+                                  integrator/companion */   \
     X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,            \
                                 integrator/companion */                                                                  \
     X(uint8_t, site_presses, s) /* 1: with a force > 0 in the trial: system/assemble/wall_contact */                   \

@@ -212,18 +212,6 @@ void dmb_linear_release(dmb_linear **linear)
 /* Units of rounding of a pose that count. */
 #define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
 
-dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear)
-{
-    dmb_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    evaluation.sim = linear->work;
-    evaluation.time = linear->work->clock->time;
-    evaluation.pseudo_factor = 1.0;
-    evaluation.load_factor = linear->load_factor;
-    evaluation.dynamic = 1;
-    return evaluation;
-}
-
 /* Largest force on a solved row; moments over the length of the chain. */
 static void find_largest(dmb_linear *linear)
 {

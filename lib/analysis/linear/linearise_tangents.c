@@ -19,22 +19,6 @@ static void copy_blocks(const dmb_block_layout *layout, const double *diagonal, 
     memcpy(to->upper, upper, layout->link[layout->n - 1] * sizeof(double));
 }
 
-void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matrix *from, dmb_linear_matrix *to)
-{
-    const dmb_block_layout *layout = &scene->layout;
-    dmb_linear_add_array(factor, from->diagonal, layout->diag[layout->n], to->diagonal);
-    dmb_linear_add_array(factor, from->lower, layout->link[layout->n - 1], to->lower);
-    dmb_linear_add_array(factor, from->upper, layout->link[layout->n - 1], to->upper);
-    dmb_linear_add_array(factor, from->joints, scene->tangent_count, to->joints);
-}
-
-dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work)
-{
-    const dmb_linear_matrix A = {work->stiffness_diagonal, work->stiffness_lower, work->stiffness_upper,
-                                 work->constraint_tangent};
-    return A;
-}
-
 /* At increments of 0 the links hold stiffness plus inertia, or inertia alone; forces of constraint are given. */
 static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double velocity_factor, double step,
                                 int32_t inertia_only)

@@ -33,7 +33,7 @@ DMB_DEFINE_INIT(dmb_speeds_options, 80,
                     .equilibrium_tolerance = 1e-6,
                 })
 
-DMB_DEFINE_INIT(dmb_speed_band, 56, {.severity = 0.0})
+DMB_DECLARE_STRUCT(dmb_speed_band)
 
 DMB_DEFINE_INIT(dmb_speeds_report, 24, {.bands = 0})
 

@@ -4,7 +4,10 @@
 
 #include <math.h>
 
+#include "base/sized_struct.h"
 #include "math/real.h"
+
+DMB_DEFINE_INIT(dmb_speed_band, 56, {.severity = 0.0})
 
 /* Last point at or below the speed, but for the last of all. */
 static uint32_t place_of(const dmb_speeds_curve *curve, double speed)

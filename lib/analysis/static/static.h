@@ -137,6 +137,9 @@ int32_t dmb_static_evaluate(dmb_static_search *search);
 /* Finds the unconstrained rotations of strings at the trial; later evaluations constrain them. Errors as
  * dmb_static_evaluate. */
 int32_t dmb_static_find_spins(dmb_static_search *search);
+/* Component of a node that is its spin, and the entry of the stiffness on it. */
+uint32_t dmb_static_spin_row(const dmb_scene *scene, uint32_t node);
+double *dmb_static_spin_stiffness(dmb_sim *sim, uint32_t node);
 /* In an evaluation: stiffness and residual of the nodes that are held. In a correction: the rotation of whole strings
  * is taken out. */
 void dmb_static_apply_spins(dmb_static_search *search);

@@ -3,33 +3,27 @@
  * string that hangs freely. */
 #include <math.h>
 
+#include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"
+#include "system/assemble/assemble.h"
+#include "system/assemble/drives.h"
+#include "system/constrain/constrain.h"
+#include "system/solve/solve.h"
+#include "system/system.h"
+#include <string.h>
 
 /* [m] Penetration under a force [N] */
 static double sink(const dmb_scene *scene, const dmb_site *site, double depth, double force)
 {
     const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, depth);
     return pow(force / (law.stiffness * site->length), 1.0 / law.exponent);
-}
-
-int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node)
-{
-    const uint8_t *solved = scene->solved_row + scene->layout.row[node];
-    return scene->layout.size[node] == DMB_NODE_SIX_DOF && solved[DMB_Y] && solved[DMB_Z];
-}
-
-void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3])
-{
-    const double x[3] = {1.0, 0.0, 0.0};
-    double axis[3];
-    if (dmb_static_is_free_along(sim->scene, node)) return;
-    dmb_quat_rotate(sim->trial.quaternion + 4 * (size_t)node, x, axis);
-    dmb_vec3_axpy(dmb_vec3_dot(back, axis), axis, sim->trial.displacement + 3 * (size_t)node);
 }
 
 /* 1: the initial guess places the node by this ring, the first ring of its node, at the node itself. */
@@ -74,11 +68,6 @@ void dmb_static_guess_on_wall(dmb_sim *sim)
 }
 
 /* ---- Tension of strings ------------------------------------------------------------------------------------------ */
-
-int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node)
-{
-    return scene->solved_row[scene->layout.row[node] + DMB_X] != 0;
-}
 
 /* The tension of an element is the sum of the axial forces beyond it, from the free end; the residual is their
  * negative. */
@@ -211,39 +200,6 @@ double dmb_static_softness(const dmb_static_search *search, const dmb_static_pul
     return fmin(most, DMB_SOFTEST);
 }
 
-/* ---- Solution from the initial guess ----------------------------------------------------------------------------- */
-
-/* The wall is first so soft that the tension presses rings into it by this multiple of their clearance: moves of that
- * size then open and close no contacts. Each solution is the start of the next one on a wall stiffer by DMB_HARDER. */
-static const double pressed_in[] = {10.0, 1.0};
-#define DMB_HARDER 10.0
-
-static int32_t harden(dmb_static_search *search, double softness)
-{
-    int32_t status = DMB_OK;
-    for (; status >= 0 && softness > 1.0; softness /= DMB_HARDER) {
-        search->evaluation.wall_softness = softness;
-        status = dmb_static_newton(search);
-    }
-    search->evaluation.wall_softness = 0.0;
-    return status < 0 ? status : dmb_static_newton(search);
-}
-
-int32_t dmb_static_from_pull(dmb_static_search *search)
-{
-    int32_t status = DMB_ERR_NO_CONVERGENCE;
-    for (size_t k = 0; k < sizeof pressed_in / sizeof *pressed_in; k++) {
-        dmb_static_pull pull;
-        const int32_t found = dmb_static_find_pull(search, &pull);
-        if (found <= 0) return found < 0 ? found : status;
-        search->load_steps = 1;
-        dmb_static_guess_by_pull(search);
-        status = harden(search, dmb_static_softness(search, &pull, pressed_in[k]));
-        if (status >= 0 || dmb_is_final(status)) return status;
-    }
-    return status;
-}
-
 /* ---- Walls that are stiff for their clearance -------------------------------------------------------------------- */
 
 int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *out)
@@ -262,4 +218,16 @@ int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *ou
         out->softer = scene->normal_law.stiffness * pow(10.0 * least, scene->normal_law.exponent);
     }
     return least < DMB_STIFF_WALL;
+}
+
+int32_t dmb_static_begin(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+    int32_t status = dmb_system_prescribe(&search->evaluation);
+    if (status >= 0 && search->options->lay_on_wall) dmb_static_guess_on_wall(sim);
+    if (status < 0 || sim->scene->cluster_count == 0) return status;
+    sim->reduced_mode->row = DMB_NONE;
+    return dmb_static_settle(search);
 }

@@ -1,10 +1,21 @@
 /* Moves of the trial by a correction. All variants agree to first order; in a hole the finite move keeps the invariants
  * of the equations, therefore strings that wind up by radians and climb around the wall converge as fast as others. */
+#include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "math/se3.h"
+#include "math/so3.h"
 #include "math/vec3.h"
+#include "sim/access.h"
+#include "sim/layout.h"
 #include "sim/node.h"
+#include "system/assemble/assemble.h"
+#include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
+#include "system/solve/solve.h"
+#include "system/system.h"
+#include <math.h>
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
@@ -227,4 +238,24 @@ void dmb_static_fix_axes(dmb_sim *sim)
             K[6 * (c + 1) + DMB_RX] += r[c];
         }
     }
+}
+
+int dmb_static_is_free_across(const dmb_scene *scene, uint32_t node)
+{
+    const uint8_t *solved = scene->solved_row + scene->layout.row[node];
+    return scene->layout.size[node] == DMB_NODE_SIX_DOF && solved[DMB_Y] && solved[DMB_Z];
+}
+
+int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node)
+{
+    return scene->solved_row[scene->layout.row[node] + DMB_X] != 0;
+}
+
+void dmb_static_stay_along(dmb_sim *sim, uint32_t node, const double back[3])
+{
+    const double x[3] = {1.0, 0.0, 0.0};
+    double axis[3];
+    if (dmb_static_is_free_along(sim->scene, node)) return;
+    dmb_quat_rotate(sim->trial.quaternion + 4 * (size_t)node, x, axis);
+    dmb_vec3_axpy(dmb_vec3_dot(back, axis), axis, sim->trial.displacement + 3 * (size_t)node);
 }

@@ -113,15 +113,6 @@ void dmb_system_move(dmb_sim *sim)
     dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, move_nodes, sim);
 }
 
-double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component)
-{
-    const dmb_sim *sim = evaluation->sim;
-    double z[6];
-    dmb_vec6_copy(sim->increment + sim->scene->layout.row[node], z);
-    if (evaluation->step > 0.0) dmb_rotor_add_travel(sim, node, z);
-    return z[component];
-}
-
 static int32_t finite_status(const dmb_sim *sim)
 {
     const double sum = sim->scene->kernels->magnitude(sim->scene->row_count, sim->residual);

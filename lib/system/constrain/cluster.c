@@ -62,13 +62,6 @@ int32_t dmb_clusters_assemble(dmb_evaluation *evaluation)
     return status;
 }
 
-int32_t dmb_cluster_singular(dmb_sim *sim, uint32_t row, double violation)
-{
-    sim->reduced_mode->row = row;
-    sim->reduced_mode->violation = violation;
-    return DMB_ERR_SINGULAR;
-}
-
 int32_t dmb_clusters_factor(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {

@@ -1,0 +1,57 @@
+/* Release of unilateral forces at the end of a bounce, and the accelerations after it. */
+#include "system/assemble/bounces.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "system/assemble/assemble.h"
+
+/* Joint of a law, and which of its six it is. */
+static uint32_t joint_of(const dmb_scene *scene, uint32_t u)
+{
+    for (uint32_t j = 0; j < scene->joint_count; j++)
+        if (scene->joints[j].law != DMB_NONE && u - scene->joints[j].law < 6) return j;
+    return DMB_NONE;
+}
+
+void dmb_bounce_press(dmb_evaluation *evaluation, uint32_t u, double force)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (u < sim->scene->law_count)
+        dmb_joint_press(evaluation, joint_of(sim->scene, u), u % 6, force);
+    else
+        dmb_spring_press(sim, u - sim->scene->law_count, force);
+}
+
+static void mark_nodes(dmb_sim *sim, double *part)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++)
+        for (uint32_t r = layout->row[i]; r < layout->row[i + 1]; r++)
+            if (sim->residual[r] != 0.0) part[i] = 1.0;
+}
+
+void dmb_bounces_release(dmb_evaluation *evaluation, double *rows, double *part)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t n = sim->scene->row_count;
+    if (sim->scene->unilateral_count == 0) return;
+    memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
+    memset(sim->residual, 0, n * sizeof(double));
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (sim->bounce_mode[u] == DMB_BOUNCE_OPENS) dmb_bounce_press(evaluation, u, sim->now.bounce_force[u]);
+    mark_nodes(sim, part);
+    for (uint32_t i = 0; i < n; i++) rows[i] += sim->residual[i];
+    memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));
+}
+
+void dmb_bounces_jump(dmb_sim *sim)
+{
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) sim->site_age[s] &= DMB_SITE_OWN - 1;
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++) {
+        sim->bounce_age[u] = fabs(sim->bounce_age[u]);
+        sim->now.bounce_place[u] = sim->trial.bounce_place[u];
+        sim->now.bounce_force[u] = sim->trial.bounce_force[u];
+        sim->now.bounce_speed[u] = sim->trial.bounce_speed[u];
+    }
+}

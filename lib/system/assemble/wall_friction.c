@@ -1,0 +1,41 @@
+/* Friction laws at contact points of the wall: of the section of the hole, of sliding alone, at the end of a step. */
+#include "system/assemble/assemble.h"
+
+#include "kernel/kernels.h"
+#include "sim/node.h"
+#include "system/assemble/bounces.h"
+#include "system/assemble/evaluation.h"
+
+const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *c, uint32_t site,
+                                                 dmb_friction_law *local)
+{
+    if (scene->hole.pieces == 0) return &scene->friction_law;
+    const double depth =
+        site < scene->site_count
+            ? c->site_depth[site]
+            : dmb_axial_torsional_depth(scene, c, scene->axial_torsional_sites[site - scene->site_count].node);
+    *local = dmb_friction_law_at(&scene->hole, &scene->friction_law, depth);
+    return local;
+}
+
+dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
+{
+    dmb_friction_law sliding = *law;
+    sliding.kind = DMB_FRICTION_STRIBECK;
+    sliding.smoothing_speed = sliding.peak_bump = sliding.peak_level = 0.0;
+    return sliding;
+}
+
+void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out)
+{
+    const double N = out->normal_force, *slip = out->slip;
+    double z[2], dv[4], dN[2];
+    out->friction[0] = out->friction[1] = 0.0;
+    out->sticks = sticks;
+    const dmb_local_friction local = dmb_local_friction_of(law);
+    if (law->kind == DMB_FRICTION_NONE) return;
+    if (law->kind == DMB_FRICTION_BRISTLE)
+        (void)dmb_friction_bristle(&local, N, slip, bristle, slip, sticks != 0, 0.0, z, out->friction, dv, dN);
+    else
+        dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
+}
