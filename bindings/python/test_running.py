@@ -130,7 +130,7 @@ class NotesTest(unittest.TestCase):
     def test_work_limited(self):
         sim = self.run_of(bounded_work=1, max_iterations=1)
         with self.assertWarnsRegex(RuntimeWarning, "^run: step to time .* accepted as asked"):
-            at = sim.run(0.2, step=5e-3)
+            at = sim.run(0.2, step=STEP)
         self.assertGreater(sim.statistics().limited_steps, 0)
         self.assertEqual(at.status, mbd.NOTE_WORK_LIMITED)
         self.assertEqual(list(at.notes), [mbd.NOTE_WORK_LIMITED])
@@ -155,6 +155,10 @@ class NotesTest(unittest.TestCase):
 
 
 class InterruptTest(unittest.TestCase):
+    def setUp(self):
+        """As in a program of a user's, whatever a command of another test has installed."""
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+
     def test_within_a_third_of_a_second(self):
         """With and without a callback; the recorder has all rows up to there, and the sim goes on."""
         for callback in (False, True):

@@ -3,6 +3,8 @@ import contextlib
 import io
 import math
 import pathlib
+import re
+import sys
 import tempfile
 import unittest
 
@@ -22,6 +24,18 @@ def said(*words):
 
 
 class StartingTest(unittest.TestCase):
+    def test_missing_module(self):
+        """The message names the interpreter that misses it: another one may have it."""
+        from drillmbd._optional import need
+        with self.assertRaisesRegex(ImportError, f"nowhere.module is needed .* by {re.escape(sys.executable)}: pip install nowhere, .*"
+                                    "install-packages command"):
+            need("nowhere.module")
+
+    def test_command_has_the_interpreter_of_the_packages(self):
+        """Debian's packages are for /usr/bin/python3; the first python3 of PATH may be another one."""
+        lines = (pathlib.Path(__file__).parent / "drillmbd-command").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[0], "#!/usr/bin/python3")
+
     def test_new_scenes_load(self):
         for kind in new.OPTIONS:
             status, text, _ = said("new", kind, "--length", "200", "--rod", "73", "--bore", "59 mm")
