@@ -225,7 +225,8 @@ typedef struct dmb_profile_recorder {
     double interval;    /* [s] between rows, 0: every call */
 } dmb_profile_recorder;
 DMB_SIZED_STRUCT(dmb_profile_recorder)
-/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; errors of dmb_query_profile. */
+/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; errors of dmb_query_profile;
+ * DMB_ERR_ORDER before the time of the last row, as after a restore: set row_count to the number of rows to keep. */
 DMB_API int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim *sim);
 /* CSV, a line for each row and station: time [s], station, then the quantities with their units. DMB_ERR_IO. */
 DMB_API int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path);

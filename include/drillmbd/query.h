@@ -378,7 +378,8 @@ typedef struct dmb_recorder {
     const dmb_window *window;  /* of the outputs of a window (output.h), fed by the caller before; default NULL */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)
-/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room. O(outputs). */
+/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; DMB_ERR_ORDER before the time of the last
+ * row, as after a restore: set row_count to the number of rows to keep. O(outputs). */
 DMB_API int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim);
 /* Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). DMB_ERR_IO on failure: this and
  * all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a

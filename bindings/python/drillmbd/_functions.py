@@ -399,7 +399,7 @@ FUNCTION_DOCS = {
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
     "dmb_profile_recorder_take":
-        "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile.",
+        "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile; ERR_ORDER before the time of the last row, as after a restore: set row_count to the number of rows to keep.",
     "dmb_profile_recorder_write_csv":
         "CSV, a line for each row and station: time [s], station, then the quantities with their units. ERR_IO.",
     "dmb_query_constraint_rows":
@@ -439,7 +439,7 @@ FUNCTION_DOCS = {
     "dmb_query_statistics":
         "O(number of joints, couplings and constraints).",
     "dmb_recorder_take":
-        "Writes a row if its time has come. NOTE_FULL when the table has no room. O(outputs).",
+        "Writes a row if its time has come. NOTE_FULL when the table has no room; ERR_ORDER before the time of the last row, as after a restore: set row_count to the number of rows to keep. O(outputs).",
     "dmb_recorder_write_csv":
         "Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). ERR_IO on failure: this and all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device.",
     "dmb_response_destroy":
