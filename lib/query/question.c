@@ -23,7 +23,7 @@ static void explain_id(const dmb_model *model, const char *word, dmb_id id, dmb_
     else if (index == DMB_NONE)
         dmb_message_set(why, "%s: the id names no part of this model", word);
     else
-        dmb_message_set(why, "%s: the id names %s, which has no such answer; give a part of another kind", word,
+        dmb_message_set(why, "%s: the id names %s, which has no such result; give a part of another kind", word,
                         dmb_model_part_text(model, kind, index, &text));
 }
 

@@ -323,7 +323,7 @@ FUNCTION_DOCS = {
     "dmb_model_add_force":
         "Errors as of a spring; ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady` of statics) are refused where it acts on moving parts.",
     "dmb_model_add_hole_sections":
-        "Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that change too fast, and parts wider than the hole (ERR_GEOMETRY). Errors: ERR_VALUE, _NOT_FINITE, _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections).",
+        "Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that change too fast, and parts wider than the hole (ERR_GEOMETRY). Errors: ERR_VALUE, _NOT_FINITE, _STRUCT_SIZE, _NO_MEMORY; no section is added then. A query of the hole at a depth is O(log sections).",
     "dmb_model_add_input":
         "Errors: ERR_ID; ERR_VALUE for bounds, limits, a name that another input has, a target that has one already; ERR_UNSUPPORTED where the part has no such target.",
     "dmb_model_add_joint":
@@ -523,7 +523,7 @@ FUNCTION_DOCS = {
     "dmb_window_reset":
         "Forgets all samples.",
     "dmb_window_take":
-        "Takes a sample; call it after each step. A second one at the same time counts for nothing; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs).",
+        "Takes a sample; call it after each step. A second one at the same time is ignored; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(outputs).",
     "dmb_write_vtk_hole":
         "The hole as a tube of `around` facets (3 .. 360) with a circle each `spacing` [m] from depth0 to depth1 [m].",
     "dmb_write_vtk_mode":

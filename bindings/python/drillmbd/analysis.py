@@ -58,7 +58,7 @@ class Analyses(AnalysisCalls):
         def path(self, visit: Callable[[Sim, PathPoint], Any] | None = None, options: PathOptions | None = None,
                  **fields: Any) -> PathReport:
             """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
-            sim that stands there and may be asked until it returns; what is true stops the path."""
+            sim that is there and may be queried until it returns; True stops the path."""
             from .sim import SimAt
             options, report = struct(PathOptions, options, fields), PathReport()
             raised: list[BaseException] = []
@@ -142,8 +142,8 @@ class Analyses(AnalysisCalls):
         def speeds(self, orders: Sequence[Order], outputs: Sequence[ResponseOutput], limits: Sequence[float], room: int = 64,
                    options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
             """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
-            Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
-            answer lacks excitation, damping or range (NOTE_INCOMPLETE)."""
+            Order excites, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands state where the
+            result lacks excitation, damping or range (NOTE_INCOMPLETE)."""
             options = struct(SpeedsOptions, options, fields)
             room = whole(room, "speeds", "room", 1, 2 ** 20)
             allowed = (c_double * len(outputs))(*reals(limits, "speeds", "limits", len(outputs)))
@@ -234,7 +234,7 @@ OPERATIONS = [kind for kind in OperationKind if kind < OPERATION_COUNT]
 
 
 def as_operation(one: Any) -> Operation:
-    """The Operation; OPERATION_... or a name as "pick-up" stands for the usual one."""
+    """The Operation; OPERATION_... or a name as "pick-up" selects the usual one."""
     return one if isinstance(one, Operation) else usual_operation(one)
 
 
@@ -323,7 +323,7 @@ class Response(Handle):
 
 
 class Shaped(Handle):
-    """An answer with a shape at each place."""
+    """A result with a shape at each place."""
     _parts: Parts
 
     def _answered(self, place: Place, status: int) -> int:

@@ -199,7 +199,7 @@ class Model(Handle, ModelCalls):
 
         @mirrors("dmb_model_add_stabiliser")
         def add_stabiliser(self, definition: StabiliserDef | None = None, **fields: Any) -> Id:
-            """Adds a ring at any place of a string, by a StabiliserDef or its fields; returns its id."""
+            """Adds a stabiliser at any place of a string, by a StabiliserDef or its fields; returns its id."""
             return self._add("stabiliser", StabiliserDef, definition, fields)
 
         @mirrors("dmb_model_add_joint")

@@ -159,7 +159,7 @@ class Sim(Handle, analysis.Analyses):
         recorder takes a row after each step, and so do counters: objects with a take(), as fatigue and windows.
         progress(Progress) is called each `every` seconds by the clock and at the end; True, if it is returned, stops the
         run there; True shows a bar on the terminal. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can continue,
-        and the recorder has all rows so far. The answer has the notes of all steps; a full recorder, and steps above their
+        and the recorder has all rows so far. The result has the notes of all steps; a full recorder, and steps above their
         tolerance, are a RuntimeWarning too. begin: of a run
         that continues from a snapshot, the time [s] where it began, by which its calls are divided; left out: now."""
         at = self.run_noting(end, step, recorder, progress, every, counters, begin)
@@ -169,7 +169,7 @@ class Sim(Handle, analysis.Analyses):
     def run_noting(self, end: float, step: float | None = None, recorder: Recorder | None = None,
                    progress: Callable[[Progress], Any] | bool | None = None, every: float = 0.2,
                    counters: Sequence[Taker] = (), begin: float | None = None) -> Progress:
-        """As run, without warnings: the notes are in the answer alone."""
+        """As run, without warnings: the notes are in the result alone."""
         end = real(end, "run", "end", "s")
         begin = self.time if begin is None else real(begin, "run", "begin", "s")
         lengths = Lengths(begin, end, None if step is None else real(step, "run", "step", "s"))
@@ -353,7 +353,7 @@ class Sim(Handle, analysis.Analyses):
         return answer
 
     def stuck(self, stuck: StuckId | str) -> StuckState:
-        """Whether a place is stuck; offset, force that holds it, share of what frees it."""
+        """Whether a place is stuck; offset, force that holds it, share of the release load."""
         answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), as_id(stuck, self._parts, "stuck"))
         return answer
 
@@ -454,7 +454,7 @@ class SimAt(Sim):
         self._handle, self._keep, self._scene, self._parts = c_void_p(handle), of._keep, of._scene, of._parts
 
     def close(self) -> None:
-        """Nothing is given back: it is not ours."""
+        """Nothing is destroyed: it is not ours."""
         self._handle = None  # type: ignore[assignment]
 
 
