@@ -1,5 +1,5 @@
 // libdrillmbd for C++11 and later: owners of models and sims that clean up after themselves, failures as exceptions.
-// Everything else is the C interface: its structs, ids, constants and units; see drillmbd/model.h, sim.h, query.h.
+// Everything else is the C interface: its structs, ids, constants and units; see drillmbd/scene.h, sim.h, query.h.
 //
 //     drillmbd::model model;
 //     dmb_wall_def wall = dmb_wall_def_default();
@@ -1004,7 +1004,7 @@ public:
         return event;
     }
     void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
-    // The status may be the note that a bound was taken instead (control.h).
+    // The status may be the note that a bound was taken instead (drillmbd/scene.h).
     std::int32_t set_input(dmb_id which, double value) { return done(try_set_input(which, value)); }
     DRILLMBD_NODISCARD dmb_input_state input(dmb_id which) const
     {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 
 /* [rad/s] Below this spin the laws are reduced smoothly towards rest: cutting ends at Omega = 0 and the torque of the
  * wear flat changes sign smoothly. Above it they are exact. 0.5 rpm. */

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "math/real.h"
 
 enum { DMB_FRICTION_POINTS = 8 }; /* [-] of a table, as of dmb_wall_def */

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "force/friction_law.h"
 #include "force/normal_law.h"
 #include "math/vec3.h"

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "force/mean_force.h"
 #include "math/elementary.h"
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 
 /* ---- Springs between points -------------------------------------------------------------------------------------- */
 

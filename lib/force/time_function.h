@@ -6,14 +6,14 @@
 
 #include <stdint.h>
 
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "force/reference.h"
 
 /* [units of a time function, a constraint] Largest absolute value that a callback may return; the bound of numbers of a
  * model. */
 #define DMB_CALLBACK_MAX 1e30
 
-/* Kind of a segment in addition to those of drillmbd/model.h: its callback_context is the dmb_reference
+/* Kind of a segment in addition to those of drillmbd/scene.h: its callback_context is the dmb_reference
  * (force/reference.h) of an input. Definitions cannot use it. */
 enum { DMB_SEGMENT_REFERENCE = 6 };
 

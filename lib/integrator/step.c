@@ -5,7 +5,7 @@
 
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/sim.h"
+#include "drillmbd/run.h"
 #include "integrator/breakpoint.h"
 #include "integrator/newton.h"
 #include "integrator/trial_step.h"

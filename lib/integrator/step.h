@@ -3,7 +3,7 @@
 #ifndef DMB_INTEGRATOR_STEP_H
 #define DMB_INTEGRATOR_STEP_H
 
-#include "drillmbd/sim.h"
+#include "drillmbd/run.h"
 #include "integrator/trial_step.h"
 
 typedef struct dmb_stepping {

@@ -1,11 +1,10 @@
-/* The calls that add parts to a model share: reading and writing of the structs of drillmbd/model.h, whose T_init stand
+/* The calls that add parts to a model share: reading and writing of the structs of drillmbd/scene.h, whose T_init stand
  * in describe_defaults.c, and the release of what the model has copied. */
 #ifndef DMB_MODEL_DESCRIBE_H
 #define DMB_MODEL_DESCRIBE_H
 
 #include "base/sized_struct.h"
-#include "drillmbd/control.h"
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "model/model.h"
 
 DMB_DECLARE_STRUCT(dmb_model_options)

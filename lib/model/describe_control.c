@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/sized_struct.h"
-#include "drillmbd/control.h"
+#include "drillmbd/scene.h"
 #include "model/field_check.h"
 #include "model/model.h"
 

@@ -1,7 +1,7 @@
 /* Springs between two points, and forces by the caller's functions. */
 #include "base/memory.h"
 #include "constraint/joint.h"
-#include "drillmbd/bha.h"
+#include "drillmbd/scene.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"

@@ -3,7 +3,7 @@
 
 #include "base/failure.h"
 #include "base/value_check.h"
-#include "drillmbd/bha.h"
+#include "drillmbd/scene.h"
 #include "force/actuator_law.h"
 #include "math/so3.h"
 #include "model/describe.h"

@@ -1,5 +1,5 @@
 /* Strings without their pipes. */
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "math/quadrature.h"
 #include "model/describe.h"
 #include "model/field_check.h"

@@ -1,7 +1,7 @@
 /* Subs, bodies in the middle of a string, and the sections that continue the string after them: poses from the pipes
  * described so far (eq:kinematics.far-end). */
 #include "base/memory.h"
-#include "drillmbd/bha.h"
+#include "drillmbd/scene.h"
 #include "force/hole.h"
 #include "math/se3.h"
 #include "model/describe.h"

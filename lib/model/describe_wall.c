@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "drillmbd/hole.h"
+#include "drillmbd/scene.h"
 #include "force/mud_flow.h"
 #include "math/real.h"
 #include "model/describe.h"

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "base/value_check.h"
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "model/model.h"
 
 #define DMB_LENGTH_MIN 1e-6      /* [m] of lengths and diameters that must be > 0 */

@@ -30,7 +30,7 @@
 
 #include "base/memory.h"
 #include "base/value_check.h"
-#include "drillmbd/model.h"
+#include "drillmbd/scene.h"
 #include "element/element_type.h"
 #include "model/model.h"
 

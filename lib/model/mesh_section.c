@@ -3,7 +3,7 @@
  *     p = (y1 - y0)/h - (m0 + m1)/2,
  * which is one parabola where the two lines meet. Behind them the values hold or go straight on. The mean over the
  * transition of a step is that of the sharp one, so that friction takes the same work. */
-#include "drillmbd/hole.h"
+#include "drillmbd/scene.h"
 #include "force/hole.h"
 #include "model/field_check.h"
 #include "model/mesh.h"

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/sized_struct.h"
-#include "drillmbd/hole.h"
+#include "drillmbd/scene.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/scene.h"
@@ -128,4 +128,3 @@ const char *dmb_model_message(const dmb_model *model)
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
 
 /* Lists of parts, kept by the growable array of base/vector.h. */
-

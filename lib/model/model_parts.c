@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/sized_struct.h"
-#include "drillmbd/hole.h"
+#include "drillmbd/scene.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/scene.h"

@@ -5,11 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/control.h"
-#include "drillmbd/forces.h"
-#include "drillmbd/model.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 
 /* ---- Fields of definitions --------------------------------------------------------------------------------------- */
 

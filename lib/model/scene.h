@@ -12,9 +12,8 @@
 #include <stdint.h>
 
 #include "base/message.h"
-#include "drillmbd/forces.h"
-#include "drillmbd/model.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
+#include "drillmbd/scene.h"
 #include "element/element_type.h"
 #include "force/actuator_law.h"
 #include "force/bit_rock.h"

@@ -4,8 +4,7 @@
 
 #include <stdint.h>
 
-#include "drillmbd/forces.h"
-#include "drillmbd/joints.h"
+#include "drillmbd/scene.h"
 
 /* A material point at any place, or a point of the ground. */
 typedef struct dmb_scene_point {

@@ -2,8 +2,7 @@
 #ifndef DMB_MODEL_SECTION_H
 #define DMB_MODEL_SECTION_H
 
-#include "drillmbd/model.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "element/element_type.h"
 
 typedef struct dmb_pipe_section {

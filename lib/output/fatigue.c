@@ -8,7 +8,7 @@
 #include "base/failure.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
 #include "math/real.h"
 #include "model/section.h"
 #include "query/query.h"

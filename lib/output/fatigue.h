@@ -3,7 +3,7 @@
 #define DMB_OUTPUT_FATIGUE_H
 
 #include "base/memory.h"
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
 #include "output/output.h"
 
 /* A point of a section. */

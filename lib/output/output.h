@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "drillmbd/output.h"
+#include "drillmbd/ask.h"
 #include "output/text_file.h"
 #include "sim/sim.h"
 

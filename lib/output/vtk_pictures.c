@@ -5,7 +5,7 @@
 #include "analysis/modes/modes.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
 #include "math/so3.h"
 #include "model/model.h"
 #include "output/output.h"

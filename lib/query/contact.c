@@ -4,9 +4,8 @@
 #include <string.h>
 
 #include "base/sized_struct.h"
-#include "drillmbd/bha.h"
-#include "drillmbd/hole.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
+#include "drillmbd/scene.h"
 #include "force/hole.h"
 #include "math/real.h"
 #include "math/vec3.h"

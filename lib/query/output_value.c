@@ -5,9 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/control.h"
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "sim/access.h"
 
 static int32_t pose_value(const dmb_sim *sim, const dmb_output *output, double *value)

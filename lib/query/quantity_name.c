@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/failure.h"
-#include "drillmbd/output.h"
+#include "drillmbd/ask.h"
 #include "query/query.h"
 
 /* ---- Outputs ---------------------------------------------------------------------------------------------------- */

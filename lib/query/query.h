@@ -3,11 +3,9 @@
 #ifndef DMB_QUERY_QUERY_H
 #define DMB_QUERY_QUERY_H
 
-#include "drillmbd/bha.h"
-#include "drillmbd/forces.h"
-#include "drillmbd/output.h"
-#include "drillmbd/query.h"
-#include "drillmbd/state_space.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/ask.h"
+#include "drillmbd/scene.h"
 #include "element/beam.h"
 #include "model/model.h"
 #include "sim/sim.h"

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/sized_struct.h"
-#include "drillmbd/forces.h"
-#include "drillmbd/state_space.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/scene.h"
 #include "element/beam.h"
 #include "math/mat6.h"
 #include "math/vec3.h"

@@ -5,8 +5,8 @@
 
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/modes.h"
-#include "drillmbd/sim.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/run.h"
 #include "sim/sim.h"
 
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */

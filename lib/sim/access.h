@@ -5,7 +5,7 @@
 
 #include "base/message.h"
 #include "base/sized_struct.h"
-#include "drillmbd/sim.h"
+#include "drillmbd/run.h"
 #include "sim/sim.h"
 
 /* DMB_OK, DMB_ERR_NULL, DMB_ERR_HANDLE, or DMB_ERR_ORDER from within a call that is changing its state. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/sized_struct.h"
-#include "drillmbd/control.h"
+#include "drillmbd/scene.h"
 #include "model/describe.h"
 #include "sim/access.h"
 

@@ -15,7 +15,7 @@
 #define DMB_SIM_SIM_H
 
 #include "base/message.h"
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 #include "kernel/kernels.h"
 #include "model/model.h"
 

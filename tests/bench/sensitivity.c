@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-#include <drillmbd/sensitivity.h>
+#include <drillmbd/analyse.h>
 
 #include "scenes.h"
 

@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "base/value_check.h"
-#include "drillmbd/hole.h"
+#include "drillmbd/scene.h"
 #include "model/model.h"
 
 /* ---- What there is to describe ----------------------------------------------------------------------------------- */

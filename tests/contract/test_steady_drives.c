@@ -2,7 +2,7 @@
  * that are stuck; and what of them is refused by name. */
 #include <string.h>
 
-#include "drillmbd/bha.h"
+#include "drillmbd/scene.h"
 #include "rig.h"
 
 #define SPIN 3.0 /* [rad/s] */

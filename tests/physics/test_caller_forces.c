@@ -2,7 +2,7 @@
  * integration, and against what they must conserve; refusals of wrong tangents and failing callbacks. */
 #include <string.h>
 
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 #include "modal.h"
 #include "ode.h"

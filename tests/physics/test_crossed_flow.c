@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 
 static const double rate = 0.012;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "modal.h"
 #include "rock.h"
 

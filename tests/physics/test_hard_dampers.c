@@ -1,8 +1,7 @@
 /* Without DMB_FEATURE_DAMPING the dampers of joints, stops, springs and stuck places and the external damping that is
  * an input are not there: a run is, to the bit, that of a scene whose dampers are 0. */
 #include "contact_scene.h"
-#include "drillmbd/bha.h"
-#include "drillmbd/control.h"
+#include "drillmbd/scene.h"
 
 typedef struct dampers {
     rig r;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "contact_scene.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 
 static const double g = 9.81, narrow = 0.10, wide = 0.12, spacing = 0.25, reamer_at = 4.5, way = 2.0, ramp = 0.5;
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "contact_scene.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 
 static const double g = 9.81;
 

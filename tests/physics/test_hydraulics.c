@@ -3,7 +3,7 @@
  * Equations: eq:mud.ecd, eq:mud.trip. */
 #include <string.h>
 
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
 #include "mechanism.h"
 
 static const double g = 9.81, outer = 0.089, inner = 0.07, hole = 0.12;

@@ -3,7 +3,7 @@
  * eq:mud.effective, eq:mud.added-mass. */
 #include <string.h>
 
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
 #include "mechanism.h"
 #include "modal.h"
 

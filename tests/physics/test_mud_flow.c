@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 
 static const double g = 9.81, outer = 0.089, inner = 0.07, hole = 0.12, steel = 7850.0, E = 2.1e11, nu = 0.3;

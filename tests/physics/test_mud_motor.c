@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/bha.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 
 static const double stall = 800.0, displacement = 0.02, flow = 0.03, head_speed = 4.0;

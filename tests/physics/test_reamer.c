@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "rig.h"
 #include "rock.h"
 

@@ -2,7 +2,7 @@
  * is that of its one bit; and on the axis of the hole it is what it is for pipes that may bend. */
 #include <string.h>
 
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "harmonic.h"
 
 #define FEED 0.02      /* [m/s] */

@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "rig.h"
 
 enum { PIPES = 6 };

@@ -2,8 +2,7 @@
  * tilt against the tractrix and an independent integration, and the work that cutting takes. Equations: eq:bit.side. */
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/names.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 #include "ode.h"
 

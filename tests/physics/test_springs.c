@@ -2,7 +2,7 @@
  * own energy, and the same scene described in another way. */
 #include <string.h>
 
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 #include "modal.h"
 #include "ode.h"

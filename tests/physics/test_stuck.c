@@ -2,8 +2,8 @@
  * and its order, the wave after it against the d'Alembert solution, energy, snapshots, replay, and what is refused. */
 #include <string.h>
 
-#include "drillmbd/bha.h"
-#include "drillmbd/sensitivity.h"
+#include "drillmbd/analyse.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 #include "modal.h"
 

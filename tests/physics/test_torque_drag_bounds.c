@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "drill_string.h"
-#include "drillmbd/bha.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 
 /* Straight, `slope` [rad] off the vertical. */
 static scene describe(uint32_t pipes, double slope)

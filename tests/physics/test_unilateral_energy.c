@@ -4,7 +4,7 @@
  * eq:unilateral.mean. Equations: eq:unilateral.resolved. */
 #include <stdlib.h>
 
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "mechanism.h"
 
 /* Of the initial energy. */

@@ -276,13 +276,58 @@ class WallDef(WallPart, Sized):
         "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
         "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
         "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
         "cut_start": ("m", "measured depth of the first of these stations and"),
         "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
         "friction_table_count": ("-", "points, 2 .. 8, of a table of STRIBECK and BRISTLE for mu_static (its first coefficient), mu_dynamic (its last one) and stribeck_speed; 0 (default): none. Sections of the hole give mu_dynamic alone, and the table acts in proportion"),
         "friction_table_speed": ("m/s", "of sliding, from 0, strictly increasing, shape (friction_table_count); static until v_c: 0, v_c and slightly more with mu_static, mu_static, mu_dynamic"),
         "friction_table_mu": ("-", "coefficients there, >= 0, the last one > 0; straight between, constant beyond, shape (friction_table_count)"),
+    }
+
+
+class HoleSection(Sized):
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws and all other values are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
+    struct_size: int
+    shape: int
+    depth: float
+    transition: float
+    diameter: float
+    stiffness: float
+    restitution: float
+    damping: float
+    mu_static: float
+    mu_dynamic: float
+    strength: float
+    name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, shape: int = ..., depth: SupportsFloat = ..., transition: SupportsFloat = ..., diameter: SupportsFloat = ..., stiffness: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., strength: SupportsFloat = ..., name: str | bytes = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("shape", c_int32),
+        ("depth", c_double),
+        ("transition", c_double),
+        ("diameter", c_double),
+        ("stiffness", c_double),
+        ("restitution", c_double),
+        ("damping", c_double),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+        ("strength", c_double),
+        ("name", c_char * 24),
+    ]
+    field_docs = {
+        "shape": ("", "HOLE_...; default HOLE_STEP; the last one must be a step"),
+        "depth": ("m", "measured depth where it begins; strictly increasing; default 0"),
+        "transition": ("m", "> 0; those of neighbours may not overlap, nor may the radius change by more than 1 m/m; default 0.1"),
+        "diameter": ("m", "> 0; default -1"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default -1"),
+        "restitution": ("-", "0 .. 1 (> 0 for FLORES); default -1"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1"),
+        "mu_static": ("-", ">= mu_dynamic for STRIBECK and BRISTLE; default -1"),
+        "mu_dynamic": ("-", ">= 0; default -1"),
+        "strength": ("Pa", "unconfined compressive strength of the wall, >= 0; returned by dmb_query_hole, no force depends on it; default 0"),
+        "name": ("", "returned by dmb_query_hole; default \"\""),
     }
 
 
@@ -321,7 +366,54 @@ class StringDef(Sized):
         "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0; shape (6)"),
         "start_free": ("-", "mask of free components at the rig end; default FREE_CYLINDRICAL"),
         "end_free": ("-", "the same at the far end; default FREE_ALL"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+    }
+
+
+class Motor(MotorPart, Sized):
+    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both sections, equal and opposite, and its power is that of a drive. A line: T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985). A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed. Below w = 0 it gives its torque at stall."
+    struct_size: int
+    brakes: int
+    stall_torque: float
+    displacement: float
+    flow: float
+    pressure: float
+    efficiency: float
+    table_flow: float
+    table_pressure: float
+    table_count: int
+    reserved: int
+    table_speed: Any
+    table_torque: Any
+    if TYPE_CHECKING:
+        def __init__(self, table: Any = ..., *, brakes: int = ..., stall_torque: SupportsFloat = ..., displacement: SupportsFloat = ..., flow: SupportsFloat = ..., pressure: SupportsFloat = ..., efficiency: SupportsFloat = ..., table_flow: SupportsFloat = ..., table_pressure: SupportsFloat = ..., table_count: int = ..., table_speed: Iterable[float] = ..., table_torque: Iterable[float] = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("brakes", c_int32),
+        ("stall_torque", c_double),
+        ("displacement", c_double),
+        ("flow", c_double),
+        ("pressure", c_double),
+        ("efficiency", c_double),
+        ("table_flow", c_double),
+        ("table_pressure", c_double),
+        ("table_count", c_uint32),
+        ("reserved", c_uint32),
+        ("table_speed", c_double * 15),
+        ("table_torque", c_double * 15),
+    ]
+    field_docs = {
+        "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
+        "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
+        "displacement": ("m3", "of mud a revolution, > 0"),
+        "flow": ("m3/s", "through the motor, > 0"),
+        "pressure": ("Pa", "drop across it at stall, > 0 instead of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
+        "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
+        "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow"),
+        "table_pressure": ("Pa", "of the table, > 0; 0 (default): pressure"),
+        "table_count": ("-", "0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are 0 then"),
+        "table_speed": ("rad/s", "strictly increasing from 0, shape (table_count)"),
+        "table_torque": ("N m", ">= 0, > 0 at the first, 0 at the last, shape (table_count)"),
     }
 
 
@@ -440,6 +532,77 @@ class StepReport(Sized):
         "time": ("s", "reached"),
         "residual": ("-", "largest relative residual of an accepted step"),
         "last_step": ("s", "length of the last accepted step"),
+    }
+
+
+class InputState(Sized):
+    c_name, about = "dmb_input_state", "For dmb_sim_get_input."
+    struct_size: int
+    is_set: int
+    value: float
+    present: float
+    rate: float
+    arrives: float
+    if TYPE_CHECKING:
+        def __init__(self, *, is_set: int = ..., value: SupportsFloat = ..., present: SupportsFloat = ..., rate: SupportsFloat = ..., arrives: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("is_set", c_int32),
+        ("value", c_double),
+        ("present", c_double),
+        ("rate", c_double),
+        ("arrives", c_double),
+    ]
+    field_docs = {
+        "is_set": ("", "0: its time function is in force, since it was not set yet"),
+        "value": ("unit", "set point; of a time function its value now"),
+        "present": ("unit, unit/s", "in force now, changing towards `value`"),
+        "rate": ("unit, unit/s", "in force now, changing towards `value`"),
+        "arrives": ("s", "time at which it is or was there; 0 of a time function"),
+    }
+
+
+class InputRecord(Record):
+    c_name, about = "dmb_input_record", "Frozen. One line of the log of inputs."
+    time: float
+    value: float
+    input: int
+    call: int
+    _fields_: ClassVar[Any] = [
+        ("time", c_double),
+        ("value", c_double),
+        ("input", c_uint32),
+        ("call", c_uint32),
+    ]
+    field_docs = {
+        "time": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
+        "value": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
+        "input": ("-", "number of the input in the order of description"),
+        "call": ("-", "number of the call that set it: those of one call are set at once"),
+    }
+
+
+class EventReport(Sized):
+    c_name, about = "dmb_event_report", "For dmb_sim_advance_to_event."
+    struct_size: int
+    count: int
+    events: int
+    time: float
+    located: float
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., events: int = ..., time: SupportsFloat = ..., located: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("events", c_uint64),
+        ("time", c_double),
+        ("located", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "events reported: those within the tolerance of the first count as simultaneous"),
+        "events": ("-", "bit i: event number i in the order of description is reported"),
+        "time": ("s", "reached"),
+        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends"),
     }
 
 
@@ -853,7 +1016,7 @@ class HolePoint(Sized):
         "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
         "inclination": ("rad", "from the downward vertical, 0 .. pi"),
         "azimuth": ("rad", "clockwise seen from above, from +x (north) to -y (east), -pi .. pi; 0 if vertical"),
-        "diameter": ("m", "and the wall's other constants here (hole.h):"),
+        "diameter": ("m", "and the wall's other constants here (scene.h):"),
         "stiffness": ("N/m^(n+1)", "per metre of pipe"),
         "restitution": ("-", ""),
         "damping": ("N s/m2", "per metre of pipe"),
@@ -912,6 +1075,136 @@ class FlowState(Sized):
         "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
         "annulus_reynolds": ("-", "largest; beyond 1e5 the smooth wall's law is low: 7 % at 3e5, 15 % at 1e6"),
         "motor_loss": ("Pa", "through mud motors at the far end at their present torque; in pump_pressure"),
+    }
+
+
+class SpringState(Sized):
+    c_name, about = "dmb_spring_state", "For dmb_query_spring."
+    struct_size: int
+    reserved: int
+    length: float
+    elongation: float
+    speed: float
+    force: float
+    elastic: float
+    damper: float
+    energy: float
+    direction: Any
+    point_a: Any
+    point_b: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, length: SupportsFloat = ..., elongation: SupportsFloat = ..., speed: SupportsFloat = ..., force: SupportsFloat = ..., elastic: SupportsFloat = ..., damper: SupportsFloat = ..., energy: SupportsFloat = ..., direction: Iterable[float] = ..., point_a: Iterable[float] = ..., point_b: Iterable[float] = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("length", c_double),
+        ("elongation", c_double),
+        ("speed", c_double),
+        ("force", c_double),
+        ("elastic", c_double),
+        ("damper", c_double),
+        ("energy", c_double),
+        ("direction", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+    ]
+    field_docs = {
+        "length": ("m", "between its points, and beyond its free length"),
+        "elongation": ("m", "between its points, and beyond its free length"),
+        "speed": ("m/s", "the elongation grows at"),
+        "force": ("N", "tension > 0: sum of the next two"),
+        "elastic": ("N", ""),
+        "damper": ("N", ""),
+        "energy": ("J", "stored, from the free length on, or from where a one-sided one is slack"),
+        "direction": ("-", "from a to b, world frame, shape (3)"),
+        "point_a": ("m", "world, shape (3)"),
+        "point_b": ("m", "world, shape (3)"),
+    }
+
+
+class StuckState(Sized):
+    c_name, about = "dmb_stuck_state", "For dmb_query_stuck."
+    struct_size: int
+    stuck: int
+    offset: Any
+    force: Any
+    share: float
+    energy: float
+    if TYPE_CHECKING:
+        def __init__(self, *, stuck: int = ..., offset: Iterable[float] = ..., force: Iterable[float] = ..., share: SupportsFloat = ..., energy: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("stuck", c_int32),
+        ("offset", c_double * 4),
+        ("force", c_double * 4),
+        ("share", c_double),
+        ("energy", c_double),
+    ]
+    field_docs = {
+        "stuck": ("", "1: held"),
+        "offset": ("m, m, m, rad", "from where it got stuck: along, sideways y and z, turned; 0 where it is not"),
+        "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
+        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it is released at 1"),
+        "energy": ("J", "stored in the springs"),
+    }
+
+
+class WindowOptions(Sized):
+    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    struct_size: int
+    slots: int
+    length: float
+    levels: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, slots: int = ..., length: SupportsFloat = ..., levels: Any = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("slots", c_uint32),
+        ("length", c_double),
+        ("levels", POINTER(c_double)),
+    ]
+    field_docs = {
+        "slots": ("-", "2 .. 65536; the window covers (slots - 1)/slots to all of `length`; default 100"),
+        "length": ("s", ">= 0; 0 (default): all since the first sample"),
+        "levels": ("unit of the output", "of low_share, shape (output_count), >= 0; NULL (default): 0"),
+    }
+
+
+class WindowResult(Sized):
+    c_name, about = "dmb_window_result", "For dmb_window_get."
+    struct_size: int
+    reserved: int
+    samples: int
+    time: float
+    minimum: float
+    maximum: float
+    mean: float
+    rms: float
+    index: float
+    low_share: float
+    if TYPE_CHECKING:
+        def __init__(self, *, samples: int = ..., time: SupportsFloat = ..., minimum: SupportsFloat = ..., maximum: SupportsFloat = ..., mean: SupportsFloat = ..., rms: SupportsFloat = ..., index: SupportsFloat = ..., low_share: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("samples", c_uint64),
+        ("time", c_double),
+        ("minimum", c_double),
+        ("maximum", c_double),
+        ("mean", c_double),
+        ("rms", c_double),
+        ("index", c_double),
+        ("low_share", c_double),
+    ]
+    field_docs = {
+        "samples": ("-", "in the window"),
+        "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
+        "minimum": ("unit of the output", "of the samples; NaN, as all that follow, without one"),
+        "maximum": ("unit of the output", ""),
+        "mean": ("unit of the output", "over time"),
+        "rms": ("unit of the output", "root of the mean of the squares over time"),
+        "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
+        "low_share": ("-", "of the time, |value| <= its level, by the sample at the end of each interval"),
     }
 
 
@@ -1234,515 +1527,6 @@ class CheckReport(Sized):
         "gruebler": ("-", "coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant"),
         "largest_violation": ("m, -", "largest violation of an equation of position"),
         "condition": ("-", "smallest over largest singular value of a cluster's equations, redundant ones apart, at unit length, rotations at the mean element length; of the worst cluster; an estimate above 300 equations; 1 without any"),
-    }
-
-
-class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over outputs -------------------------------------------------------------------------------------- Least, greatest and mean of outputs over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is dropped as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
-    struct_size: int
-    slots: int
-    length: float
-    levels: Any
-    if TYPE_CHECKING:
-        def __init__(self, *, slots: int = ..., length: SupportsFloat = ..., levels: Any = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("slots", c_uint32),
-        ("length", c_double),
-        ("levels", POINTER(c_double)),
-    ]
-    field_docs = {
-        "slots": ("-", "2 .. 65536; the window covers (slots - 1)/slots to all of `length`; default 100"),
-        "length": ("s", ">= 0; 0 (default): all since the first sample"),
-        "levels": ("unit of the output", "of low_share, shape (output_count), >= 0; NULL (default): 0"),
-    }
-
-
-class WindowResult(Sized):
-    c_name, about = "dmb_window_result", "For dmb_window_get."
-    struct_size: int
-    reserved: int
-    samples: int
-    time: float
-    minimum: float
-    maximum: float
-    mean: float
-    rms: float
-    index: float
-    low_share: float
-    if TYPE_CHECKING:
-        def __init__(self, *, samples: int = ..., time: SupportsFloat = ..., minimum: SupportsFloat = ..., maximum: SupportsFloat = ..., mean: SupportsFloat = ..., rms: SupportsFloat = ..., index: SupportsFloat = ..., low_share: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("samples", c_uint64),
-        ("time", c_double),
-        ("minimum", c_double),
-        ("maximum", c_double),
-        ("mean", c_double),
-        ("rms", c_double),
-        ("index", c_double),
-        ("low_share", c_double),
-    ]
-    field_docs = {
-        "samples": ("-", "in the window"),
-        "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
-        "minimum": ("unit of the output", "of the samples; NaN, as all that follow, without one"),
-        "maximum": ("unit of the output", ""),
-        "mean": ("unit of the output", "over time"),
-        "rms": ("unit of the output", "root of the mean of the squares over time"),
-        "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
-        "low_share": ("-", "of the time, |value| <= its level, by the sample at the end of each interval"),
-    }
-
-
-class InputState(Sized):
-    c_name, about = "dmb_input_state", "For dmb_sim_get_input."
-    struct_size: int
-    is_set: int
-    value: float
-    present: float
-    rate: float
-    arrives: float
-    if TYPE_CHECKING:
-        def __init__(self, *, is_set: int = ..., value: SupportsFloat = ..., present: SupportsFloat = ..., rate: SupportsFloat = ..., arrives: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("is_set", c_int32),
-        ("value", c_double),
-        ("present", c_double),
-        ("rate", c_double),
-        ("arrives", c_double),
-    ]
-    field_docs = {
-        "is_set": ("", "0: its time function is in force, since it was not set yet"),
-        "value": ("unit", "set point; of a time function its value now"),
-        "present": ("unit, unit/s", "in force now, changing towards `value`"),
-        "rate": ("unit, unit/s", "in force now, changing towards `value`"),
-        "arrives": ("s", "time at which it is or was there; 0 of a time function"),
-    }
-
-
-class InputRecord(Record):
-    c_name, about = "dmb_input_record", "Frozen. One line of the log of inputs."
-    time: float
-    value: float
-    input: int
-    call: int
-    _fields_: ClassVar[Any] = [
-        ("time", c_double),
-        ("value", c_double),
-        ("input", c_uint32),
-        ("call", c_uint32),
-    ]
-    field_docs = {
-        "time": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
-        "value": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
-        "input": ("-", "number of the input in the order of description"),
-        "call": ("-", "number of the call that set it: those of one call are set at once"),
-    }
-
-
-class EventReport(Sized):
-    c_name, about = "dmb_event_report", "For dmb_sim_advance_to_event."
-    struct_size: int
-    count: int
-    events: int
-    time: float
-    located: float
-    if TYPE_CHECKING:
-        def __init__(self, *, count: int = ..., events: int = ..., time: SupportsFloat = ..., located: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("count", c_uint32),
-        ("events", c_uint64),
-        ("time", c_double),
-        ("located", c_double),
-    ]
-    field_docs = {
-        "count": ("-", "events reported: those within the tolerance of the first count as simultaneous"),
-        "events": ("-", "bit i: event number i in the order of description is reported"),
-        "time": ("s", "reached"),
-        "located": ("s", "at most so long after the crossing; 0 without an event, and where a `hold` ends"),
-    }
-
-
-class StuckState(Sized):
-    c_name, about = "dmb_stuck_state", "For dmb_query_stuck."
-    struct_size: int
-    stuck: int
-    offset: Any
-    force: Any
-    share: float
-    energy: float
-    if TYPE_CHECKING:
-        def __init__(self, *, stuck: int = ..., offset: Iterable[float] = ..., force: Iterable[float] = ..., share: SupportsFloat = ..., energy: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("stuck", c_int32),
-        ("offset", c_double * 4),
-        ("force", c_double * 4),
-        ("share", c_double),
-        ("energy", c_double),
-    ]
-    field_docs = {
-        "stuck": ("", "1: held"),
-        "offset": ("m, m, m, rad", "from where it got stuck: along, sideways y and z, turned; 0 where it is not"),
-        "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
-        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it is released at 1"),
-        "energy": ("J", "stored in the springs"),
-    }
-
-
-class Motor(MotorPart, Sized):
-    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both sections, equal and opposite, and its power is that of a drive. A line: T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985). A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed. Below w = 0 it gives its torque at stall."
-    struct_size: int
-    brakes: int
-    stall_torque: float
-    displacement: float
-    flow: float
-    pressure: float
-    efficiency: float
-    table_flow: float
-    table_pressure: float
-    table_count: int
-    reserved: int
-    table_speed: Any
-    table_torque: Any
-    if TYPE_CHECKING:
-        def __init__(self, table: Any = ..., *, brakes: int = ..., stall_torque: SupportsFloat = ..., displacement: SupportsFloat = ..., flow: SupportsFloat = ..., pressure: SupportsFloat = ..., efficiency: SupportsFloat = ..., table_flow: SupportsFloat = ..., table_pressure: SupportsFloat = ..., table_count: int = ..., table_speed: Iterable[float] = ..., table_torque: Iterable[float] = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("brakes", c_int32),
-        ("stall_torque", c_double),
-        ("displacement", c_double),
-        ("flow", c_double),
-        ("pressure", c_double),
-        ("efficiency", c_double),
-        ("table_flow", c_double),
-        ("table_pressure", c_double),
-        ("table_count", c_uint32),
-        ("reserved", c_uint32),
-        ("table_speed", c_double * 15),
-        ("table_torque", c_double * 15),
-    ]
-    field_docs = {
-        "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
-        "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
-        "displacement": ("m3", "of mud a revolution, > 0"),
-        "flow": ("m3/s", "through the motor, > 0"),
-        "pressure": ("Pa", "drop across it at stall, > 0 instead of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
-        "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
-        "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow"),
-        "table_pressure": ("Pa", "of the table, > 0; 0 (default): pressure"),
-        "table_count": ("-", "0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are 0 then"),
-        "table_speed": ("rad/s", "strictly increasing from 0, shape (table_count)"),
-        "table_torque": ("N m", ">= 0, > 0 at the first, 0 at the last, shape (table_count)"),
-    }
-
-
-class Operation(Sized):
-    c_name, about = "dmb_operation", "For dmb_operation_usual, dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
-    struct_size: int
-    reserved: int
-    axial_speed: float
-    rotary_speed: float
-    weight_on_bit: float
-    torque_on_bit: float
-    if TYPE_CHECKING:
-        def __init__(self, *, axial_speed: SupportsFloat = ..., rotary_speed: SupportsFloat = ..., weight_on_bit: SupportsFloat = ..., torque_on_bit: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("axial_speed", c_double),
-        ("rotary_speed", c_double),
-        ("weight_on_bit", c_double),
-        ("torque_on_bit", c_double),
-    ]
-    field_docs = {
-        "axial_speed": ("m/s", "along the hole, > 0 into it; default 0"),
-        "rotary_speed": ("rad/s", "friction acts along the sum of both speeds at the pipe's surface; default 0"),
-        "weight_on_bit": ("N", "against the string's end, along the hole; default 0"),
-        "torque_on_bit": ("N m", ">= 0, against the rotation; default 0"),
-    }
-
-
-class TorqueDragRow(Sized):
-    c_name, about = "dmb_torque_drag_row", "For dmb_analysis_torque_drag."
-    struct_size: int
-    locked: int
-    depth: float
-    hook_load: float
-    torque: float
-    transfer: float
-    lowest_force: float
-    lowest_at: float
-    sinusoidal_share: float
-    helical_share: float
-    buckled_at: float
-    helix_length: float
-    yield_share: float
-    yield_at: float
-    stretch: float
-    wind_up: float
-    wall_force: float
-    if TYPE_CHECKING:
-        def __init__(self, *, locked: int = ..., depth: SupportsFloat = ..., hook_load: SupportsFloat = ..., torque: SupportsFloat = ..., transfer: SupportsFloat = ..., lowest_force: SupportsFloat = ..., lowest_at: SupportsFloat = ..., sinusoidal_share: SupportsFloat = ..., helical_share: SupportsFloat = ..., buckled_at: SupportsFloat = ..., helix_length: SupportsFloat = ..., yield_share: SupportsFloat = ..., yield_at: SupportsFloat = ..., stretch: SupportsFloat = ..., wind_up: SupportsFloat = ..., wall_force: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("locked", c_int32),
-        ("depth", c_double),
-        ("hook_load", c_double),
-        ("torque", c_double),
-        ("transfer", c_double),
-        ("lowest_force", c_double),
-        ("lowest_at", c_double),
-        ("sinusoidal_share", c_double),
-        ("helical_share", c_double),
-        ("buckled_at", c_double),
-        ("helix_length", c_double),
-        ("yield_share", c_double),
-        ("yield_at", c_double),
-        ("stretch", c_double),
-        ("wind_up", c_double),
-        ("wall_force", c_double),
-    ]
-    field_docs = {
-        "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load, torque and the values along the string are NaN"),
-        "depth": ("m", "measured depth of the far end"),
-        "hook_load": ("N", "effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes"),
-        "torque": ("N m", "at the rig end, against friction and bit"),
-        "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
-        "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
-        "lowest_at": ("m", "measured depth where"),
-        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile; NaN where a compressed part is not pressed to the wall"),
-        "helical_share": ("-", "the same of helical buckling"),
-        "buckled_at": ("m", "measured depth where that is"),
-        "helix_length": ("m", "of string above the load of helical buckling"),
-        "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength"),
-        "yield_at": ("m", "measured depth where"),
-        "stretch": ("m", "by the effective force, > 0 longer"),
-        "wind_up": ("rad", "of the rig end against the bit"),
-        "wall_force": ("N", "sum over the string"),
-    }
-
-
-class Hydraulics(Sized):
-    c_name, about = "dmb_hydraulics", "For dmb_analysis_hydraulics."
-    struct_size: int
-    reserved: int
-    depth: float
-    vertical_depth: float
-    bore_loss: float
-    bit_loss: float
-    annulus_loss: float
-    pump_pressure: float
-    circulating_density: float
-    trip_pressure: float
-    surge_density: float
-    swab_density: float
-    reynolds: float
-    if TYPE_CHECKING:
-        def __init__(self, *, depth: SupportsFloat = ..., vertical_depth: SupportsFloat = ..., bore_loss: SupportsFloat = ..., bit_loss: SupportsFloat = ..., annulus_loss: SupportsFloat = ..., pump_pressure: SupportsFloat = ..., circulating_density: SupportsFloat = ..., trip_pressure: SupportsFloat = ..., surge_density: SupportsFloat = ..., swab_density: SupportsFloat = ..., reynolds: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("depth", c_double),
-        ("vertical_depth", c_double),
-        ("bore_loss", c_double),
-        ("bit_loss", c_double),
-        ("annulus_loss", c_double),
-        ("pump_pressure", c_double),
-        ("circulating_density", c_double),
-        ("trip_pressure", c_double),
-        ("surge_density", c_double),
-        ("swab_density", c_double),
-        ("reynolds", c_double),
-    ]
-    field_docs = {
-        "depth": ("m", "measured depth of the string's far end"),
-        "vertical_depth": ("m", "of it below the start of the string, along gravity; < 0 above it"),
-        "bore_loss": ("Pa", "down the string at the flow_rate, by friction"),
-        "bit_loss": ("Pa", "through nozzle_area"),
-        "annulus_loss": ("Pa", "up the annulus, by friction"),
-        "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
-        "circulating_density": ("kg/m3", "fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0"),
-        "trip_pressure": ("Pa", "of the closed string at the trip speed, more going in, less coming out"),
-        "surge_density": ("kg/m3", "fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0"),
-        "swab_density": ("kg/m3", "fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
-        "reynolds": ("-", "largest of bore, annulus and trip"),
-    }
-
-
-class FatigueOptions(Sized):
-    c_name, about = "dmb_fatigue_options", "For dmb_fatigue_create."
-    struct_size: int
-    classes: int
-    points: int
-    reserved: int
-    stress_range: float
-    concentration: float
-    curve_stress: float
-    curve_cycles: float
-    slope: float
-    endurance: float
-    tensile_strength: float
-    if TYPE_CHECKING:
-        def __init__(self, *, classes: int = ..., points: int = ..., stress_range: SupportsFloat = ..., concentration: SupportsFloat = ..., curve_stress: SupportsFloat = ..., curve_cycles: SupportsFloat = ..., slope: SupportsFloat = ..., endurance: SupportsFloat = ..., tensile_strength: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("classes", c_uint32),
-        ("points", c_uint32),
-        ("reserved", c_uint32),
-        ("stress_range", c_double),
-        ("concentration", c_double),
-        ("curve_stress", c_double),
-        ("curve_cycles", c_double),
-        ("slope", c_double),
-        ("endurance", c_double),
-        ("tensile_strength", c_double),
-    ]
-    field_docs = {
-        "classes": ("-", "levels of stress, 8 .. 65536; default 1024"),
-        "points": ("-", "points around a section, 2 .. 360, the first on its y axis; default 8"),
-        "stress_range": ("Pa", "levels spread over -stress_range .. stress_range, > 0; default 1e9"),
-        "concentration": ("-", "factor on the stress, >= 1; default 1"),
-        "curve_stress": ("Pa", "amplitude that is borne for curve_cycles, > 0; the user's, no default"),
-        "curve_cycles": ("-", "> 0; default 1e6"),
-        "slope": ("-", "1 .. 50; the user's, no default"),
-        "endurance": ("Pa", "amplitudes up to this do no damage, >= 0; default 0"),
-        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default): the mean does not count"),
-    }
-
-
-class FatigueResult(Sized):
-    c_name, about = "dmb_fatigue_result", "For dmb_fatigue_get."
-    struct_size: int
-    point: int
-    samples: int
-    clipped: int
-    damage: float
-    cycles: float
-    largest_range: float
-    lowest: float
-    highest: float
-    time: float
-    life: float
-    if TYPE_CHECKING:
-        def __init__(self, *, point: int = ..., samples: int = ..., clipped: int = ..., damage: SupportsFloat = ..., cycles: SupportsFloat = ..., largest_range: SupportsFloat = ..., lowest: SupportsFloat = ..., highest: SupportsFloat = ..., time: SupportsFloat = ..., life: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("point", c_uint32),
-        ("samples", c_uint64),
-        ("clipped", c_uint64),
-        ("damage", c_double),
-        ("cycles", c_double),
-        ("largest_range", c_double),
-        ("lowest", c_double),
-        ("highest", c_double),
-        ("time", c_double),
-        ("life", c_double),
-    ]
-    field_docs = {
-        "point": ("-", "the point of the section with the largest damage, or else the largest range"),
-        "samples": ("-", ""),
-        "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
-        "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a cycle reaches tensile_strength: the section breaks at once"),
-        "cycles": ("-", "at that point, halves included"),
-        "largest_range": ("Pa", "of them"),
-        "lowest": ("Pa", "stress at that point, concentration included"),
-        "highest": ("Pa", "highest stress there"),
-        "time": ("s", "between the first and the last sample"),
-        "life": ("s", "time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one"),
-    }
-
-
-class SpringState(Sized):
-    c_name, about = "dmb_spring_state", "For dmb_query_spring."
-    struct_size: int
-    reserved: int
-    length: float
-    elongation: float
-    speed: float
-    force: float
-    elastic: float
-    damper: float
-    energy: float
-    direction: Any
-    point_a: Any
-    point_b: Any
-    if TYPE_CHECKING:
-        def __init__(self, *, length: SupportsFloat = ..., elongation: SupportsFloat = ..., speed: SupportsFloat = ..., force: SupportsFloat = ..., elastic: SupportsFloat = ..., damper: SupportsFloat = ..., energy: SupportsFloat = ..., direction: Iterable[float] = ..., point_a: Iterable[float] = ..., point_b: Iterable[float] = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("length", c_double),
-        ("elongation", c_double),
-        ("speed", c_double),
-        ("force", c_double),
-        ("elastic", c_double),
-        ("damper", c_double),
-        ("energy", c_double),
-        ("direction", c_double * 3),
-        ("point_a", c_double * 3),
-        ("point_b", c_double * 3),
-    ]
-    field_docs = {
-        "length": ("m", "between its points, and beyond its free length"),
-        "elongation": ("m", "between its points, and beyond its free length"),
-        "speed": ("m/s", "the elongation grows at"),
-        "force": ("N", "tension > 0: sum of the next two"),
-        "elastic": ("N", ""),
-        "damper": ("N", ""),
-        "energy": ("J", "stored, from the free length on, or from where a one-sided one is slack"),
-        "direction": ("-", "from a to b, world frame, shape (3)"),
-        "point_a": ("m", "world, shape (3)"),
-        "point_b": ("m", "world, shape (3)"),
-    }
-
-
-class HoleSection(Sized):
-    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws and all other values are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the breakpoint between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
-    struct_size: int
-    shape: int
-    depth: float
-    transition: float
-    diameter: float
-    stiffness: float
-    restitution: float
-    damping: float
-    mu_static: float
-    mu_dynamic: float
-    strength: float
-    name: bytes
-    if TYPE_CHECKING:
-        def __init__(self, *, shape: int = ..., depth: SupportsFloat = ..., transition: SupportsFloat = ..., diameter: SupportsFloat = ..., stiffness: SupportsFloat = ..., restitution: SupportsFloat = ..., damping: SupportsFloat = ..., mu_static: SupportsFloat = ..., mu_dynamic: SupportsFloat = ..., strength: SupportsFloat = ..., name: str | bytes = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("shape", c_int32),
-        ("depth", c_double),
-        ("transition", c_double),
-        ("diameter", c_double),
-        ("stiffness", c_double),
-        ("restitution", c_double),
-        ("damping", c_double),
-        ("mu_static", c_double),
-        ("mu_dynamic", c_double),
-        ("strength", c_double),
-        ("name", c_char * 24),
-    ]
-    field_docs = {
-        "shape": ("", "HOLE_...; default HOLE_STEP; the last one must be a step"),
-        "depth": ("m", "measured depth where it begins; strictly increasing; default 0"),
-        "transition": ("m", "> 0; those of neighbours may not overlap, nor may the radius change by more than 1 m/m; default 0.1"),
-        "diameter": ("m", "> 0; default -1"),
-        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default -1"),
-        "restitution": ("-", "0 .. 1 (> 0 for FLORES); default -1"),
-        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1"),
-        "mu_static": ("-", ">= mu_dynamic for STRIBECK and BRISTLE; default -1"),
-        "mu_dynamic": ("-", ">= 0; default -1"),
-        "strength": ("Pa", "unconfined compressive strength of the wall, >= 0; returned by dmb_query_hole, no force depends on it; default 0"),
-        "name": ("", "returned by dmb_query_hole; default \"\""),
     }
 
 
@@ -2081,33 +1865,6 @@ class SpeedBand(Sized):
     }
 
 
-class Parameter(Sized):
-    c_name, about = "dmb_parameter", "For dmb_sensitivity_create."
-    struct_size: int
-    one_sided: int
-    step: float
-    low: Any
-    high: Any
-    name: bytes
-    if TYPE_CHECKING:
-        def __init__(self, *, one_sided: int = ..., step: SupportsFloat = ..., low: Any = ..., high: Any = ..., name: str | bytes = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("one_sided", c_int32),
-        ("step", c_double),
-        ("low", c_void_p),
-        ("high", c_void_p),
-        ("name", c_char * 24),
-    ]
-    field_docs = {
-        "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
-        "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
-        "low": ("", "only read, and only by dmb_sensitivity_create"),
-        "high": ("", "as `low`"),
-        "name": ("", "for messages, ends with 0; default \"\""),
-    }
-
-
 class StateSpaceOptions(Sized):
     c_name, about = "dmb_state_space_options", "For dmb_analysis_state_space."
     struct_size: int
@@ -2200,6 +1957,249 @@ class StateSpaceInfo(Sized):
     }
 
 
+class Parameter(Sized):
+    c_name, about = "dmb_parameter", "For dmb_sensitivity_create."
+    struct_size: int
+    one_sided: int
+    step: float
+    low: Any
+    high: Any
+    name: bytes
+    if TYPE_CHECKING:
+        def __init__(self, *, one_sided: int = ..., step: SupportsFloat = ..., low: Any = ..., high: Any = ..., name: str | bytes = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("one_sided", c_int32),
+        ("step", c_double),
+        ("low", c_void_p),
+        ("high", c_void_p),
+        ("name", c_char * 24),
+    ]
+    field_docs = {
+        "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
+        "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
+        "low": ("", "only read, and only by dmb_sensitivity_create"),
+        "high": ("", "as `low`"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+    }
+
+
+class Operation(Sized):
+    c_name, about = "dmb_operation", "For dmb_operation_usual, dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
+    struct_size: int
+    reserved: int
+    axial_speed: float
+    rotary_speed: float
+    weight_on_bit: float
+    torque_on_bit: float
+    if TYPE_CHECKING:
+        def __init__(self, *, axial_speed: SupportsFloat = ..., rotary_speed: SupportsFloat = ..., weight_on_bit: SupportsFloat = ..., torque_on_bit: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("axial_speed", c_double),
+        ("rotary_speed", c_double),
+        ("weight_on_bit", c_double),
+        ("torque_on_bit", c_double),
+    ]
+    field_docs = {
+        "axial_speed": ("m/s", "along the hole, > 0 into it; default 0"),
+        "rotary_speed": ("rad/s", "friction acts along the sum of both speeds at the pipe's surface; default 0"),
+        "weight_on_bit": ("N", "against the string's end, along the hole; default 0"),
+        "torque_on_bit": ("N m", ">= 0, against the rotation; default 0"),
+    }
+
+
+class TorqueDragRow(Sized):
+    c_name, about = "dmb_torque_drag_row", "For dmb_analysis_torque_drag."
+    struct_size: int
+    locked: int
+    depth: float
+    hook_load: float
+    torque: float
+    transfer: float
+    lowest_force: float
+    lowest_at: float
+    sinusoidal_share: float
+    helical_share: float
+    buckled_at: float
+    helix_length: float
+    yield_share: float
+    yield_at: float
+    stretch: float
+    wind_up: float
+    wall_force: float
+    if TYPE_CHECKING:
+        def __init__(self, *, locked: int = ..., depth: SupportsFloat = ..., hook_load: SupportsFloat = ..., torque: SupportsFloat = ..., transfer: SupportsFloat = ..., lowest_force: SupportsFloat = ..., lowest_at: SupportsFloat = ..., sinusoidal_share: SupportsFloat = ..., helical_share: SupportsFloat = ..., buckled_at: SupportsFloat = ..., helix_length: SupportsFloat = ..., yield_share: SupportsFloat = ..., yield_at: SupportsFloat = ..., stretch: SupportsFloat = ..., wind_up: SupportsFloat = ..., wall_force: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("locked", c_int32),
+        ("depth", c_double),
+        ("hook_load", c_double),
+        ("torque", c_double),
+        ("transfer", c_double),
+        ("lowest_force", c_double),
+        ("lowest_at", c_double),
+        ("sinusoidal_share", c_double),
+        ("helical_share", c_double),
+        ("buckled_at", c_double),
+        ("helix_length", c_double),
+        ("yield_share", c_double),
+        ("yield_at", c_double),
+        ("stretch", c_double),
+        ("wind_up", c_double),
+        ("wall_force", c_double),
+    ]
+    field_docs = {
+        "locked": ("", "1: compression exceeds 1 % of EA below the rig: no push at the rig does this; hook load, torque and the values along the string are NaN"),
+        "depth": ("m", "measured depth of the far end"),
+        "hook_load": ("N", "effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes"),
+        "torque": ("N m", "at the rig end, against friction and bit"),
+        "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
+        "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
+        "lowest_at": ("m", "measured depth where"),
+        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile; NaN where a compressed part is not pressed to the wall"),
+        "helical_share": ("-", "the same of helical buckling"),
+        "buckled_at": ("m", "measured depth where that is"),
+        "helix_length": ("m", "of string above the load of helical buckling"),
+        "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength"),
+        "yield_at": ("m", "measured depth where"),
+        "stretch": ("m", "by the effective force, > 0 longer"),
+        "wind_up": ("rad", "of the rig end against the bit"),
+        "wall_force": ("N", "sum over the string"),
+    }
+
+
+class Hydraulics(Sized):
+    c_name, about = "dmb_hydraulics", "For dmb_analysis_hydraulics."
+    struct_size: int
+    reserved: int
+    depth: float
+    vertical_depth: float
+    bore_loss: float
+    bit_loss: float
+    annulus_loss: float
+    pump_pressure: float
+    circulating_density: float
+    trip_pressure: float
+    surge_density: float
+    swab_density: float
+    reynolds: float
+    if TYPE_CHECKING:
+        def __init__(self, *, depth: SupportsFloat = ..., vertical_depth: SupportsFloat = ..., bore_loss: SupportsFloat = ..., bit_loss: SupportsFloat = ..., annulus_loss: SupportsFloat = ..., pump_pressure: SupportsFloat = ..., circulating_density: SupportsFloat = ..., trip_pressure: SupportsFloat = ..., surge_density: SupportsFloat = ..., swab_density: SupportsFloat = ..., reynolds: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("depth", c_double),
+        ("vertical_depth", c_double),
+        ("bore_loss", c_double),
+        ("bit_loss", c_double),
+        ("annulus_loss", c_double),
+        ("pump_pressure", c_double),
+        ("circulating_density", c_double),
+        ("trip_pressure", c_double),
+        ("surge_density", c_double),
+        ("swab_density", c_double),
+        ("reynolds", c_double),
+    ]
+    field_docs = {
+        "depth": ("m", "measured depth of the string's far end"),
+        "vertical_depth": ("m", "of it below the start of the string, along gravity; < 0 above it"),
+        "bore_loss": ("Pa", "down the string at the flow_rate, by friction"),
+        "bit_loss": ("Pa", "through nozzle_area"),
+        "annulus_loss": ("Pa", "up the annulus, by friction"),
+        "pump_pressure": ("Pa", "sum of the three and of the difference of the columns; motors are left out"),
+        "circulating_density": ("kg/m3", "fluid_density + annulus_loss/(g vertical_depth); NaN if that is <= 0"),
+        "trip_pressure": ("Pa", "of the closed string at the trip speed, more going in, less coming out"),
+        "surge_density": ("kg/m3", "fluid_density + trip_pressure/(g vertical_depth); NaN if that is <= 0"),
+        "swab_density": ("kg/m3", "fluid_density - trip_pressure/(g vertical_depth); NaN if that is <= 0"),
+        "reynolds": ("-", "largest of bore, annulus and trip"),
+    }
+
+
+class FatigueOptions(Sized):
+    c_name, about = "dmb_fatigue_options", "For dmb_fatigue_create."
+    struct_size: int
+    classes: int
+    points: int
+    reserved: int
+    stress_range: float
+    concentration: float
+    curve_stress: float
+    curve_cycles: float
+    slope: float
+    endurance: float
+    tensile_strength: float
+    if TYPE_CHECKING:
+        def __init__(self, *, classes: int = ..., points: int = ..., stress_range: SupportsFloat = ..., concentration: SupportsFloat = ..., curve_stress: SupportsFloat = ..., curve_cycles: SupportsFloat = ..., slope: SupportsFloat = ..., endurance: SupportsFloat = ..., tensile_strength: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("classes", c_uint32),
+        ("points", c_uint32),
+        ("reserved", c_uint32),
+        ("stress_range", c_double),
+        ("concentration", c_double),
+        ("curve_stress", c_double),
+        ("curve_cycles", c_double),
+        ("slope", c_double),
+        ("endurance", c_double),
+        ("tensile_strength", c_double),
+    ]
+    field_docs = {
+        "classes": ("-", "levels of stress, 8 .. 65536; default 1024"),
+        "points": ("-", "points around a section, 2 .. 360, the first on its y axis; default 8"),
+        "stress_range": ("Pa", "levels spread over -stress_range .. stress_range, > 0; default 1e9"),
+        "concentration": ("-", "factor on the stress, >= 1; default 1"),
+        "curve_stress": ("Pa", "amplitude that is borne for curve_cycles, > 0; the user's, no default"),
+        "curve_cycles": ("-", "> 0; default 1e6"),
+        "slope": ("-", "1 .. 50; the user's, no default"),
+        "endurance": ("Pa", "amplitudes up to this do no damage, >= 0; default 0"),
+        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default): the mean does not count"),
+    }
+
+
+class FatigueResult(Sized):
+    c_name, about = "dmb_fatigue_result", "For dmb_fatigue_get."
+    struct_size: int
+    point: int
+    samples: int
+    clipped: int
+    damage: float
+    cycles: float
+    largest_range: float
+    lowest: float
+    highest: float
+    time: float
+    life: float
+    if TYPE_CHECKING:
+        def __init__(self, *, point: int = ..., samples: int = ..., clipped: int = ..., damage: SupportsFloat = ..., cycles: SupportsFloat = ..., largest_range: SupportsFloat = ..., lowest: SupportsFloat = ..., highest: SupportsFloat = ..., time: SupportsFloat = ..., life: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("point", c_uint32),
+        ("samples", c_uint64),
+        ("clipped", c_uint64),
+        ("damage", c_double),
+        ("cycles", c_double),
+        ("largest_range", c_double),
+        ("lowest", c_double),
+        ("highest", c_double),
+        ("time", c_double),
+        ("life", c_double),
+    ]
+    field_docs = {
+        "point": ("-", "the point of the section with the largest damage, or else the largest range"),
+        "samples": ("-", ""),
+        "clipped": ("-", "of them beyond stress_range, at any point: cycles wholly beyond it are missed"),
+        "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half; INFINITY where the mean stress of a cycle reaches tensile_strength: the section breaks at once"),
+        "cycles": ("-", "at that point, halves included"),
+        "largest_range": ("Pa", "of them"),
+        "lowest": ("Pa", "stress at that point, concentration included"),
+        "highest": ("Pa", "highest stress there"),
+        "time": ("s", "between the first and the last sample"),
+        "life": ("s", "time until damage 1 at this rate; INFINITY without damage, 0 with an infinite one"),
+    }
+
+
 LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 LOG_FN.__doc__ = "Called with a line of text, never during a step. The text lives only for the call."
 
@@ -2208,20 +2208,20 @@ TIME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 TIME_FN.__doc__ = "out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0]; values that `provides` does not announce are computed by differences and quadrature. All within +-1e30. Returns 0, or nonzero to stop the step."
 
 
-PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
-PART_FN.__doc__ = "One part of the work of a step."
-
-
-PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
-PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen. Returns 0, or nonzero to end the call."
-
-
 CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
 CONSTRAINT_FN.__doc__ = "The function dmb_constraint_fn of the headers."
 
 
 FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double))
 FORCE_FN.__doc__ = "The function dmb_force_fn of the headers."
+
+
+PART_FN = CFUNCTYPE(None, c_void_p, c_uint32)
+PART_FN.__doc__ = "One part of the work of a step."
+
+
+PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
+PROGRESS_FN.__doc__ = "[-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be foreseen. Returns 0, or nonzero to end the call."
 
 
 class Place(Record):
@@ -2392,6 +2392,48 @@ class PipeDef(Sized):
     }
 
 
+class StabiliserDef(Sized):
+    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
+    struct_size: int
+    pipe: int
+    string: Id
+    fraction: float
+    outer_diameter: float
+    length: float
+    mass: float
+    inertia: Any
+    density: float
+    name: bytes
+    added_mass: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, pipe: int = ..., string: Id | None = ..., fraction: SupportsFloat = ..., outer_diameter: SupportsFloat = ..., length: SupportsFloat = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., density: SupportsFloat = ..., name: str | bytes = ..., added_mass: Iterable[float] = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("pipe", c_uint32),
+        ("string", Id),
+        ("fraction", c_double),
+        ("outer_diameter", c_double),
+        ("length", c_double),
+        ("mass", c_double),
+        ("inertia", c_double * 2),
+        ("density", c_double),
+        ("name", c_char * 24),
+        ("added_mass", c_double * 2),
+    ]
+    field_docs = {
+        "pipe": ("-", "number along the string; default 0"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "fraction": ("-", "0 .. 1 of the pipe's length: its middle; default 0.5"),
+        "outer_diameter": ("m", "that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09"),
+        "length": ("m", "> 0; default 0.3"),
+        "mass": ("kg", "0 (default): of a hollow cylinder around the pipe, of `density`"),
+        "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
+        "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out; shape (2)"),
+    }
+
+
 class BodyDef(Sized):
     c_name, about = "dmb_body_def", "For dmb_model_add_body, dmb_model_place_at_end."
     struct_size: int
@@ -2442,7 +2484,7 @@ class BodyDef(Sized):
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
         "contact_diameter": ("m", "of the contact ring at the reference point; 0: none (default)"),
         "contact_length": ("m", "length of wall it represents, > 0; default 1"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
         "added_mass": ("kg", "of mud that goes along with it where it speeds up along body x, and across, at the x of the centre of mass: as of a body of revolution in mud at rest (a sphere: half the mud displaced; a disc along its axis: 8/3 rho r^3). No weight; >= 0; default 0, shape (2)"),
     }
@@ -2522,13 +2564,57 @@ class BitDef(Sized):
         "bottom": ("m", "distance of the hole bottom ahead of the bit at time 0, >= 0; default 0"),
         "blades": ("-", "1 .. 64; default 4"),
         "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The string behind does not feel the hole that it leaves: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "from the side force to the direction of the cut, clockwise seen from the rig: > 0 takes a bit that is pushed upwards to the right (azimuth grows); -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "as of a body"),
         "stabiliser": ("", "{0, 0} (default): the bit at the string's end; a stabiliser: a reamer, whose cutting surface is at the middle of that stabiliser. The stabiliser has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string are ignored, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's outputs are those of the bit"),
         "inner_radius": ("m", "b of the surface that is cut up to `radius`: pilot hole of a reamer, core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
         "added_mass": ("kg", "as of a body, at the bit's centre; not of a reamer, whose stabiliser has it; default 0, shape (2)"),
+    }
+
+
+class CouplingDef(Sized):
+    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
+    struct_size: int
+    reserved: int
+    name: bytes
+    joint: 'Array[Id]'
+    component: 'Array[c_int32]'
+    ratio: float
+    third_joint: Id
+    fourth_joint: Id
+    third_component: int
+    fourth_component: int
+    third_ratio: float
+    fourth_ratio: float
+    if TYPE_CHECKING:
+        def __init__(self, *, name: str | bytes = ..., joint: Iterable[Any] = ..., component: Iterable[Any] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_int32),
+        ("name", c_char * 24),
+        ("joint", Id * 2),
+        ("component", c_int32 * 2),
+        ("ratio", c_double),
+        ("third_joint", Id),
+        ("fourth_joint", Id),
+        ("third_component", c_int32),
+        ("fourth_component", c_int32),
+        ("third_ratio", c_double),
+        ("fourth_ratio", c_double),
+    ]
+    field_docs = {
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "joint": ("", "may be the same"),
+        "component": ("", "X .. RZ, free in its joint; default RX"),
+        "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "third_joint": ("", "{0, 0} (default): two coordinates"),
+        "fourth_joint": ("", "{0, 0} (default): none"),
+        "third_component": ("", "X .. RZ, free in its joint; default RX"),
+        "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
+        "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "fourth_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
     }
 
 
@@ -2602,7 +2688,7 @@ class DriveDef(DrivePart, Sized):
         "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
         "limit_low": ("N, N m", "default -1e30"),
         "limit_high": ("N, N m", "> limit_low; default 1e30"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "delay": ("s", "from command to force, 0 or 1e-6 .. 1e4"),
         "force_rate": ("N/s, N m/s", "the most its force changes in a second, > 0; 0: it jumps"),
         "lag": ("s", "time constant of the force, 0 or >= 1e-6"),
@@ -2616,136 +2702,6 @@ class DriveDef(DrivePart, Sized):
         "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
         "gain_force": ("N, N m", "instead of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
         "mud_pressure": ("Pa/(N m)", "by which the mud's pressure falls through a motor for each N m that it gives, >= 0, of RX of a joint; in scenes with a flow_rate that joint is at the far end of the string. dmb_motor_drive fills it. Default 0: no mud flows through it"),
-    }
-
-
-class Contact(Sized):
-    c_name, about = "dmb_contact", "For dmb_query_contact."
-    struct_size: int
-    closed: int
-    sticks: int
-    number: int
-    part: Id
-    pipe: int
-    reserved: int
-    length: float
-    gap: float
-    normal: Any
-    normal_force: float
-    approach: float
-    friction: Any
-    slip: Any
-    along: float
-    if TYPE_CHECKING:
-        def __init__(self, *, closed: int = ..., sticks: int = ..., number: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("closed", c_int32),
-        ("sticks", c_int32),
-        ("number", c_uint32),
-        ("part", Id),
-        ("pipe", c_uint32),
-        ("reserved", c_uint32),
-        ("length", c_double),
-        ("gap", c_double),
-        ("normal", c_double * 3),
-        ("normal_force", c_double),
-        ("approach", c_double),
-        ("friction", c_double * 2),
-        ("slip", c_double * 2),
-        ("along", c_double),
-    ]
-    field_docs = {
-        "closed": ("", "1 when touching"),
-        "sticks": ("", "1 when the bristle law holds it"),
-        "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
-        "part": ("", "string or body the contact point belongs to"),
-        "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
-        "length": ("m", "of pipe it represents"),
-        "gap": ("m", "to the wall, < 0 when penetrating"),
-        "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
-        "normal_force": ("N", "on the wall, >= 0"),
-        "approach": ("m/s", "normal speed towards the wall"),
-        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) that of the equilibrium, until the next step; shape (2)"),
-        "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
-        "along": ("N", "on the pipe along its axis where the wall's diameter or stiffness changes (hole.h)"),
-    }
-
-
-class ProfileStruct(Sized):
-    c_name, about = "dmb_profile", "For dmb_query_profile."
-    struct_size: int
-    station_count: int
-    string: Id
-    distance: Any
-    quantities: Any
-    quantity_count: int
-    reserved: int
-    values: Any
-    station_stride: int
-    quantity_stride: int
-    if TYPE_CHECKING:
-        def __init__(self, *, station_count: int = ..., string: Id | None = ..., distance: Any = ..., quantities: Any = ..., quantity_count: int = ..., values: Any = ..., station_stride: int = ..., quantity_stride: int = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("station_count", c_uint32),
-        ("string", Id),
-        ("distance", POINTER(c_double)),
-        ("quantities", POINTER(c_int32)),
-        ("quantity_count", c_uint32),
-        ("reserved", c_uint32),
-        ("values", POINTER(c_double)),
-        ("station_stride", c_uint64),
-        ("quantity_stride", c_uint64),
-    ]
-    field_docs = {
-        "station_count": ("-", "1 .. 2^24"),
-        "string": ("", "{0, 0}: the model's first string"),
-        "distance": ("m", "of the stations along the string, 0 .. its length, any order, shape (station_count); NULL: spread evenly from the rig end to the far end"),
-        "quantities": ("", "PROFILE_..., shape (quantity_count)"),
-        "quantity_count": ("-", "1 .. PROFILE_COUNT, repetitions allowed"),
-        "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
-        "station_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
-        "quantity_stride": ("-", ""),
-    }
-
-
-class BucklingOptions(Sized):
-    c_name, about = "dmb_buckling_options", "For dmb_analysis_buckling."
-    struct_size: int
-    count: int
-    scale: int
-    follow: int
-    part: Id
-    factor_max: float
-    tolerance: float
-    step: float
-    slip_axial: float
-    slip_rotation: float
-    if TYPE_CHECKING:
-        def __init__(self, *, count: int = ..., scale: int = ..., follow: int = ..., part: Id | None = ..., factor_max: SupportsFloat = ..., tolerance: SupportsFloat = ..., step: SupportsFloat = ..., slip_axial: SupportsFloat = ..., slip_rotation: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("count", c_uint32),
-        ("scale", c_int32),
-        ("follow", c_int32),
-        ("part", Id),
-        ("factor_max", c_double),
-        ("tolerance", c_double),
-        ("step", c_double),
-        ("slip_axial", c_double),
-        ("slip_rotation", c_double),
-    ]
-    field_docs = {
-        "count": ("-", "of critical factors wanted, 1 .. 10000; default 1"),
-        "scale": ("", "SCALE_..., default SCALE_LOADS"),
-        "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
-        "part": ("", "load or drive of SCALE_PART"),
-        "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
-        "tolerance": ("-", "relative, of the factors, 1e-15 .. 0.1; default 1e-10"),
-        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): moves the string by a millionth of an element"),
-        "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
-        "slip_rotation": ("rad/s", ""),
     }
 
 
@@ -2829,77 +2785,133 @@ class InputInfo(Sized):
     }
 
 
-class CouplingDef(Sized):
-    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
+class Contact(Sized):
+    c_name, about = "dmb_contact", "For dmb_query_contact."
     struct_size: int
+    closed: int
+    sticks: int
+    number: int
+    part: Id
+    pipe: int
     reserved: int
-    name: bytes
-    joint: 'Array[Id]'
-    component: 'Array[c_int32]'
-    ratio: float
-    third_joint: Id
-    fourth_joint: Id
-    third_component: int
-    fourth_component: int
-    third_ratio: float
-    fourth_ratio: float
+    length: float
+    gap: float
+    normal: Any
+    normal_force: float
+    approach: float
+    friction: Any
+    slip: Any
+    along: float
     if TYPE_CHECKING:
-        def __init__(self, *, name: str | bytes = ..., joint: Iterable[Any] = ..., component: Iterable[Any] = ..., ratio: SupportsFloat = ..., third_joint: Id | None = ..., fourth_joint: Id | None = ..., third_component: int = ..., fourth_component: int = ..., third_ratio: SupportsFloat = ..., fourth_ratio: SupportsFloat = ...) -> None: ...
+        def __init__(self, *, closed: int = ..., sticks: int = ..., number: int = ..., part: Id | None = ..., pipe: int = ..., length: SupportsFloat = ..., gap: SupportsFloat = ..., normal: Iterable[float] = ..., normal_force: SupportsFloat = ..., approach: SupportsFloat = ..., friction: Iterable[float] = ..., slip: Iterable[float] = ..., along: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("reserved", c_int32),
-        ("name", c_char * 24),
-        ("joint", Id * 2),
-        ("component", c_int32 * 2),
-        ("ratio", c_double),
-        ("third_joint", Id),
-        ("fourth_joint", Id),
-        ("third_component", c_int32),
-        ("fourth_component", c_int32),
-        ("third_ratio", c_double),
-        ("fourth_ratio", c_double),
+        ("closed", c_int32),
+        ("sticks", c_int32),
+        ("number", c_uint32),
+        ("part", Id),
+        ("pipe", c_uint32),
+        ("reserved", c_uint32),
+        ("length", c_double),
+        ("gap", c_double),
+        ("normal", c_double * 3),
+        ("normal_force", c_double),
+        ("approach", c_double),
+        ("friction", c_double * 2),
+        ("slip", c_double * 2),
+        ("along", c_double),
     ]
     field_docs = {
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "joint": ("", "may be the same"),
-        "component": ("", "X .. RZ, free in its joint; default RX"),
-        "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
-        "third_joint": ("", "{0, 0} (default): two coordinates"),
-        "fourth_joint": ("", "{0, 0} (default): none"),
-        "third_component": ("", "X .. RZ, free in its joint; default RX"),
-        "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
-        "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
-        "fourth_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "closed": ("", "1 when touching"),
+        "sticks": ("", "1 when the bristle law holds it"),
+        "number": ("-", "of the contact point, 0 .. info.contact_points - 1"),
+        "part": ("", "string or body the contact point belongs to"),
+        "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
+        "length": ("m", "of pipe it represents"),
+        "gap": ("m", "to the wall, < 0 when penetrating"),
+        "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
+        "normal_force": ("N", "on the wall, >= 0"),
+        "approach": ("m/s", "normal speed towards the wall"),
+        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) that of the equilibrium, until the next step; shape (2)"),
+        "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
+        "along": ("N", "on the pipe along its axis where the wall's diameter or stiffness changes (scene.h)"),
     }
 
 
-class TorqueDragOptions(Sized):
-    c_name, about = "dmb_torque_drag_options", "For dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
+class ProfileStruct(Sized):
+    c_name, about = "dmb_profile", "For dmb_query_profile."
     struct_size: int
-    post_buckling: int
+    station_count: int
     string: Id
-    friction: float
-    depths: Any
-    depth_count: int
-    friction_by_depth: int
+    distance: Any
+    quantities: Any
+    quantity_count: int
+    reserved: int
+    values: Any
+    station_stride: int
+    quantity_stride: int
     if TYPE_CHECKING:
-        def __init__(self, *, post_buckling: int = ..., string: Id | None = ..., friction: SupportsFloat = ..., depths: Any = ..., depth_count: int = ..., friction_by_depth: int = ...) -> None: ...
+        def __init__(self, *, station_count: int = ..., string: Id | None = ..., distance: Any = ..., quantities: Any = ..., quantity_count: int = ..., values: Any = ..., station_stride: int = ..., quantity_stride: int = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("post_buckling", c_int32),
+        ("station_count", c_uint32),
         ("string", Id),
-        ("friction", c_double),
-        ("depths", POINTER(c_double)),
-        ("depth_count", c_uint32),
-        ("friction_by_depth", c_int32),
+        ("distance", POINTER(c_double)),
+        ("quantities", POINTER(c_int32)),
+        ("quantity_count", c_uint32),
+        ("reserved", c_uint32),
+        ("values", POINTER(c_double)),
+        ("station_stride", c_uint64),
+        ("quantity_stride", c_uint64),
     ]
     field_docs = {
-        "post_buckling": ("", "1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the compression F is above the load of helical buckling; 0: not"),
+        "station_count": ("-", "1 .. 2^24"),
         "string": ("", "{0, 0}: the model's first string"),
-        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth"),
-        "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
-        "depth_count": ("-", "1 .. 2^20; default 1"),
-        "friction_by_depth": ("", "of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the factor on the wall's mu_dynamic at each depth (hole.h)"),
+        "distance": ("m", "of the stations along the string, 0 .. its length, any order, shape (station_count); NULL: spread evenly from the rig end to the far end"),
+        "quantities": ("", "PROFILE_..., shape (quantity_count)"),
+        "quantity_count": ("-", "1 .. PROFILE_COUNT, repetitions allowed"),
+        "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
+        "station_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
+        "quantity_stride": ("-", ""),
+    }
+
+
+class BucklingOptions(Sized):
+    c_name, about = "dmb_buckling_options", "For dmb_analysis_buckling."
+    struct_size: int
+    count: int
+    scale: int
+    follow: int
+    part: Id
+    factor_max: float
+    tolerance: float
+    step: float
+    slip_axial: float
+    slip_rotation: float
+    if TYPE_CHECKING:
+        def __init__(self, *, count: int = ..., scale: int = ..., follow: int = ..., part: Id | None = ..., factor_max: SupportsFloat = ..., tolerance: SupportsFloat = ..., step: SupportsFloat = ..., slip_axial: SupportsFloat = ..., slip_rotation: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("scale", c_int32),
+        ("follow", c_int32),
+        ("part", Id),
+        ("factor_max", c_double),
+        ("tolerance", c_double),
+        ("step", c_double),
+        ("slip_axial", c_double),
+        ("slip_rotation", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "of critical factors wanted, 1 .. 10000; default 1"),
+        "scale": ("", "SCALE_..., default SCALE_LOADS"),
+        "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
+        "part": ("", "load or drive of SCALE_PART"),
+        "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
+        "tolerance": ("-", "relative, of the factors, 1e-15 .. 0.1; default 1e-10"),
+        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): moves the string by a millionth of an element"),
+        "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
+        "slip_rotation": ("rad/s", ""),
     }
 
 
@@ -2959,48 +2971,6 @@ class SpeedsOptions(Sized):
     }
 
 
-class StabiliserDef(Sized):
-    c_name, about = "dmb_stabiliser_def", "A stabiliser, centraliser or other body of revolution at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the stabiliser's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the stabiliser. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with stabilisers."
-    struct_size: int
-    pipe: int
-    string: Id
-    fraction: float
-    outer_diameter: float
-    length: float
-    mass: float
-    inertia: Any
-    density: float
-    name: bytes
-    added_mass: Any
-    if TYPE_CHECKING:
-        def __init__(self, *, pipe: int = ..., string: Id | None = ..., fraction: SupportsFloat = ..., outer_diameter: SupportsFloat = ..., length: SupportsFloat = ..., mass: SupportsFloat = ..., inertia: Iterable[float] = ..., density: SupportsFloat = ..., name: str | bytes = ..., added_mass: Iterable[float] = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("pipe", c_uint32),
-        ("string", Id),
-        ("fraction", c_double),
-        ("outer_diameter", c_double),
-        ("length", c_double),
-        ("mass", c_double),
-        ("inertia", c_double * 2),
-        ("density", c_double),
-        ("name", c_char * 24),
-        ("added_mass", c_double * 2),
-    ]
-    field_docs = {
-        "pipe": ("-", "number along the string; default 0"),
-        "string": ("", "{0, 0}: the model's first string"),
-        "fraction": ("-", "0 .. 1 of the pipe's length: its middle; default 0.5"),
-        "outer_diameter": ("m", "that meets the wall, >= outer diameter of the pipe, <= hole; default 0.09"),
-        "length": ("m", "> 0; default 0.3"),
-        "mass": ("kg", "0 (default): of a hollow cylinder around the pipe, of `density`"),
-        "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
-        "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
-        "name": ("", "for messages, ends with 0; default \"\""),
-        "added_mass": ("kg", "of mud that goes along with it, besides that of the pipe under it, along its axis and across, >= 0; default 0, and -1 across: by added_mass of the environment, of the mud it displaces beyond the pipe, its ends left out; shape (2)"),
-    }
-
-
 class Row(Sized):
     c_name, about = "dmb_row", "For dmb_query_row."
     struct_size: int
@@ -3027,6 +2997,36 @@ class Row(Sized):
         "pipe": ("-", "of the string; the one before the node"),
         "node": ("-", ""),
         "state": ("", "ROW_FREE, held by a support, or driven by a motion drive"),
+    }
+
+
+class TorqueDragOptions(Sized):
+    c_name, about = "dmb_torque_drag_options", "For dmb_analysis_torque_drag, dmb_analysis_torque_drag_profile, dmb_analysis_friction_factor."
+    struct_size: int
+    post_buckling: int
+    string: Id
+    friction: float
+    depths: Any
+    depth_count: int
+    friction_by_depth: int
+    if TYPE_CHECKING:
+        def __init__(self, *, post_buckling: int = ..., string: Id | None = ..., friction: SupportsFloat = ..., depths: Any = ..., depth_count: int = ..., friction_by_depth: int = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("post_buckling", c_int32),
+        ("string", Id),
+        ("friction", c_double),
+        ("depths", POINTER(c_double)),
+        ("depth_count", c_uint32),
+        ("friction_by_depth", c_int32),
+    ]
+    field_docs = {
+        "post_buckling": ("", "1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the compression F is above the load of helical buckling; 0: not"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth"),
+        "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
+        "depth_count": ("-", "1 .. 2^20; default 1"),
+        "friction_by_depth": ("", "of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the factor on the wall's mu_dynamic at each depth (scene.h)"),
     }
 
 
@@ -3071,6 +3071,133 @@ class ModelOptions(Sized):
     }
 
 
+class JointDef(Sized):
+    c_name, about = "dmb_joint_def", "For dmb_model_add_joint."
+    struct_size: int
+    kind: int
+    name: bytes
+    place_a: Place
+    place_b: Place
+    origin_a: Any
+    axis_a: Any
+    normal_a: Any
+    origin_b: Any
+    axis_b: Any
+    normal_b: Any
+    match: int
+    state: int
+    length: float
+    stiffness: Any
+    damping: Any
+    rest: Any
+    friction: Any
+    friction_speed: float
+    stop_low: Any
+    stop_high: Any
+    stop_stiffness: float
+    stop_damping: float
+    initial_mask: int
+    reserved: int
+    initial_position: Any
+    initial_speed: Any
+    if TYPE_CHECKING:
+        def __init__(self, *, kind: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., origin_a: Iterable[float] = ..., axis_a: Iterable[float] = ..., normal_a: Iterable[float] = ..., origin_b: Iterable[float] = ..., axis_b: Iterable[float] = ..., normal_b: Iterable[float] = ..., match: int = ..., state: int = ..., length: SupportsFloat = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., rest: Iterable[float] = ..., friction: Iterable[float] = ..., friction_speed: SupportsFloat = ..., stop_low: Iterable[float] = ..., stop_high: Iterable[float] = ..., stop_stiffness: SupportsFloat = ..., stop_damping: SupportsFloat = ..., initial_mask: int = ..., initial_position: Iterable[float] = ..., initial_speed: Iterable[float] = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("place_a", Place),
+        ("place_b", Place),
+        ("origin_a", c_double * 3),
+        ("axis_a", c_double * 3),
+        ("normal_a", c_double * 3),
+        ("origin_b", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("normal_b", c_double * 3),
+        ("match", c_int32),
+        ("state", c_int32),
+        ("length", c_double),
+        ("stiffness", c_double * 6),
+        ("damping", c_double * 6),
+        ("rest", c_double * 6),
+        ("friction", c_double * 6),
+        ("friction_speed", c_double),
+        ("stop_low", c_double * 6),
+        ("stop_high", c_double * 6),
+        ("stop_stiffness", c_double),
+        ("stop_damping", c_double),
+        ("initial_mask", c_int32),
+        ("reserved", c_int32),
+        ("initial_position", c_double * 6),
+        ("initial_speed", c_double * 6),
+    ]
+    field_docs = {
+        "kind": ("", "JOINT_..., default JOINT_FIXED"),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
+        "place_b": ("", "node, body or bit as place_a, not the ground"),
+        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
+        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
+        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
+        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
+        "axis_b": ("-", "shape (3)"),
+        "normal_b": ("-", "shape (3)"),
+        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b are ignored; 0 (default): frame b as given"),
+        "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
+        "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
+        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
+        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
+        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
+        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
+        "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
+        "stop_low": ("m, rad", "default -1e30, shape (6)"),
+        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
+        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
+        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
+        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
+        "initial_position": ("m, rad", "at time 0, shape (6)"),
+        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
+    }
+
+
+class ConstraintDef(ConstraintPart, Sized):
+    c_name, about = "dmb_constraint_def", "For dmb_model_add_constraint."
+    struct_size: int
+    kind: int
+    name: bytes
+    row_count: int
+    place_count: int
+    place: 'Array[Place]'
+    provides: int
+    reserved: int
+    callback: Any
+    callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, places: Any = ..., function: Any = ..., *, kind: int = ..., name: str | bytes = ..., row_count: int = ..., place_count: int = ..., place: Iterable[Any] = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("row_count", c_uint32),
+        ("place_count", c_uint32),
+        ("place", Place * 4),
+        ("provides", c_int32),
+        ("reserved", c_int32),
+        ("callback", CONSTRAINT_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "row_count": ("-", "equations, 1 .. 6; default 1"),
+        "place_count": ("-", "1 .. 4; default 1"),
+        "place": ("", "as of a joint, not the ground, shape (place_count)"),
+        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
+        "callback": ("", "required"),
+        "callback_context": ("", ""),
+    }
+
+
 class LoadDef(Sized):
     c_name, about = "dmb_load_def", "For dmb_model_add_load."
     struct_size: int
@@ -3099,8 +3226,190 @@ class LoadDef(Sized):
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
         "time_function": ("-", "factor over time; {0, 0}: 1"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
         "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
+    }
+
+
+class SpringDef(SpringPart, Sized):
+    c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction."
+    struct_size: int
+    acts: int
+    name: bytes
+    place_a: Place
+    place_b: Place
+    offset_a: Any
+    offset_b: Any
+    free_length: float
+    stiffness: float
+    damping: float
+    preload: float
+    table_elongation: Any
+    table_force: Any
+    table_count: int
+    table_kind: int
+    if TYPE_CHECKING:
+        def __init__(self, table: Any = ..., *, acts: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., offset_a: Iterable[float] = ..., offset_b: Iterable[float] = ..., free_length: SupportsFloat = ..., stiffness: SupportsFloat = ..., damping: SupportsFloat = ..., preload: SupportsFloat = ..., table_elongation: Any = ..., table_force: Any = ..., table_count: int = ..., table_kind: int = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("acts", c_int32),
+        ("name", c_char * 24),
+        ("place_a", Place),
+        ("place_b", Place),
+        ("offset_a", c_double * 3),
+        ("offset_b", c_double * 3),
+        ("free_length", c_double),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("preload", c_double),
+        ("table_elongation", POINTER(c_double)),
+        ("table_force", POINTER(c_double)),
+        ("table_count", c_uint32),
+        ("table_kind", c_int32),
+    ]
+    field_docs = {
+        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "place_a": ("", "part {0, 0} (default): the ground; not both"),
+        "place_b": ("", "part {0, 0} (default): the ground; not both"),
+        "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
+        "offset_b": ("m", "shape (3)"),
+        "free_length": ("m", ">= 0; -1 (default): the length at time 0 as described, > 0"),
+        "stiffness": ("N/m", ">= 0; default 0"),
+        "damping": ("N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
+        "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
+        "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
+        "table_force": ("N", "shape (table_count); extended along its last slopes; of a one-sided spring it must not fall; copied"),
+        "table_count": ("-", "0 (default): none; 2 .. 2^16"),
+        "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points"),
+    }
+
+
+class ForceDef(ForcePart, Sized):
+    c_name, about = "dmb_force_def", "For dmb_model_add_force."
+    struct_size: int
+    frame: int
+    name: bytes
+    place_count: int
+    provides: int
+    place: 'Array[Place]'
+    offset: Any
+    component: 'Array[c_int32]'
+    pose_step: float
+    speed_step: float
+    callback: Any
+    callback_context: Any
+    if TYPE_CHECKING:
+        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Iterable[Any] = ..., offset: Iterable[float] = ..., component: Iterable[Any] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("name", c_char * 24),
+        ("place_count", c_uint32),
+        ("provides", c_int32),
+        ("place", Place * 4),
+        ("offset", c_double * 12),
+        ("component", c_int32 * 4),
+        ("pose_step", c_double),
+        ("speed_step", c_double),
+        ("callback", FORCE_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
+        "name": ("", "for messages and look-up, ends with 0; default \"\""),
+        "place_count": ("-", "of places and coordinates, 1 .. 4; default 1"),
+        "provides": ("", "PROVIDES_...; a tangent is held against differences when a sim is made (ERR_CALLBACK); default 0: built by differences"),
+        "place": ("", "not the ground; or part is a joint: its coordinate; shape (place_count)"),
+        "offset": ("m", "of each point from its place, in its axes, shape (place_count, 3); default 0"),
+        "component": ("", "of a joint: X .. RZ, free in it; shape (place_count); default 0"),
+        "pose_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
+        "speed_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
+        "callback": ("", "required"),
+        "callback_context": ("", ""),
+    }
+
+
+class StuckDef(Sized):
+    c_name, about = "dmb_stuck_def", "For dmb_model_add_stuck."
+    struct_size: int
+    holds: int
+    name: bytes
+    place: Place
+    stuck: int
+    reserved: int
+    stiffness: Any
+    damping: Any
+    overpull: float
+    overtorque: float
+    if TYPE_CHECKING:
+        def __init__(self, *, holds: int = ..., name: str | bytes = ..., place: Place | Id | None = ..., stuck: int = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., overpull: SupportsFloat = ..., overtorque: SupportsFloat = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("holds", c_int32),
+        ("name", c_char * 24),
+        ("place", Place),
+        ("stuck", c_int32),
+        ("reserved", c_int32),
+        ("stiffness", c_double * 3),
+        ("damping", c_double * 3),
+        ("overpull", c_double),
+        ("overtorque", c_double),
+    ]
+    field_docs = {
+        "holds": ("", "mask of STUCK_...; default AXIAL and ROTATION"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "place": ("", "of a pipe, or a body or bit; required"),
+        "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
+        "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
+        "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
+        "overpull": ("N", "axial force, pull or push, at which it is released, > 0; default 0: never"),
+        "overtorque": ("N m", "torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad"),
+    }
+
+
+class Sub(Sized):
+    c_name, about = "dmb_sub", "For dmb_model_add_sub."
+    struct_size: int
+    reserved: int
+    body: Id
+    section: Id
+    before: Id
+    after: Id
+    end: Place
+    if TYPE_CHECKING:
+        def __init__(self, *, body: Id | None = ..., section: Id | None = ..., before: Id | None = ..., after: Id | None = ..., end: Place | Id | None = ...) -> None: ...
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("body", Id),
+        ("section", Id),
+        ("before", Id),
+        ("after", Id),
+        ("end", Place),
+    ]
+    field_docs = {
+        "body": ("", "section: the string to add the next pipes to"),
+        "section": ("", "section: the string to add the next pipes to"),
+        "before": ("", "section: the string to add the next pipes to"),
+        "after": ("", "section: the string to add the next pipes to"),
+        "end": ("", "of the string, that `before` joins to the body"),
+    }
+
+
+class Output(Record):
+    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (scene.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
+    place: Place
+    quantity: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("place", Place),
+        ("quantity", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "place": ("", "where the quantity is one of a place"),
+        "quantity": ("", "OUTPUT_..."),
     }
 
 
@@ -3178,19 +3487,32 @@ class SimOptions(Sized):
     }
 
 
-class Output(Record):
-    c_name, about = "dmb_output", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these gives its length and speed (forces.h, as outputs); so do dmb_query_motion with the arm, and a body that is fixed there."
-    place: Place
-    quantity: int
+class ProfileRecorderStruct(Sized):
+    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
+    struct_size: int
     reserved: int
+    profile: Any
+    table: Any
+    capacity: int
+    row_count: int
+    interval: float
+    if TYPE_CHECKING:
+        def __init__(self, *, profile: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
-        ("place", Place),
-        ("quantity", c_int32),
-        ("reserved", c_int32),
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("profile", POINTER(ProfileStruct)),
+        ("table", POINTER(c_double)),
+        ("capacity", c_uint64),
+        ("row_count", c_uint64),
+        ("interval", c_double),
     ]
     field_docs = {
-        "place": ("", "where the quantity is one of a place"),
-        "quantity": ("", "OUTPUT_..."),
+        "profile": ("", "quantities of a row; its `values` and strides are ignored. The caller's, kept alive by it and not changed once there is a row"),
+        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
+        "capacity": ("-", "rows of table"),
+        "row_count": ("-", "rows written; start with 0"),
+        "interval": ("s", "between rows, 0: every call"),
     }
 
 
@@ -3257,328 +3579,6 @@ class PathOptions(Sized):
     }
 
 
-class ProfileRecorderStruct(Sized):
-    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
-    struct_size: int
-    reserved: int
-    profile: Any
-    table: Any
-    capacity: int
-    row_count: int
-    interval: float
-    if TYPE_CHECKING:
-        def __init__(self, *, profile: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("profile", POINTER(ProfileStruct)),
-        ("table", POINTER(c_double)),
-        ("capacity", c_uint64),
-        ("row_count", c_uint64),
-        ("interval", c_double),
-    ]
-    field_docs = {
-        "profile": ("", "quantities of a row; its `values` and strides are ignored. The caller's, kept alive by it and not changed once there is a row"),
-        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
-        "capacity": ("-", "rows of table"),
-        "row_count": ("-", "rows written; start with 0"),
-        "interval": ("s", "between rows, 0: every call"),
-    }
-
-
-class JointDef(Sized):
-    c_name, about = "dmb_joint_def", "For dmb_model_add_joint."
-    struct_size: int
-    kind: int
-    name: bytes
-    place_a: Place
-    place_b: Place
-    origin_a: Any
-    axis_a: Any
-    normal_a: Any
-    origin_b: Any
-    axis_b: Any
-    normal_b: Any
-    match: int
-    state: int
-    length: float
-    stiffness: Any
-    damping: Any
-    rest: Any
-    friction: Any
-    friction_speed: float
-    stop_low: Any
-    stop_high: Any
-    stop_stiffness: float
-    stop_damping: float
-    initial_mask: int
-    reserved: int
-    initial_position: Any
-    initial_speed: Any
-    if TYPE_CHECKING:
-        def __init__(self, *, kind: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., origin_a: Iterable[float] = ..., axis_a: Iterable[float] = ..., normal_a: Iterable[float] = ..., origin_b: Iterable[float] = ..., axis_b: Iterable[float] = ..., normal_b: Iterable[float] = ..., match: int = ..., state: int = ..., length: SupportsFloat = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., rest: Iterable[float] = ..., friction: Iterable[float] = ..., friction_speed: SupportsFloat = ..., stop_low: Iterable[float] = ..., stop_high: Iterable[float] = ..., stop_stiffness: SupportsFloat = ..., stop_damping: SupportsFloat = ..., initial_mask: int = ..., initial_position: Iterable[float] = ..., initial_speed: Iterable[float] = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("name", c_char * 24),
-        ("place_a", Place),
-        ("place_b", Place),
-        ("origin_a", c_double * 3),
-        ("axis_a", c_double * 3),
-        ("normal_a", c_double * 3),
-        ("origin_b", c_double * 3),
-        ("axis_b", c_double * 3),
-        ("normal_b", c_double * 3),
-        ("match", c_int32),
-        ("state", c_int32),
-        ("length", c_double),
-        ("stiffness", c_double * 6),
-        ("damping", c_double * 6),
-        ("rest", c_double * 6),
-        ("friction", c_double * 6),
-        ("friction_speed", c_double),
-        ("stop_low", c_double * 6),
-        ("stop_high", c_double * 6),
-        ("stop_stiffness", c_double),
-        ("stop_damping", c_double),
-        ("initial_mask", c_int32),
-        ("reserved", c_int32),
-        ("initial_position", c_double * 6),
-        ("initial_speed", c_double * 6),
-    ]
-    field_docs = {
-        "kind": ("", "JOINT_..., default JOINT_FIXED"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
-        "place_b": ("", "node, body or bit as place_a, not the ground"),
-        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
-        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
-        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
-        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
-        "axis_b": ("-", "shape (3)"),
-        "normal_b": ("-", "shape (3)"),
-        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b are ignored; 0 (default): frame b as given"),
-        "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
-        "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
-        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
-        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
-        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
-        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
-        "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
-        "stop_low": ("m, rad", "default -1e30, shape (6)"),
-        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
-        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
-        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
-        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
-        "initial_position": ("m, rad", "at time 0, shape (6)"),
-        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
-    }
-
-
-class ConstraintDef(ConstraintPart, Sized):
-    c_name, about = "dmb_constraint_def", "For dmb_model_add_constraint."
-    struct_size: int
-    kind: int
-    name: bytes
-    row_count: int
-    place_count: int
-    place: 'Array[Place]'
-    provides: int
-    reserved: int
-    callback: Any
-    callback_context: Any
-    if TYPE_CHECKING:
-        def __init__(self, places: Any = ..., function: Any = ..., *, kind: int = ..., name: str | bytes = ..., row_count: int = ..., place_count: int = ..., place: Iterable[Any] = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("name", c_char * 24),
-        ("row_count", c_uint32),
-        ("place_count", c_uint32),
-        ("place", Place * 4),
-        ("provides", c_int32),
-        ("reserved", c_int32),
-        ("callback", CONSTRAINT_FN),
-        ("callback_context", c_void_p),
-    ]
-    field_docs = {
-        "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "row_count": ("-", "equations, 1 .. 6; default 1"),
-        "place_count": ("-", "1 .. 4; default 1"),
-        "place": ("", "as of a joint, not the ground, shape (place_count)"),
-        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
-        "callback": ("", "required"),
-        "callback_context": ("", ""),
-    }
-
-
-class StuckDef(Sized):
-    c_name, about = "dmb_stuck_def", "For dmb_model_add_stuck."
-    struct_size: int
-    holds: int
-    name: bytes
-    place: Place
-    stuck: int
-    reserved: int
-    stiffness: Any
-    damping: Any
-    overpull: float
-    overtorque: float
-    if TYPE_CHECKING:
-        def __init__(self, *, holds: int = ..., name: str | bytes = ..., place: Place | Id | None = ..., stuck: int = ..., stiffness: Iterable[float] = ..., damping: Iterable[float] = ..., overpull: SupportsFloat = ..., overtorque: SupportsFloat = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("holds", c_int32),
-        ("name", c_char * 24),
-        ("place", Place),
-        ("stuck", c_int32),
-        ("reserved", c_int32),
-        ("stiffness", c_double * 3),
-        ("damping", c_double * 3),
-        ("overpull", c_double),
-        ("overtorque", c_double),
-    ]
-    field_docs = {
-        "holds": ("", "mask of STUCK_...; default AXIAL and ROTATION"),
-        "name": ("", "for messages, ends with 0; default \"\""),
-        "place": ("", "of a pipe, or a body or bit; required"),
-        "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
-        "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
-        "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
-        "overpull": ("N", "axial force, pull or push, at which it is released, > 0; default 0: never"),
-        "overtorque": ("N m", "torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad"),
-    }
-
-
-class Sub(Sized):
-    c_name, about = "dmb_sub", "For dmb_model_add_sub."
-    struct_size: int
-    reserved: int
-    body: Id
-    section: Id
-    before: Id
-    after: Id
-    end: Place
-    if TYPE_CHECKING:
-        def __init__(self, *, body: Id | None = ..., section: Id | None = ..., before: Id | None = ..., after: Id | None = ..., end: Place | Id | None = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("body", Id),
-        ("section", Id),
-        ("before", Id),
-        ("after", Id),
-        ("end", Place),
-    ]
-    field_docs = {
-        "body": ("", "section: the string to add the next pipes to"),
-        "section": ("", "section: the string to add the next pipes to"),
-        "before": ("", "section: the string to add the next pipes to"),
-        "after": ("", "section: the string to add the next pipes to"),
-        "end": ("", "of the string, that `before` joins to the body"),
-    }
-
-
-class SpringDef(SpringPart, Sized):
-    c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction."
-    struct_size: int
-    acts: int
-    name: bytes
-    place_a: Place
-    place_b: Place
-    offset_a: Any
-    offset_b: Any
-    free_length: float
-    stiffness: float
-    damping: float
-    preload: float
-    table_elongation: Any
-    table_force: Any
-    table_count: int
-    table_kind: int
-    if TYPE_CHECKING:
-        def __init__(self, table: Any = ..., *, acts: int = ..., name: str | bytes = ..., place_a: Place | Id | None = ..., place_b: Place | Id | None = ..., offset_a: Iterable[float] = ..., offset_b: Iterable[float] = ..., free_length: SupportsFloat = ..., stiffness: SupportsFloat = ..., damping: SupportsFloat = ..., preload: SupportsFloat = ..., table_elongation: Any = ..., table_force: Any = ..., table_count: int = ..., table_kind: int = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("acts", c_int32),
-        ("name", c_char * 24),
-        ("place_a", Place),
-        ("place_b", Place),
-        ("offset_a", c_double * 3),
-        ("offset_b", c_double * 3),
-        ("free_length", c_double),
-        ("stiffness", c_double),
-        ("damping", c_double),
-        ("preload", c_double),
-        ("table_elongation", POINTER(c_double)),
-        ("table_force", POINTER(c_double)),
-        ("table_count", c_uint32),
-        ("table_kind", c_int32),
-    ]
-    field_docs = {
-        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "place_a": ("", "part {0, 0} (default): the ground; not both"),
-        "place_b": ("", "part {0, 0} (default): the ground; not both"),
-        "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
-        "offset_b": ("m", "shape (3)"),
-        "free_length": ("m", ">= 0; -1 (default): the length at time 0 as described, > 0"),
-        "stiffness": ("N/m", ">= 0; default 0"),
-        "damping": ("N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
-        "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
-        "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
-        "table_force": ("N", "shape (table_count); extended along its last slopes; of a one-sided spring it must not fall; copied"),
-        "table_count": ("-", "0 (default): none; 2 .. 2^16"),
-        "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points"),
-    }
-
-
-class ForceDef(ForcePart, Sized):
-    c_name, about = "dmb_force_def", "For dmb_model_add_force."
-    struct_size: int
-    frame: int
-    name: bytes
-    place_count: int
-    provides: int
-    place: 'Array[Place]'
-    offset: Any
-    component: 'Array[c_int32]'
-    pose_step: float
-    speed_step: float
-    callback: Any
-    callback_context: Any
-    if TYPE_CHECKING:
-        def __init__(self, places: Any = ..., function: Any = ..., *, frame: int = ..., name: str | bytes = ..., place_count: int = ..., provides: int = ..., place: Iterable[Any] = ..., offset: Iterable[float] = ..., component: Iterable[Any] = ..., pose_step: SupportsFloat = ..., speed_step: SupportsFloat = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("frame", c_int32),
-        ("name", c_char * 24),
-        ("place_count", c_uint32),
-        ("provides", c_int32),
-        ("place", Place * 4),
-        ("offset", c_double * 12),
-        ("component", c_int32 * 4),
-        ("pose_step", c_double),
-        ("speed_step", c_double),
-        ("callback", FORCE_FN),
-        ("callback_context", c_void_p),
-    ]
-    field_docs = {
-        "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "place_count": ("-", "of places and coordinates, 1 .. 4; default 1"),
-        "provides": ("", "PROVIDES_...; a tangent is held against differences when a sim is made (ERR_CALLBACK); default 0: built by differences"),
-        "place": ("", "not the ground; or part is a joint: its coordinate; shape (place_count)"),
-        "offset": ("m", "of each point from its place, in its axes, shape (place_count, 3); default 0"),
-        "component": ("", "of a joint: X .. RZ, free in it; shape (place_count); default 0"),
-        "pose_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
-        "speed_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
-        "callback": ("", "required"),
-        "callback_context": ("", ""),
-    }
-
-
 class Excitation(Sized):
     c_name, about = "dmb_excitation", "For dmb_analysis_response, dmb_analysis_state_space."
     struct_size: int
@@ -3633,36 +3633,35 @@ class ResponseOutput(Sized):
     }
 
 
-class RecorderStruct(Sized):
-    c_name, about = "dmb_recorder", "For dmb_recorder_take, dmb_recorder_write_csv."
+class SubDef(Sized):
+    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues the string after it. The body's reference point and axes are those of the far end of the string as it is described so far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end, and of the section's rig end."
     struct_size: int
-    output_count: int
-    outputs: Any
-    table: Any
-    capacity: int
-    row_count: int
-    interval: float
-    window: Any
+    reserved: int
+    string: Id
+    length: float
+    body: Any
+    before: Any
+    after: Any
+    section: Any
     if TYPE_CHECKING:
-        def __init__(self, *, output_count: int = ..., outputs: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ..., window: Any = ...) -> None: ...
+        def __init__(self, *, string: Id | None = ..., length: SupportsFloat = ..., body: Any = ..., before: Any = ..., after: Any = ..., section: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("output_count", c_uint32),
-        ("outputs", POINTER(Output)),
-        ("table", POINTER(c_double)),
-        ("capacity", c_uint64),
-        ("row_count", c_uint64),
-        ("interval", c_double),
-        ("window", c_void_p),
+        ("reserved", c_uint32),
+        ("string", Id),
+        ("length", c_double),
+        ("body", POINTER(BodyDef)),
+        ("before", POINTER(JointDef)),
+        ("after", POINTER(JointDef)),
+        ("section", POINTER(StringDef)),
     ]
     field_docs = {
-        "output_count": ("-", "1 .. 4096"),
-        "outputs": ("", "shape (output_count); the caller's, kept alive by it"),
-        "table": ("", "shape (capacity, 1 + output_count); the caller's"),
-        "capacity": ("-", "rows of table"),
-        "row_count": ("-", "rows written; start with 0"),
-        "interval": ("s", "between samples, 0: every call"),
-        "window": ("", "of the outputs of a window (output.h), fed by the caller before; default NULL"),
+        "string": ("", "with its pipes so far, end_free FREE_ALL; {0, 0}: the model's first"),
+        "length": ("m", ">= 0; default 0"),
+        "body": ("", "NULL (default): a body by default"),
+        "before": ("", "string to body; NULL (default): fixed"),
+        "after": ("", "body to section; NULL (default): fixed"),
+        "section": ("", "its name and end_free; NULL (default): a string by default"),
     }
 
 
@@ -3696,35 +3695,36 @@ class EventDef(Sized):
     }
 
 
-class SubDef(Sized):
-    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues the string after it. The body's reference point and axes are those of the far end of the string as it is described so far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end, and of the section's rig end."
+class RecorderStruct(Sized):
+    c_name, about = "dmb_recorder", "For dmb_recorder_take, dmb_recorder_write_csv."
     struct_size: int
-    reserved: int
-    string: Id
-    length: float
-    body: Any
-    before: Any
-    after: Any
-    section: Any
+    output_count: int
+    outputs: Any
+    table: Any
+    capacity: int
+    row_count: int
+    interval: float
+    window: Any
     if TYPE_CHECKING:
-        def __init__(self, *, string: Id | None = ..., length: SupportsFloat = ..., body: Any = ..., before: Any = ..., after: Any = ..., section: Any = ...) -> None: ...
+        def __init__(self, *, output_count: int = ..., outputs: Any = ..., table: Any = ..., capacity: int = ..., row_count: int = ..., interval: SupportsFloat = ..., window: Any = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("string", Id),
-        ("length", c_double),
-        ("body", POINTER(BodyDef)),
-        ("before", POINTER(JointDef)),
-        ("after", POINTER(JointDef)),
-        ("section", POINTER(StringDef)),
+        ("output_count", c_uint32),
+        ("outputs", POINTER(Output)),
+        ("table", POINTER(c_double)),
+        ("capacity", c_uint64),
+        ("row_count", c_uint64),
+        ("interval", c_double),
+        ("window", c_void_p),
     ]
     field_docs = {
-        "string": ("", "with its pipes so far, end_free FREE_ALL; {0, 0}: the model's first"),
-        "length": ("m", ">= 0; default 0"),
-        "body": ("", "NULL (default): a body by default"),
-        "before": ("", "string to body; NULL (default): fixed"),
-        "after": ("", "body to section; NULL (default): fixed"),
-        "section": ("", "its name and end_free; NULL (default): a string by default"),
+        "output_count": ("-", "1 .. 4096"),
+        "outputs": ("", "shape (output_count); the caller's, kept alive by it"),
+        "table": ("", "shape (capacity, 1 + output_count); the caller's"),
+        "capacity": ("-", "rows of table"),
+        "row_count": ("-", "rows written; start with 0"),
+        "interval": ("s", "between samples, 0: every call"),
+        "window": ("", "of the outputs of a window, fed by the caller before; default NULL"),
     }
 
 
@@ -3757,16 +3757,34 @@ STRUCTS["dmb_model_options"] = ModelOptions
 STRUCTS["dmb_environment_def"] = EnvironmentDef
 STRUCTS["dmb_segment"] = Segment
 STRUCTS["dmb_wall_def"] = WallDef
+STRUCTS["dmb_hole_section"] = HoleSection
 STRUCTS["dmb_string_def"] = StringDef
 STRUCTS["dmb_pipe_def"] = PipeDef
+STRUCTS["dmb_stabiliser_def"] = StabiliserDef
 STRUCTS["dmb_body_def"] = BodyDef
 STRUCTS["dmb_bit_def"] = BitDef
+STRUCTS["dmb_joint_def"] = JointDef
+STRUCTS["dmb_coupling_def"] = CouplingDef
+STRUCTS["dmb_constraint_def"] = ConstraintDef
 STRUCTS["dmb_drive_def"] = DriveDef
 STRUCTS["dmb_load_def"] = LoadDef
+STRUCTS["dmb_spring_def"] = SpringDef
+STRUCTS["dmb_force_def"] = ForceDef
+STRUCTS["dmb_stuck_def"] = StuckDef
+STRUCTS["dmb_motor"] = Motor
+STRUCTS["dmb_sub_def"] = SubDef
+STRUCTS["dmb_sub"] = Sub
+STRUCTS["dmb_input_def"] = InputDef
+STRUCTS["dmb_input_info"] = InputInfo
+STRUCTS["dmb_output"] = Output
+STRUCTS["dmb_event_def"] = EventDef
 STRUCTS["dmb_compile_options"] = CompileOptions
 STRUCTS["dmb_model_info"] = ModelInfo
 STRUCTS["dmb_sim_options"] = SimOptions
 STRUCTS["dmb_step_report"] = StepReport
+STRUCTS["dmb_input_state"] = InputState
+STRUCTS["dmb_input_record"] = InputRecord
+STRUCTS["dmb_event_report"] = EventReport
 STRUCTS["dmb_pose"] = Pose
 STRUCTS["dmb_motion"] = Motion
 STRUCTS["dmb_section"] = Section
@@ -3781,8 +3799,12 @@ STRUCTS["dmb_statistics"] = Statistics
 STRUCTS["dmb_hole_point"] = HolePoint
 STRUCTS["dmb_flow_state"] = FlowState
 STRUCTS["dmb_profile"] = ProfileStruct
-STRUCTS["dmb_output"] = Output
 STRUCTS["dmb_recorder"] = RecorderStruct
+STRUCTS["dmb_spring_state"] = SpringState
+STRUCTS["dmb_stuck_state"] = StuckState
+STRUCTS["dmb_window_options"] = WindowOptions
+STRUCTS["dmb_window_result"] = WindowResult
+STRUCTS["dmb_profile_recorder"] = ProfileRecorderStruct
 STRUCTS["dmb_static_options"] = StaticOptions
 STRUCTS["dmb_static_report"] = StaticReport
 STRUCTS["dmb_buckling_options"] = BucklingOptions
@@ -3791,33 +3813,6 @@ STRUCTS["dmb_path_point"] = PathPoint
 STRUCTS["dmb_path_options"] = PathOptions
 STRUCTS["dmb_path_report"] = PathReport
 STRUCTS["dmb_check_report"] = CheckReport
-STRUCTS["dmb_window_options"] = WindowOptions
-STRUCTS["dmb_window_result"] = WindowResult
-STRUCTS["dmb_profile_recorder"] = ProfileRecorderStruct
-STRUCTS["dmb_input_def"] = InputDef
-STRUCTS["dmb_input_info"] = InputInfo
-STRUCTS["dmb_input_state"] = InputState
-STRUCTS["dmb_input_record"] = InputRecord
-STRUCTS["dmb_event_def"] = EventDef
-STRUCTS["dmb_event_report"] = EventReport
-STRUCTS["dmb_joint_def"] = JointDef
-STRUCTS["dmb_coupling_def"] = CouplingDef
-STRUCTS["dmb_constraint_def"] = ConstraintDef
-STRUCTS["dmb_stuck_def"] = StuckDef
-STRUCTS["dmb_stuck_state"] = StuckState
-STRUCTS["dmb_motor"] = Motor
-STRUCTS["dmb_sub_def"] = SubDef
-STRUCTS["dmb_sub"] = Sub
-STRUCTS["dmb_operation"] = Operation
-STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
-STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
-STRUCTS["dmb_hydraulics"] = Hydraulics
-STRUCTS["dmb_fatigue_options"] = FatigueOptions
-STRUCTS["dmb_fatigue_result"] = FatigueResult
-STRUCTS["dmb_spring_def"] = SpringDef
-STRUCTS["dmb_spring_state"] = SpringState
-STRUCTS["dmb_force_def"] = ForceDef
-STRUCTS["dmb_hole_section"] = HoleSection
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode
@@ -3831,11 +3826,16 @@ STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand
-STRUCTS["dmb_stabiliser_def"] = StabiliserDef
-STRUCTS["dmb_parameter"] = Parameter
 STRUCTS["dmb_state_space_options"] = StateSpaceOptions
 STRUCTS["dmb_state_space_info"] = StateSpaceInfo
 STRUCTS["dmb_row"] = Row
+STRUCTS["dmb_parameter"] = Parameter
+STRUCTS["dmb_operation"] = Operation
+STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
+STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
+STRUCTS["dmb_hydraulics"] = Hydraulics
+STRUCTS["dmb_fatigue_options"] = FatigueOptions
+STRUCTS["dmb_fatigue_result"] = FatigueResult
 
 for _cls in STRUCTS.values():
     read_as_numpy(_cls)

@@ -139,6 +139,54 @@ LOG_WARNING = LogLevel.WARNING
 LOG_INFO = LogLevel.INFO
 
 
+class Name(IntEnum):
+    """Values DMB_NAME_... of the headers."""
+    SIZE = 24
+
+
+NAME_SIZE = Name.SIZE
+
+
+class PartKind(IntEnum):
+    """Values DMB_PART_... of the headers."""
+    ANY = 0
+    TIME_FUNCTION = 1
+    WALL = 2
+    STRING = 3
+    BODY = 4
+    BIT = 5
+    DRIVE = 6
+    LOAD = 7
+    JOINT = 8
+    COUPLING = 9
+    CONSTRAINT = 10
+    SPRING = 11
+    FORCE = 12
+    STABILISER = 13
+    STUCK = 14
+    INPUT = 20
+    EVENT = 21
+
+
+PART_ANY = PartKind.ANY
+PART_TIME_FUNCTION = PartKind.TIME_FUNCTION
+PART_WALL = PartKind.WALL
+PART_STRING = PartKind.STRING
+PART_BODY = PartKind.BODY
+PART_BIT = PartKind.BIT
+PART_DRIVE = PartKind.DRIVE
+PART_LOAD = PartKind.LOAD
+PART_JOINT = PartKind.JOINT
+PART_COUPLING = PartKind.COUPLING
+PART_CONSTRAINT = PartKind.CONSTRAINT
+PART_SPRING = PartKind.SPRING
+PART_FORCE = PartKind.FORCE
+PART_STABILISER = PartKind.STABILISER
+PART_STUCK = PartKind.STUCK
+PART_INPUT = PartKind.INPUT
+PART_EVENT = PartKind.EVENT
+
+
 class Component(IntEnum):
     """Values DMB_... of the headers."""
     X = 0
@@ -300,6 +348,20 @@ FRICTION_STRIBECK = FrictionLaw.STRIBECK
 FRICTION_BRISTLE = FrictionLaw.BRISTLE
 
 
+class HoleShape(IntEnum):
+    """Values DMB_HOLE_... of the headers.
+
+    STEP: the values hold up to the next section, or on and on
+    LINE: they go in straight lines to those of the next section
+    """
+    STEP = 0
+    LINE = 1
+
+
+HOLE_STEP = HoleShape.STEP
+HOLE_LINE = HoleShape.LINE
+
+
 class PipeKind(IntEnum):
     """Values DMB_PIPE_... of the headers.
 
@@ -345,6 +407,96 @@ ROCK_RATE = RockLaw.RATE
 ROCK_REGENERATIVE = RockLaw.REGENERATIVE
 
 
+class JointKind(IntEnum):
+    """Values DMB_JOINT_... of the headers.
+
+    REVOLUTE: RX free
+    PRISMATIC: X free
+    CYLINDRICAL: X, RX free
+    UNIVERSAL: RY, RZ free: crossed axes y of a and z of b
+    SPHERICAL: RX, RY, RZ free
+    PLANAR: Y, Z, RX free: x is the normal of the plane
+    POINT_ON_LINE: X, RX, RY, RZ free: origin of b on the x axis of a
+    POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (support, centraliser)
+    DISTANCE: origins `length` apart
+    FREE: holds nothing: carries springs, dampers, stops, friction
+    KNIFE_EDGE: nonholonomic: the origin of b does not move along y of b (no lateral slip)
+    ROLLING: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
+    TRANSLATIONAL: X, Y, Z free: b does not turn against a
+    CROSS_SLIDE: Y, Z free: two slides across each other
+    SCHOENFLIES: X, Y, Z, RX free: x of b stays parallel to x of a
+    """
+    FIXED = 0
+    REVOLUTE = 1
+    PRISMATIC = 2
+    CYLINDRICAL = 3
+    UNIVERSAL = 4
+    SPHERICAL = 5
+    PLANAR = 6
+    POINT_ON_LINE = 7
+    POINT_ON_HOLE = 8
+    DISTANCE = 9
+    FREE = 10
+    KNIFE_EDGE = 11
+    ROLLING = 12
+    TRANSLATIONAL = 13
+    CROSS_SLIDE = 14
+    SCHOENFLIES = 15
+
+
+JOINT_FIXED = JointKind.FIXED
+JOINT_REVOLUTE = JointKind.REVOLUTE
+JOINT_PRISMATIC = JointKind.PRISMATIC
+JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
+JOINT_UNIVERSAL = JointKind.UNIVERSAL
+JOINT_SPHERICAL = JointKind.SPHERICAL
+JOINT_PLANAR = JointKind.PLANAR
+JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
+JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
+JOINT_DISTANCE = JointKind.DISTANCE
+JOINT_FREE = JointKind.FREE
+JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
+JOINT_ROLLING = JointKind.ROLLING
+JOINT_TRANSLATIONAL = JointKind.TRANSLATIONAL
+JOINT_CROSS_SLIDE = JointKind.CROSS_SLIDE
+JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
+
+
+class JointMode(IntEnum):
+    """Values DMB_JOINT_... of the headers.
+
+    ACTIVE: constrains as its kind says
+    LOCKED: holds all six coordinates where they were when it was locked
+    OPEN: holds nothing; its springs, dampers, stops and friction do not act
+    """
+    ACTIVE = 0
+    LOCKED = 1
+    OPEN = 2
+
+
+JOINT_ACTIVE = JointMode.ACTIVE
+JOINT_LOCKED = JointMode.LOCKED
+JOINT_OPEN = JointMode.OPEN
+
+
+class ConstraintKind(IntEnum):
+    """Values DMB_CONSTRAINT_... of the headers."""
+    HOLONOMIC = 0
+    NONHOLONOMIC = 1
+
+
+CONSTRAINT_HOLONOMIC = ConstraintKind.HOLONOMIC
+CONSTRAINT_NONHOLONOMIC = ConstraintKind.NONHOLONOMIC
+
+
+class ConstraintProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    JACOBIAN = 1
+
+
+PROVIDES_JACOBIAN = ConstraintProvides.JACOBIAN
+
+
 class DriveKind(IntEnum):
     """Values DMB_DRIVE_... of the headers.
 
@@ -372,6 +524,128 @@ class Frame(IntEnum):
 FRAME_WORLD = Frame.WORLD
 FRAME_BODY = Frame.BODY
 FRAME_HOLE = Frame.HOLE
+
+
+class SpringActs(IntEnum):
+    """Values DMB_SPRING_... of the headers."""
+    BOTH = 0
+    TENSION = 1
+    COMPRESSION = 2
+
+
+SPRING_BOTH = SpringActs.BOTH
+SPRING_TENSION = SpringActs.TENSION
+SPRING_COMPRESSION = SpringActs.COMPRESSION
+
+
+class TableKind(IntEnum):
+    """Values DMB_TABLE_... of the headers."""
+    LINES = 0
+    CUBIC = 1
+
+
+TABLE_LINES = TableKind.LINES
+TABLE_CUBIC = TableKind.CUBIC
+
+
+class ForceProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    TANGENT = 1
+    POTENTIAL = 2
+
+
+PROVIDES_TANGENT = ForceProvides.TANGENT
+PROVIDES_POTENTIAL = ForceProvides.POTENTIAL
+
+
+class StuckHolds(IntFlag):
+    """Bits DMB_STUCK_... of the headers."""
+    AXIAL = 1
+    ROTATION = 2
+    LATERAL = 4
+
+
+STUCK_AXIAL = StuckHolds.AXIAL
+STUCK_ROTATION = StuckHolds.ROTATION
+STUCK_LATERAL = StuckHolds.LATERAL
+
+
+class InputTarget(IntEnum):
+    """Values DMB_TARGET_... of the headers.
+
+    SET_POINT: of a drive, instead of its time function; its excitation continues
+    INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
+    LIMIT_HIGH: [N, N m] the first below the second
+    BIT_LOAD: [-] of a load, [N] of a bit, replaces its time function
+    FLUID_DENSITY: [-] factor of both coefficients of the wall, [kg/m3]
+    AXIAL_DAMPING: [N s/m2]
+    TORSIONAL_DAMPING: [N s]
+    STUCK: [-] 1: a place is stuck from now on, 0: it is free
+    COUNT: of the targets above, for programs that were built before others were added
+    FLOW_RATE: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
+    """
+    SET_POINT = 0
+    GAIN = 1
+    INTEGRAL_GAIN = 2
+    LIMIT_LOW = 3
+    LIMIT_HIGH = 4
+    LOAD_FACTOR = 5
+    BIT_LOAD = 6
+    FRICTION = 7
+    FLUID_DENSITY = 8
+    LATERAL_DAMPING = 9
+    AXIAL_DAMPING = 10
+    TORSIONAL_DAMPING = 11
+    STUCK = 12
+    COUNT = 13
+    FLOW_RATE = 14
+
+
+TARGET_SET_POINT = InputTarget.SET_POINT
+TARGET_GAIN = InputTarget.GAIN
+TARGET_INTEGRAL_GAIN = InputTarget.INTEGRAL_GAIN
+TARGET_LIMIT_LOW = InputTarget.LIMIT_LOW
+TARGET_LIMIT_HIGH = InputTarget.LIMIT_HIGH
+TARGET_LOAD_FACTOR = InputTarget.LOAD_FACTOR
+TARGET_BIT_LOAD = InputTarget.BIT_LOAD
+TARGET_FRICTION = InputTarget.FRICTION
+TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
+TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
+TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
+TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
+TARGET_STUCK = InputTarget.STUCK
+TARGET_COUNT = InputTarget.COUNT
+TARGET_FLOW_RATE = InputTarget.FLOW_RATE
+
+
+class Outside(IntEnum):
+    """Values DMB_OUTSIDE_... of the headers."""
+    REFUSED = 0
+    CLAMPED = 1
+
+
+OUTSIDE_REFUSED = Outside.REFUSED
+OUTSIDE_CLAMPED = Outside.CLAMPED
+
+
+class EventDirection(IntEnum):
+    """Values DMB_EVENT_... of the headers."""
+    EITHER = 0
+    RISING = 1
+    FALLING = 2
+
+
+EVENT_EITHER = EventDirection.EITHER
+EVENT_RISING = EventDirection.RISING
+EVENT_FALLING = EventDirection.FALLING
+
+
+class Events(IntEnum):
+    """Values DMB_EVENTS_... of the headers."""
+    MAX = 64
+
+
+EVENTS_MAX = Events.MAX
 
 
 class Feature(IntFlag):
@@ -559,7 +833,7 @@ class Quantity(IntEnum):
     DRIVE_SPEED: [m/s, rad/s] place.part is a drive
     BIT_WEIGHT: [N] place.part is a bit, bottom-hole load included
     ENERGY_ERROR: [-] of the ledger; place is ignored
-    COUNT: of these; output.h continues from number 100
+    COUNT: of these; ask.h continues from number 100
     """
     DISPLACEMENT_X = 0
     DISPLACEMENT_Y = 1
@@ -605,143 +879,6 @@ OUTPUT_DRIVE_SPEED = Quantity.DRIVE_SPEED
 OUTPUT_BIT_WEIGHT = Quantity.BIT_WEIGHT
 OUTPUT_ENERGY_ERROR = Quantity.ENERGY_ERROR
 OUTPUT_COUNT = Quantity.COUNT
-
-
-class Steady(IntEnum):
-    """Values DMB_STEADY_... of the headers.
-
-    AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
-    AT_REST: all is at rest; only components of motion drives have their speed
-    SLIDING: axes at rest; strings slide along the hole and turn about their axis as drives say
-    RIGID: all turns about one fixed axis like a rigid body, under centrifugal forces
-    """
-    AUTO = 0
-    AT_REST = 1
-    SLIDING = 2
-    RIGID = 3
-
-
-STEADY_AUTO = Steady.AUTO
-STEADY_AT_REST = Steady.AT_REST
-STEADY_SLIDING = Steady.SLIDING
-STEADY_RIGID = Steady.RIGID
-
-
-class Stiffness(IntEnum):
-    """Values DMB_STIFFNESS_... of the headers.
-
-    SYMMETRIC: forces have a potential: the state is stable where no eigenvalue is negative
-    UNSYMMETRIC: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is computed by dmb_analysis_modes with MODES_DAMPED
-    """
-    SYMMETRIC = 0
-    UNSYMMETRIC = 1
-
-
-STIFFNESS_SYMMETRIC = Stiffness.SYMMETRIC
-STIFFNESS_UNSYMMETRIC = Stiffness.UNSYMMETRIC
-
-
-class StaticMethod(IntEnum):
-    """Values DMB_STATIC_... of the headers."""
-    NEWTON = 0
-    RELAXATION = 1
-
-
-STATIC_NEWTON = StaticMethod.NEWTON
-STATIC_RELAXATION = StaticMethod.RELAXATION
-
-
-class Scale(IntEnum):
-    """Values DMB_SCALE_... of the headers.
-
-    ALL: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
-    LOADS: the same without gravity
-    PART: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
-    """
-    ALL = 0
-    LOADS = 1
-    PART = 2
-
-
-SCALE_ALL = Scale.ALL
-SCALE_LOADS = Scale.LOADS
-SCALE_PART = Scale.PART
-
-
-class BucklingEnd(IntEnum):
-    """Values DMB_BUCKLING_... of the headers.
-
-    EXTRAPOLATED: there was none: follow = 0, or nothing buckles about the present state
-    BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable
-    LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
-    STABLE: none: det K keeps its sign up to `reached`
-    DIP: no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do
-    """
-    EXTRAPOLATED = 0
-    BIFURCATION = 1
-    LIMIT = 2
-    STABLE = 3
-    DIP = 4
-
-
-BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
-BUCKLING_BIFURCATION = BucklingEnd.BIFURCATION
-BUCKLING_LIMIT = BucklingEnd.LIMIT
-BUCKLING_STABLE = BucklingEnd.STABLE
-BUCKLING_DIP = BucklingEnd.DIP
-
-
-class Flutter(IntEnum):
-    """Values DMB_FLUTTER_... of the headers.
-
-    NOT_JUDGED: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
-    NONE: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
-    FOUND: one grows from flutter_factor on
-    """
-    NOT_JUDGED = 0
-    NONE = 1
-    FOUND = 2
-
-
-FLUTTER_NOT_JUDGED = Flutter.NOT_JUDGED
-FLUTTER_NONE = Flutter.NONE
-FLUTTER_FOUND = Flutter.FOUND
-
-
-class PathKind(IntEnum):
-    """Values DMB_PATH_... of the headers.
-
-    LIMIT: the factor is at a maximum or minimum of the path
-    BIFURCATION: another path crosses: the stiffness is singular and the factor continues
-    BRANCH: first point of the path that crossed
-    """
-    REGULAR = 0
-    LIMIT = 1
-    BIFURCATION = 2
-    BRANCH = 3
-
-
-PATH_REGULAR = PathKind.REGULAR
-PATH_LIMIT = PathKind.LIMIT
-PATH_BIFURCATION = PathKind.BIFURCATION
-PATH_BRANCH = PathKind.BRANCH
-
-
-class ContactState(IntEnum):
-    """Values DMB_CONTACT_... of the headers.
-
-    AS_IS: contact rings that touch the wall press on it, others do not
-    OPEN: there is no wall; its forces in the state stay as dead loads
-    CLOSED: contact rings up to `contact_gap` from the wall are held across it too
-    """
-    AS_IS = 0
-    OPEN = 1
-    CLOSED = 2
-
-
-CONTACT_AS_IS = ContactState.AS_IS
-CONTACT_OPEN = ContactState.OPEN
-CONTACT_CLOSED = ContactState.CLOSED
 
 
 class Reading(IntEnum):
@@ -1055,268 +1192,141 @@ OUTPUT_STICK_SLIP_INDEX = Reading.STICK_SLIP_INDEX
 OUTPUT_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 
 
-class InputTarget(IntEnum):
-    """Values DMB_TARGET_... of the headers.
+class Steady(IntEnum):
+    """Values DMB_STEADY_... of the headers.
 
-    SET_POINT: of a drive, instead of its time function; its excitation continues
-    INTEGRAL_GAIN: [N s/m, N m s], [N/m, N m] >= 0
-    LIMIT_HIGH: [N, N m] the first below the second
-    BIT_LOAD: [-] of a load, [N] of a bit, replaces its time function
-    FLUID_DENSITY: [-] factor of both coefficients of the wall, [kg/m3]
-    AXIAL_DAMPING: [N s/m2]
-    TORSIONAL_DAMPING: [N s]
-    STUCK: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
-    COUNT: of the targets above, for programs that were built before others were added
-    FLOW_RATE: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
+    AUTO: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
+    AT_REST: all is at rest; only components of motion drives have their speed
+    SLIDING: axes at rest; strings slide along the hole and turn about their axis as drives say
+    RIGID: all turns about one fixed axis like a rigid body, under centrifugal forces
     """
-    SET_POINT = 0
-    GAIN = 1
-    INTEGRAL_GAIN = 2
-    LIMIT_LOW = 3
-    LIMIT_HIGH = 4
-    LOAD_FACTOR = 5
-    BIT_LOAD = 6
-    FRICTION = 7
-    FLUID_DENSITY = 8
-    LATERAL_DAMPING = 9
-    AXIAL_DAMPING = 10
-    TORSIONAL_DAMPING = 11
-    STUCK = 12
-    COUNT = 13
-    FLOW_RATE = 14
+    AUTO = 0
+    AT_REST = 1
+    SLIDING = 2
+    RIGID = 3
 
 
-TARGET_SET_POINT = InputTarget.SET_POINT
-TARGET_GAIN = InputTarget.GAIN
-TARGET_INTEGRAL_GAIN = InputTarget.INTEGRAL_GAIN
-TARGET_LIMIT_LOW = InputTarget.LIMIT_LOW
-TARGET_LIMIT_HIGH = InputTarget.LIMIT_HIGH
-TARGET_LOAD_FACTOR = InputTarget.LOAD_FACTOR
-TARGET_BIT_LOAD = InputTarget.BIT_LOAD
-TARGET_FRICTION = InputTarget.FRICTION
-TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
-TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
-TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
-TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
-TARGET_STUCK = InputTarget.STUCK
-TARGET_COUNT = InputTarget.COUNT
-TARGET_FLOW_RATE = InputTarget.FLOW_RATE
+STEADY_AUTO = Steady.AUTO
+STEADY_AT_REST = Steady.AT_REST
+STEADY_SLIDING = Steady.SLIDING
+STEADY_RIGID = Steady.RIGID
 
 
-class Outside(IntEnum):
-    """Values DMB_OUTSIDE_... of the headers."""
-    REFUSED = 0
-    CLAMPED = 1
+class Stiffness(IntEnum):
+    """Values DMB_STIFFNESS_... of the headers.
 
-
-OUTSIDE_REFUSED = Outside.REFUSED
-OUTSIDE_CLAMPED = Outside.CLAMPED
-
-
-class EventDirection(IntEnum):
-    """Values DMB_EVENT_... of the headers."""
-    EITHER = 0
-    RISING = 1
-    FALLING = 2
-
-
-EVENT_EITHER = EventDirection.EITHER
-EVENT_RISING = EventDirection.RISING
-EVENT_FALLING = EventDirection.FALLING
-
-
-class Events(IntEnum):
-    """Values DMB_EVENTS_... of the headers."""
-    MAX = 64
-
-
-EVENTS_MAX = Events.MAX
-
-
-class JointKind(IntEnum):
-    """Values DMB_JOINT_... of the headers.
-
-    REVOLUTE: RX free
-    PRISMATIC: X free
-    CYLINDRICAL: X, RX free
-    UNIVERSAL: RY, RZ free: crossed axes y of a and z of b
-    SPHERICAL: RX, RY, RZ free
-    PLANAR: Y, Z, RX free: x is the normal of the plane
-    POINT_ON_LINE: X, RX, RY, RZ free: origin of b on the x axis of a
-    POINT_ON_HOLE: origin of b on the axis of the hole; a must be the ground (support, centraliser)
-    DISTANCE: origins `length` apart
-    FREE: holds nothing: carries springs, dampers, stops, friction
-    KNIFE_EDGE: nonholonomic: the origin of b does not move along y of b (no lateral slip)
-    ROLLING: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
-    TRANSLATIONAL: X, Y, Z free: b does not turn against a
-    CROSS_SLIDE: Y, Z free: two slides across each other
-    SCHOENFLIES: X, Y, Z, RX free: x of b stays parallel to x of a
+    SYMMETRIC: forces have a potential: the state is stable where no eigenvalue is negative
+    UNSYMMETRIC: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is computed by dmb_analysis_modes with MODES_DAMPED
     """
-    FIXED = 0
-    REVOLUTE = 1
-    PRISMATIC = 2
-    CYLINDRICAL = 3
-    UNIVERSAL = 4
-    SPHERICAL = 5
-    PLANAR = 6
-    POINT_ON_LINE = 7
-    POINT_ON_HOLE = 8
-    DISTANCE = 9
-    FREE = 10
-    KNIFE_EDGE = 11
-    ROLLING = 12
-    TRANSLATIONAL = 13
-    CROSS_SLIDE = 14
-    SCHOENFLIES = 15
+    SYMMETRIC = 0
+    UNSYMMETRIC = 1
 
 
-JOINT_FIXED = JointKind.FIXED
-JOINT_REVOLUTE = JointKind.REVOLUTE
-JOINT_PRISMATIC = JointKind.PRISMATIC
-JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
-JOINT_UNIVERSAL = JointKind.UNIVERSAL
-JOINT_SPHERICAL = JointKind.SPHERICAL
-JOINT_PLANAR = JointKind.PLANAR
-JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
-JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
-JOINT_DISTANCE = JointKind.DISTANCE
-JOINT_FREE = JointKind.FREE
-JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
-JOINT_ROLLING = JointKind.ROLLING
-JOINT_TRANSLATIONAL = JointKind.TRANSLATIONAL
-JOINT_CROSS_SLIDE = JointKind.CROSS_SLIDE
-JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
+STIFFNESS_SYMMETRIC = Stiffness.SYMMETRIC
+STIFFNESS_UNSYMMETRIC = Stiffness.UNSYMMETRIC
 
 
-class JointMode(IntEnum):
-    """Values DMB_JOINT_... of the headers.
+class StaticMethod(IntEnum):
+    """Values DMB_STATIC_... of the headers."""
+    NEWTON = 0
+    RELAXATION = 1
 
-    ACTIVE: constrains as its kind says
-    LOCKED: holds all six coordinates where they were when it was locked
-    OPEN: holds nothing; its springs, dampers, stops and friction do not act
+
+STATIC_NEWTON = StaticMethod.NEWTON
+STATIC_RELAXATION = StaticMethod.RELAXATION
+
+
+class Scale(IntEnum):
+    """Values DMB_SCALE_... of the headers.
+
+    ALL: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
+    LOADS: the same without gravity
+    PART: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by, which joints, springs or forces at several parts must not hold (ERR_UNSUPPORTED)
     """
-    ACTIVE = 0
-    LOCKED = 1
-    OPEN = 2
+    ALL = 0
+    LOADS = 1
+    PART = 2
 
 
-JOINT_ACTIVE = JointMode.ACTIVE
-JOINT_LOCKED = JointMode.LOCKED
-JOINT_OPEN = JointMode.OPEN
+SCALE_ALL = Scale.ALL
+SCALE_LOADS = Scale.LOADS
+SCALE_PART = Scale.PART
 
 
-class ConstraintKind(IntEnum):
-    """Values DMB_CONSTRAINT_... of the headers."""
-    HOLONOMIC = 0
-    NONHOLONOMIC = 1
+class BucklingEnd(IntEnum):
+    """Values DMB_BUCKLING_... of the headers.
 
-
-CONSTRAINT_HOLONOMIC = ConstraintKind.HOLONOMIC
-CONSTRAINT_NONHOLONOMIC = ConstraintKind.NONHOLONOMIC
-
-
-class ConstraintProvides(IntFlag):
-    """Bits DMB_PROVIDES_... of the headers."""
-    JACOBIAN = 1
-
-
-PROVIDES_JACOBIAN = ConstraintProvides.JACOBIAN
-
-
-class StuckHolds(IntFlag):
-    """Bits DMB_STUCK_... of the headers."""
-    AXIAL = 1
-    ROTATION = 2
-    LATERAL = 4
-
-
-STUCK_AXIAL = StuckHolds.AXIAL
-STUCK_ROTATION = StuckHolds.ROTATION
-STUCK_LATERAL = StuckHolds.LATERAL
-
-
-class OperationKind(IntEnum):
-    """Values DMB_OPERATION_... of the headers.
-
-    PICK_UP: pulled without turning
-    SLACK_OFF: lowered or pushed without turning
-    ROTATE: turned off bottom
-    DRILL: turned and fed, with load and torque on the bit
-    SLIDE: fed without turning the string, with load and the motor's torque on the bit
-    BACK_REAM: turned and pulled
+    EXTRAPOLATED: there was none: follow = 0, or nothing buckles about the present state
+    BIFURCATION: an eigenvalue of the stiffness passes 0, and the equilibria continue, unstable
+    LIMIT: the factor is at a maximum of the path, or a contact that opens turns it back
+    STABLE: none: det K keeps its sign up to `reached`
+    DIP: no eigenvalue of the stiffness passes 0, but the lowest one has a minimum of less than half its largest value before (`dip`): the equilibria bend off into the buckled shape, as those of an imperfect string do
     """
-    PICK_UP = 0
-    SLACK_OFF = 1
-    ROTATE = 2
-    DRILL = 3
-    SLIDE = 4
-    BACK_REAM = 5
-    COUNT = 6
+    EXTRAPOLATED = 0
+    BIFURCATION = 1
+    LIMIT = 2
+    STABLE = 3
+    DIP = 4
 
 
-OPERATION_PICK_UP = OperationKind.PICK_UP
-OPERATION_SLACK_OFF = OperationKind.SLACK_OFF
-OPERATION_ROTATE = OperationKind.ROTATE
-OPERATION_DRILL = OperationKind.DRILL
-OPERATION_SLIDE = OperationKind.SLIDE
-OPERATION_BACK_REAM = OperationKind.BACK_REAM
-OPERATION_COUNT = OperationKind.COUNT
+BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
+BUCKLING_BIFURCATION = BucklingEnd.BIFURCATION
+BUCKLING_LIMIT = BucklingEnd.LIMIT
+BUCKLING_STABLE = BucklingEnd.STABLE
+BUCKLING_DIP = BucklingEnd.DIP
 
 
-class Measured(IntEnum):
-    """Values DMB_MEASURED_... of the headers."""
-    HOOK_LOAD = 0
-    TORQUE = 1
+class Flutter(IntEnum):
+    """Values DMB_FLUTTER_... of the headers.
 
-
-MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
-MEASURED_TORQUE = Measured.TORQUE
-
-
-class SpringActs(IntEnum):
-    """Values DMB_SPRING_... of the headers."""
-    BOTH = 0
-    TENSION = 1
-    COMPRESSION = 2
-
-
-SPRING_BOTH = SpringActs.BOTH
-SPRING_TENSION = SpringActs.TENSION
-SPRING_COMPRESSION = SpringActs.COMPRESSION
-
-
-class TableKind(IntEnum):
-    """Values DMB_TABLE_... of the headers."""
-    LINES = 0
-    CUBIC = 1
-
-
-TABLE_LINES = TableKind.LINES
-TABLE_CUBIC = TableKind.CUBIC
-
-
-class ForceProvides(IntFlag):
-    """Bits DMB_PROVIDES_... of the headers."""
-    TANGENT = 1
-    POTENTIAL = 2
-
-
-PROVIDES_TANGENT = ForceProvides.TANGENT
-PROVIDES_POTENTIAL = ForceProvides.POTENTIAL
-
-
-class HoleShape(IntEnum):
-    """Values DMB_HOLE_... of the headers.
-
-    STEP: the values hold up to the next section, or on and on
-    LINE: they go in straight lines to those of the next section
+    NOT_JUDGED: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
+    NONE: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
+    FOUND: one grows from flutter_factor on
     """
-    STEP = 0
-    LINE = 1
+    NOT_JUDGED = 0
+    NONE = 1
+    FOUND = 2
 
 
-HOLE_STEP = HoleShape.STEP
-HOLE_LINE = HoleShape.LINE
+FLUTTER_NOT_JUDGED = Flutter.NOT_JUDGED
+FLUTTER_NONE = Flutter.NONE
+FLUTTER_FOUND = Flutter.FOUND
+
+
+class PathKind(IntEnum):
+    """Values DMB_PATH_... of the headers.
+
+    LIMIT: the factor is at a maximum or minimum of the path
+    BIFURCATION: another path crosses: the stiffness is singular and the factor continues
+    BRANCH: first point of the path that crossed
+    """
+    REGULAR = 0
+    LIMIT = 1
+    BIFURCATION = 2
+    BRANCH = 3
+
+
+PATH_REGULAR = PathKind.REGULAR
+PATH_LIMIT = PathKind.LIMIT
+PATH_BIFURCATION = PathKind.BIFURCATION
+PATH_BRANCH = PathKind.BRANCH
+
+
+class ContactState(IntEnum):
+    """Values DMB_CONTACT_... of the headers.
+
+    AS_IS: contact rings that touch the wall press on it, others do not
+    OPEN: there is no wall; its forces in the state stay as dead loads
+    CLOSED: contact rings up to `contact_gap` from the wall are held across it too
+    """
+    AS_IS = 0
+    OPEN = 1
+    CLOSED = 2
+
+
+CONTACT_AS_IS = ContactState.AS_IS
+CONTACT_OPEN = ContactState.OPEN
+CONTACT_CLOSED = ContactState.CLOSED
 
 
 class ModesKind(IntEnum):
@@ -1355,54 +1365,6 @@ MODES_AXES_TURNING = ModesAxes.AXES_TURNING
 MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 
 
-class Name(IntEnum):
-    """Values DMB_NAME_... of the headers."""
-    SIZE = 24
-
-
-NAME_SIZE = Name.SIZE
-
-
-class PartKind(IntEnum):
-    """Values DMB_PART_... of the headers."""
-    ANY = 0
-    TIME_FUNCTION = 1
-    WALL = 2
-    STRING = 3
-    BODY = 4
-    BIT = 5
-    DRIVE = 6
-    LOAD = 7
-    JOINT = 8
-    COUPLING = 9
-    CONSTRAINT = 10
-    SPRING = 11
-    FORCE = 12
-    STABILISER = 13
-    STUCK = 14
-    INPUT = 20
-    EVENT = 21
-
-
-PART_ANY = PartKind.ANY
-PART_TIME_FUNCTION = PartKind.TIME_FUNCTION
-PART_WALL = PartKind.WALL
-PART_STRING = PartKind.STRING
-PART_BODY = PartKind.BODY
-PART_BIT = PartKind.BIT
-PART_DRIVE = PartKind.DRIVE
-PART_LOAD = PartKind.LOAD
-PART_JOINT = PartKind.JOINT
-PART_COUPLING = PartKind.COUPLING
-PART_CONSTRAINT = PartKind.CONSTRAINT
-PART_SPRING = PartKind.SPRING
-PART_FORCE = PartKind.FORCE
-PART_STABILISER = PartKind.STABILISER
-PART_STUCK = PartKind.STUCK
-PART_INPUT = PartKind.INPUT
-PART_EVENT = PartKind.EVENT
-
-
 class ExcitationKind(IntEnum):
     """Values DMB_EXCITATION_... of the headers.
 
@@ -1413,7 +1375,7 @@ class ExcitationKind(IntEnum):
     UNBALANCE: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
     FRICTION: [-] coefficient: every contact ring on the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
-    SETTING: the input place.part of control.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
+    SETTING: the input place.part of scene.h [its unit]: a set point, load factor or bit load; limits on its rate are ignored. Others (gains, limits, friction, mud, stuck) change the scene: ERR_UNSUPPORTED; one that still changes is ERR_VALUE
     """
     DRIVE = 0
     LOAD = 1
@@ -1601,6 +1563,44 @@ ROW_HELD = RowState.HELD
 ROW_DRIVEN = RowState.DRIVEN
 
 
+class OperationKind(IntEnum):
+    """Values DMB_OPERATION_... of the headers.
+
+    PICK_UP: pulled without turning
+    SLACK_OFF: lowered or pushed without turning
+    ROTATE: turned off bottom
+    DRILL: turned and fed, with load and torque on the bit
+    SLIDE: fed without turning the string, with load and the motor's torque on the bit
+    BACK_REAM: turned and pulled
+    """
+    PICK_UP = 0
+    SLACK_OFF = 1
+    ROTATE = 2
+    DRILL = 3
+    SLIDE = 4
+    BACK_REAM = 5
+    COUNT = 6
+
+
+OPERATION_PICK_UP = OperationKind.PICK_UP
+OPERATION_SLACK_OFF = OperationKind.SLACK_OFF
+OPERATION_ROTATE = OperationKind.ROTATE
+OPERATION_DRILL = OperationKind.DRILL
+OPERATION_SLIDE = OperationKind.SLIDE
+OPERATION_BACK_REAM = OperationKind.BACK_REAM
+OPERATION_COUNT = OperationKind.COUNT
+
+
+class Measured(IntEnum):
+    """Values DMB_MEASURED_... of the headers."""
+    HOOK_LOAD = 0
+    TORQUE = 1
+
+
+MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
+MEASURED_TORQUE = Measured.TORQUE
+
+
 NONE = 0xFFFFFFFF
 COMBINED = 0xFFFFFFFF
 
@@ -1608,22 +1608,38 @@ ENUMS = (
     Status,
     Has,
     LogLevel,
+    Name,
+    PartKind,
     Component,
     Free,
     SegmentKind,
     TimeFunctionProvides,
     NormalLaw,
     FrictionLaw,
+    HoleShape,
     PipeKind,
     Attach,
     RockLaw,
+    JointKind,
+    JointMode,
+    ConstraintKind,
+    ConstraintProvides,
     DriveKind,
     Frame,
+    SpringActs,
+    TableKind,
+    ForceProvides,
+    StuckHolds,
+    InputTarget,
+    Outside,
+    EventDirection,
+    Events,
     Feature,
     ConstraintMethod,
     HoleBeyond,
     ProfileQuantity,
     Quantity,
+    Reading,
     Steady,
     Stiffness,
     StaticMethod,
@@ -1632,27 +1648,9 @@ ENUMS = (
     Flutter,
     PathKind,
     ContactState,
-    Reading,
-    InputTarget,
-    Outside,
-    EventDirection,
-    Events,
-    JointKind,
-    JointMode,
-    ConstraintKind,
-    ConstraintProvides,
-    StuckHolds,
-    OperationKind,
-    Measured,
-    SpringActs,
-    TableKind,
-    ForceProvides,
-    HoleShape,
     ModesKind,
     ModesSelect,
     ModesAxes,
-    Name,
-    PartKind,
     ExcitationKind,
     ResponseKind,
     ResponseAxes,
@@ -1661,6 +1659,8 @@ ENUMS = (
     Matrix,
     Array,
     RowState,
+    OperationKind,
+    Measured,
 )
 
 for _enum in ENUMS:  # help(drillmbd.PIPE_RIGID) tells its own line

@@ -4,7 +4,7 @@
 
 #include "analysis/static/static.h"
 #include "base/memory.h"
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 

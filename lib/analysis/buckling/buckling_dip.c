@@ -6,7 +6,7 @@
 
 #include "analysis/buckling/buckling.h"
 #include "base/memory.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
 #include "query/query.h"
 #include "sim/access.h"
 #include "system/system.h"

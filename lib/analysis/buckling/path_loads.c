@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 #include "sim/node.h"
 
 size_t dmb_load_pattern_size(const dmb_scene *scene)

@@ -4,8 +4,7 @@
 #define DMB_ANALYSIS_LINEAR_LINEAR_H
 
 #include "base/memory.h"
-#include "drillmbd/analysis.h"
-#include "drillmbd/response.h"
+#include "drillmbd/analyse.h"
 #include "kernel/kernels.h"
 #include "math/block_kernel.h"
 #include "math/complex_sparse.h"

@@ -2,7 +2,7 @@
 #ifndef DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
 #define DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
 
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 #include "sim/sim.h"
 #include "system/constrain/constrain.h"
 

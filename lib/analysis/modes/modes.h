@@ -5,7 +5,7 @@
 #include <float.h>
 
 #include "analysis/linear/linear.h"
-#include "drillmbd/modes.h"
+#include "drillmbd/analyse.h"
 
 /* [-] Largest asymmetry of K, relative to its diagonal, that counts as rounding. */
 #define DMB_MODES_ASYMMETRY 1e-9

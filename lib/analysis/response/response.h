@@ -4,7 +4,7 @@
 
 #include "analysis/linear/linear.h"
 #include "base/message.h"
-#include "drillmbd/response.h"
+#include "drillmbd/analyse.h"
 #include "sim/sim.h"
 
 struct dmb_response {

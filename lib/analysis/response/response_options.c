@@ -5,7 +5,7 @@
 
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/output.h"
+#include "drillmbd/ask.h"
 
 DMB_DEFINE_INIT(dmb_excitation, 56, {.kind = DMB_EXCITATION_FORCE, .amplitude = 1.0})
 

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "analysis/linear/linear.h"
-#include "drillmbd/output.h"
+#include "drillmbd/ask.h"
 #include "query/query.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/response.h"
+#include "drillmbd/analyse.h"
 #include "sim/access.h"
 
 dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitations, uint32_t outputs)

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "drillmbd/response.h"
+#include "drillmbd/analyse.h"
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/sim.h"

@@ -8,7 +8,7 @@
 #ifndef DMB_ANALYSIS_SENSITIVITY_SENSITIVITY_H
 #define DMB_ANALYSIS_SENSITIVITY_SENSITIVITY_H
 
-#include "drillmbd/sensitivity.h"
+#include "drillmbd/analyse.h"
 #include "integrator/companion.h"
 #include "sim/access.h"
 #include "sim/layout.h"

@@ -18,7 +18,7 @@
 
 #include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
-#include "drillmbd/state_space.h"
+#include "drillmbd/analyse.h"
 
 /* ---- Sparse matrices --------------------------------------------------------------------------------------------- */
 

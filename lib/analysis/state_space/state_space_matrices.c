@@ -6,7 +6,7 @@
 #include "analysis/state_space/state_space.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
-#include "drillmbd/state_space.h"
+#include "drillmbd/analyse.h"
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "query/query.h"

@@ -3,7 +3,7 @@
 #define DMB_ANALYSIS_STATIC_STATIC_H
 
 #include "analysis/linear/linear.h"
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 

@@ -11,7 +11,7 @@
 #ifndef DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
 #define DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
 
-#include "drillmbd/drilling.h"
+#include "drillmbd/analyse.h"
 #include "model/model.h"
 #include "model/scene.h"
 #include "query/query.h"

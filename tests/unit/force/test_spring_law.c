@@ -1,6 +1,6 @@
 /* One-sided springs between points: which side they act on, the damper that never turns the sum round, derivatives and
  * energies, and characteristics that begin nowhere or everywhere. */
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "force/spring_law.h"
 #include "force_test.h"
 

@@ -1,7 +1,7 @@
 /* Every T_init against the headers' words. */
 #include "model_test.h"
 
-#include "drillmbd/analysis.h"
+#include "drillmbd/analyse.h"
 
 #define EVERY_STRUCT(X)    \
     X(dmb_allocator)       \

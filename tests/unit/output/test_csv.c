@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drillmbd/names.h"
-#include "drillmbd/query.h"
+#include "drillmbd/ask.h"
+#include "drillmbd/scene.h"
 
 enum { ROWS = 6, OUTPUTS = 3, WIDTH = 1 + OUTPUTS };
 

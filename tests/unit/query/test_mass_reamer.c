@@ -1,7 +1,7 @@
 /* Kinetic energy, part by part, of two strings: one with bit and head, one with a reamer on a ring of its, whose mass
  * is the ring's. */
 #include "close.h"
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "rig.h"
 
 typedef struct craft {

@@ -2,7 +2,7 @@
  * against differences of the residual by the increments of a step. */
 #include <stdio.h>
 
-#include "drillmbd/ring.h"
+#include "drillmbd/scene.h"
 #include "moved_rig.h"
 #include "rig.h"
 

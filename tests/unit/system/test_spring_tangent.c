@@ -7,8 +7,7 @@
 #include "mechanism.h"
 #include "moved_rig.h"
 
-#include "drillmbd/bha.h"
-#include "drillmbd/forces.h"
+#include "drillmbd/scene.h"
 #include "system/assemble/assemble.h"
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------- */

@@ -74,7 +74,7 @@ static = true
 [results]
 interval = "20 ms"
 
-[[output]]                     # columns of run.csv; names of quantities: drillmbd schema, or include/drillmbd/output.h
+[[output]]                     # columns of run.csv; names of quantities: drillmbd schema, or include/drillmbd/ask.h
 name = "torque at the rig [N m]"
 quantity = "drive-force"
 place = "rotation drive"

@@ -1,17 +1,8 @@
-/* libdrillmbd - run a compiled scene: create, step, advance, snapshot.
- * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
- * input or output. A call that fails leaves the last accepted state whole.
- *
- * Callbacks (time functions, constraints, progress, allocator, log) must not change the sim that calls them: from
- * within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a
- * step, and during analyses that leave the sim alone, queries, snapshot and hash use the last accepted state;
- * during calls that overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they
- * return DMB_ERR_ORDER too. Callbacks must return normally: after a longjmp or an exception the sim would stay busy for
- * ever. In lists of errors _X means DMB_ERR_X. */
-#ifndef DRILLMBD_SIM_H
-#define DRILLMBD_SIM_H
+/* libdrillmbd - simulation of a compiled scene: create, step, advance, snapshots, inputs, events. */
+#ifndef DRILLMBD_RUN_H
+#define DRILLMBD_RUN_H
 
-#include "model.h"
+#include "scene.h"
 
 DMB_C_BEGIN
 
@@ -112,7 +103,7 @@ DMB_SIZED_STRUCT(dmb_step_report)
 
 /* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at time function breakpoints,
  * and halved where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE,
- * _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK,
+ * _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: scene.h), _CALLBACK,
  * _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert
  * 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
@@ -129,7 +120,7 @@ DMB_API int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uin
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's time function is the constant `value` [unit of its time function]; NaN: its time function
  * again. For DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for
- * DMB_DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h). */
+ * DMB_DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (scene.h). */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
@@ -163,6 +154,52 @@ DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
 DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);
 /* FNV-1a hash of all that changes; equal states give equal hashes on one build. */
 DMB_API int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash);
+
+/* ---- Inputs ----------------------------------------------------------------------------------------------------- */
+/* From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations
+ * are adapted to jumps. A change of density changes the energy of weight, which counts as work of loads.
+ * DMB_NOTE_CLAMPED where a bound was taken instead. Setting a value again does nothing. Errors, which change
+ * nothing: DMB_ERR_ID, _NOT_FINITE, _VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR. O(elements). */
+DMB_API int32_t dmb_sim_set_input(dmb_sim *sim, dmb_id input, double value);
+DMB_API int32_t dmb_sim_set_inputs(dmb_sim *sim, const dmb_id *inputs, const double *values, uint32_t count);
+typedef struct dmb_input_state {
+    uint32_t struct_size;
+    int32_t is_set;       /* 0: its time function is in force, since it was not set yet */
+    double value;         /* [unit] set point; of a time function its value now */
+    double present, rate; /* [unit, unit/s] in force now, changing towards `value` */
+    double arrives;       /* [s] time at which it is or was there; 0 of a time function */
+} dmb_input_state;
+DMB_SIZED_STRUCT(dmb_input_state)
+DMB_API int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state);
+/* Frozen. One line of the log of inputs. */
+typedef struct dmb_input_record {
+    double time, value; /* [s] of the sim, [unit of the input] as taken, clamped where it was */
+    uint32_t input;     /* [-] number of the input in the order of description */
+    uint32_t call;      /* [-] number of the call that set it: those of one call are set at once */
+} dmb_input_record;
+/* From now on set points go into `records`, shape (capacity), which the caller keeps alive; NULL with 0: no more. A
+ * call beyond the capacity still sets its value: DMB_NOTE_FULL. The log is neither saved in snapshots nor hashed. */
+DMB_API int32_t dmb_sim_record_inputs(dmb_sim *sim, dmb_input_record *records, uint32_t capacity);
+DMB_API uint32_t dmb_sim_recorded_inputs(const dmb_sim *sim); /* [-] since then; 0 for a handle of no sim */
+/* Sets the values of the log from record *next on up to the present time, call by call, and moves *next beyond them.
+ * Called before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Errors:
+ * as dmb_sim_set_inputs, with *next at the call that was refused; DMB_ERR_VALUE too for times that decrease. */
+DMB_API int32_t dmb_sim_replay_inputs(dmb_sim *sim, const dmb_input_record *records, uint32_t count, uint32_t *next);
+
+/* ---- Events ----------------------------------------------------------------------------------------------------- */
+typedef struct dmb_event_report {
+    uint32_t struct_size;
+    uint32_t count;  /* [-] events reported: those within the tolerance of the first count as simultaneous */
+    uint64_t events; /* [-] bit i: event number i in the order of description is reported */
+    double time;     /* [s] reached */
+    double located;  /* [s] at most so long after the crossing; 0 without an event, and where a `hold` ends */
+} dmb_event_report;
+DMB_SIZED_STRUCT(dmb_event_report)
+/* As dmb_sim_advance, but ends at the first event: DMB_NOTE_EVENT, dmb_sim_message names those reported. One
+ * that is beyond its level at the start is reported when it has come back and crosses again; a `hold` continues from
+ * call to call. Costs a copy of the state a step, some six steps a crossing. Reports may be NULL.
+ * DMB_ERR_VALUE: no events. */
+DMB_API int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report);
 
 DMB_C_END
 #endif
