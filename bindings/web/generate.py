@@ -202,7 +202,7 @@ def result_type(outs):
 
 
 def method_types(reader, found, kind):
-    texts = {name: text for _, name, _, text in prototypes(reader)}
+    texts = {name: text for name, _, text in reader.prototypes()}
     for method, (name, letter, given) in found[kind].items():
         ins, outs = [one for one in given if one[0] != "out"], [one for one in given if one[0] == "out"]
         optional = not any(one[0] != "in*" for one in ins)
@@ -242,10 +242,12 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     reader = PYTHON.Reader(PYTHON.header_text())
+    structs, prototypes_read = reader.structs(), reader.prototypes()  # read once: each reading takes a second
+    reader.structs, reader.prototypes = lambda: structs, lambda: prototypes_read
     layouts, found = Layouts(reader), methods(reader)
     sized = set(reader.sized)
-    structs = {name: {"size": layouts.of(name)["size"], "sized": name in sized, "fields": layouts.of(name)["fields"]} for name in layouts.structs}
-    parts = {"STRUCTS": structs, "CONSTANTS": constants(reader), "METHODS": found}
+    shown = {name: {"size": layouts.of(name)["size"], "sized": name in sized, "fields": layouts.of(name)["fields"]} for name in layouts.structs}
+    parts = {"STRUCTS": shown, "CONSTANTS": constants(reader), "METHODS": found}
     text = "// Made from the headers by bindings/web/generate.py: do not edit, run that instead.\n" + "".join(
         f"export const {name} = {json.dumps(value, separators=(',', ':'))};\n" for name, value in parts.items())
     (folder / "interface.mjs").write_text(text, encoding="utf-8")

@@ -35,6 +35,7 @@ EXAMPLES = """examples:
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
   drillmbd fmu rig.toml -o rig.fmu            a unit for co-simulation (FMI 3.0) with other programs
+  drillmbd live rig.toml -o rig.html          one page that runs the scene in a browser, with sliders and traces
   drillmbd save rig.toml copy.toml            the scene with all defaults written out, its units and comments kept
   drillmbd new drainage --length "200 m" --dip "5 deg" --rod "73 mm" -o hole.toml   a commented scene to start from
   drillmbd keys string.pipes                  keys with unit, default and meaning
@@ -58,6 +59,14 @@ FMU = """examples:
 [[input]] of the scene become inputs and tunable parameters of the unit, [[output]] its outputs, [[event]] counts and, where the importer
 allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke and
 libcholmod must be installed where it runs."""
+
+LIVE = """examples:
+  drillmbd live hole.toml -o hole.html                 opens in any browser, without a network
+  drillmbd live hole.toml --replay hole_12.500s.json   the run that a reader of the page saved: same inputs, same hash?
+
+The page holds the scene, the library and the view: the string in its hole, sliders for rotation, feed, load of the bit, friction, stuck places,
+diameter of the hole and all [[input]] of the scene, traces of torque, thrust, bit speed and contact with [limits]. [run] static and [run] step
+hold there too, so that it computes the same run as drillmbd run. It needs the package of JavaScript: bindings/web/build."""
 
 PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     on all processors
@@ -145,6 +154,7 @@ def parser() -> argparse.ArgumentParser:
     sweep.add_argument("--quiet", "-q", action="store_true")
     _add_probability(commands)
     _add_fmu(commands)
+    _add_live(commands)
     save = commands.add_parser("save", help="writes the scene with all values that decide the result, comments and units kept")
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
@@ -215,6 +225,15 @@ def _add_fmu(commands: Any) -> None:
     asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi", help="of FMI (default %(default)s)")
     asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER", help="the source code too; FOLDER: that of "
                        "libdrillmbd's sources, where this package does not stand in it")
+    asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
+
+
+def _add_live(commands: Any) -> None:
+    text = "writes one HTML page that runs the scene in a browser, or computes the run that such a page saved"
+    asked = commands.add_parser("live", help=text, description=text, epilog=LIVE, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("scene", help="a scene file (TOML)")
+    asked.add_argument("--output", "-o", metavar="FILE", help="the page; left out: the name of the scene with .html")
+    asked.add_argument("--replay", metavar="LOG", help="a log that the page saved: computes its run and compares the hash of the state")
     asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
@@ -349,6 +368,28 @@ def _fmu(options: Any) -> int:
     return 0
 
 
+def _live(options: Any) -> int:
+    from . import live, scene
+    from .scene.warned import warnings_of
+    loaded = scene.load(options.scene)
+    if options.replay:
+        found, wanted, end = live.replay(loaded, options.replay)
+        same = found == wanted
+        if not options.quiet or not same:
+            print(f"{options.replay}: {end:g} s, hash {found}, " + ("as in the browser" if same else f"but {wanted} in the browser: another version of the library "
+                                                                   "or of the scene file, or a segment of kind per-revolution"))
+        return 0 if same else exit_status.FAILED
+    target = options.output or os.path.splitext(options.scene)[0] + ".html"
+    if os.path.isdir(target):
+        raise Usage(f"--output {target}: is a folder, must be the file of the page")
+    size = live.write(loaded, options.scene, target)
+    if not options.quiet:
+        for note in warnings_of(loaded):
+            print(f"note: {note}")
+        print(f"{target}: {size / 1e6:.1f} MB, opens in a browser")
+    return 0
+
+
 LEAST = {"response": """[[response.excitation]]
 kind = "eccentricity"          # excitation: eccentric pipes; or "drive", "load", "force" with a place
 [[response.output]]
@@ -404,6 +445,8 @@ def _ask(options: Any) -> int:
         return _sweep(options)
     if options.command == "fmu":
         return _fmu(options)
+    if options.command == "live":
+        return _live(options)
     if options.command == "probability":
         from .probability.ask import probability
         options.started = started

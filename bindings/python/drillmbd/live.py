@@ -1,0 +1,140 @@
+"""The live page: one HTML file that holds a scene, the library as WebAssembly and the view, and opens without a network.
+
+    from drillmbd import live, scene
+    live.write(scene.load("hole.toml"), "hole.toml", "hole.html")
+
+The package of JavaScript (bindings/web/build) is looked for in the folder that the environment variable DRILLMBD_WEB names, beside the
+library, and in share/drillmbd/web of the usual prefixes."""
+from __future__ import annotations
+
+import base64
+import html
+import json
+import os
+import pathlib
+import re
+import sys
+from typing import Any
+
+from . import __version__, _library
+from ._structs import InputRecord
+from .errors import Usage
+from .live_scene import model_of, record_of
+from .scene import Scene, words
+
+WORKER = ("interface.mjs", "drillmbd.mjs", "live/replay.mjs", "live/worker.mjs")  #: scripts, each after those that it uses
+PAGE = ("live/traces.mjs", "live/view.mjs", "live/page.mjs")
+LARGEST = 5_000_000  #: [byte]
+
+
+# ---- Parts -----------------------------------------------------------------------------------------------------------
+def find_package() -> pathlib.Path:
+    """The folder of the built package."""
+    own = os.environ.get("DRILLMBD_WEB")
+    library = pathlib.Path(_library.find()).resolve().parent
+    places = [pathlib.Path(own)] if own else [
+        library / "web", library.parent / "web", _library.HERE / "web",
+        *(pathlib.Path(prefix) / "share/drillmbd/web" for prefix in (library.parent, library.parents[1], sys.prefix, "/usr/local", "/usr"))]
+    for place in places:
+        if all((place / name).is_file() for name in ("drillmbd.wasm", *WORKER, *PAGE)):
+            return place
+    raise Usage(f"live page refused: {places[0]} does not hold the library as WebAssembly; make it by bindings/web/build FOLDER, and name FOLDER "
+                "by the environment variable DRILLMBD_WEB")
+
+
+def bundle(folder: pathlib.Path, names: tuple[str, ...]) -> str:
+    """One script of several modules: they share a scope, so imports are left out but for those that rename, and exports are plain."""
+    found = []
+    for name in names:
+        text = (folder / name).read_text(encoding="utf-8")
+        renamed = [f"const {new} = {old};" for line in re.findall(r"^import \{([^}]*)\} from .*;$", text, re.M)
+                   for old, new in re.findall(r"(\w+) as (\w+)", line)]
+        text = re.sub(r"^import .*;\n", "", text, flags=re.M)
+        text = re.sub(r"^export (?=(async )?(function|class|const) )", "", text, flags=re.M)
+        found.append("\n".join([*renamed, text]))
+    script = "\n".join(found)
+    if re.search(r"^\s*(import|export) |</script|<!--", script, re.M):
+        raise ValueError(f"{', '.join(names)}: has an import, an export or an end of a script that the page cannot hold")
+    return script
+
+
+def about(file: str, scene: Scene) -> str:
+    """The comment at the head of the scene file, which says what it shows."""
+    lines = []
+    for line in pathlib.Path(file).read_text(encoding="utf-8-sig").splitlines() if os.path.isfile(file) else []:
+        if not line.startswith("#"):
+            break
+        lines.append(line.lstrip("# "))
+    return " ".join(lines) if lines and not lines[-1].startswith("drillmbd ") else scene.title
+
+
+def page(scene: Scene, file: str, folder: pathlib.Path | None = None) -> str:
+    """The HTML of a scene that was read from a file."""
+    folder = find_package() if folder is None else folder
+    with scene.new_sim() as sim:
+        understood = words.describe(scene, sim.momentum().mass)
+    record = record_of(scene, os.path.splitext(os.path.basename(file))[0])
+    text = json.dumps(record, separators=(",", ":"), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
+    details = "".join(f"<li>{html.escape(str(one))}</li>" for one in understood)
+    parts = {"title": html.escape(scene.title or os.path.basename(file)), "about": html.escape(about(file, scene)),
+             "style": (folder / "live/page.css").read_text(encoding="utf-8"),
+             "details": f"<ul>{details}</ul><p>Computed in this browser by libdrillmbd {__version__}; nothing is sent anywhere.</p>",
+             "wasm": base64.b64encode((folder / "drillmbd.wasm").read_bytes()).decode(), "scene": text,
+             "worker": bundle(folder, WORKER), "page": bundle(folder, PAGE)}
+    template = (folder / "live/page.html").read_text(encoding="utf-8")
+    return re.sub(r"@(\w+)@", lambda match: parts[match.group(1)], template)
+
+
+def write(scene: Scene, file: str, target: Any) -> int:
+    """Writes the page; returns its size [byte]."""
+    text = page(scene, file).encode()
+    if len(text) > LARGEST:
+        raise Usage(f"live page refused: it would have {len(text) / 1e6:.1f} MB, must be <= {LARGEST / 1e6:g} MB; describe a shorter survey or shorter tables")
+    pathlib.Path(target).write_bytes(text)
+    return len(text)
+
+
+# ---- A saved log -----------------------------------------------------------------------------------------------------
+def replay(scene: Scene, path: Any) -> tuple[str, str, float]:
+    """Computes the run of a saved log with the native library: hash of the state at its end, the hash that the log has, time [s]."""
+    log = _read(path)
+    checksum = record_of(scene, "")["checksum"]
+    if log["checksum"] != checksum:
+        raise Usage(f"{path}: is the log of another scene ({log['scene']!r}, checksum {log['checksum']}), must be of this one ({checksum}); give the file "
+                    "that the page was made of, as it was then")
+    model = model_of(scene, log["diameter"])
+    numbers = {name: number for number, name in enumerate(model.inputs())}
+    records = [InputRecord(time=one["time"], value=one["value"], input=numbers[one["input"]], call=one["call"]) for one in log["inputs"]]
+    with model.sim(**scene.sim) as sim:
+        if scene.run.get("static", 0):
+            sim.static(**scene.fields_of("static"))
+        _run(sim, records, log["time"], log["step"], scene.run.get("end", 0.0))
+        return f"{sim.hash():016x}", log["hash"], sim.time
+
+
+def _run(sim: Any, records: list[Any], end: float, step: float, length: float) -> None:
+    """The steps of the page: what was set at a time is set before the step that begins then."""
+    at, hundredth = 0, 0
+    while True:
+        if at < len(records):
+            at = sim.inputs.replay(records, at)
+        if sim.time >= end - 1e-9:
+            return
+        hundredth += 1
+        if step:
+            sim.step(step)
+        else:
+            sim.advance(hundredth * (length or 10.0) / 100.0)
+
+
+def _read(path: Any) -> dict[str, Any]:
+    try:
+        log = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        for key, kind in (("checksum", str), ("hash", str), ("time", float), ("step", float), ("inputs", list)):
+            if not isinstance(log[key], (kind, int) if kind is float else kind):
+                raise TypeError(key)
+        for one in log["inputs"]:
+            one["time"], one["value"], one["call"], one["input"] = float(one["time"]), float(one["value"]), int(one["call"]), str(one["input"])
+    except (ValueError, KeyError, TypeError) as error:
+        raise Usage(f"{path}: is no log that a live page saved ({error}); save it anew there") from error
+    return log  # type: ignore[no-any-return]
