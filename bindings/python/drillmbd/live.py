@@ -34,7 +34,7 @@ def find_package() -> pathlib.Path:
     library = pathlib.Path(_library.find()).resolve().parent
     places = [pathlib.Path(own)] if own else [
         library / "web", library.parent / "web", _library.HERE / "web",
-        *(pathlib.Path(prefix) / "share/drillmbd/web" for prefix in (library.parent, library.parents[1], sys.prefix, "/usr/local", "/usr"))]
+        *(pathlib.Path(prefix) / "share/drillmbd/web" for prefix in (str(library.parent), str(library.parents[1]), sys.prefix, "/usr/local", "/usr"))]
     for place in places:
         if all((place / name).is_file() for name in ("drillmbd.wasm", *WORKER, *PAGE)):
             return place

@@ -106,7 +106,7 @@ def _drive_input(add: Any, parts: Described, drive: Any, part: Id) -> None:
     add(word, part=part, low=low, high=high, **rate)
 
 
-TARGETS = {enums.TARGET_FRICTION: (0.0, 3.0), enums.TARGET_FLUID_DENSITY: (0.0, 2000.0), enums.TARGET_STUCK: (0.0, 1.0),
+TARGETS: dict[int, tuple[float, float]] = {enums.TARGET_FRICTION: (0.0, 3.0), enums.TARGET_FLUID_DENSITY: (0.0, 2000.0), enums.TARGET_STUCK: (0.0, 1.0),
            enums.TARGET_LOAD_FACTOR: (0.0, 2.0), enums.TARGET_BIT_LOAD: (0.0, 20e3), enums.TARGET_FLOW_RATE: (0.0, 0.02)}
 
 
