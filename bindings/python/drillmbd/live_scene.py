@@ -171,7 +171,9 @@ def plain(value: Any, call: str = "") -> Any:
         return value if math.isfinite(value) else "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
     if isinstance(value, bytes):
         return value.decode()
-    if isinstance(value, Array):
+    if hasattr(value, "tolist"):  # a view of numpy
+        return plain(value.tolist())
+    if isinstance(value, (Array, list, tuple)):
         return [plain(one) for one in value]
     if isinstance(value, Id):  # stamps of models differ from run to run
         return {"index": value.index, "generation": int(bool(value))}
