@@ -141,7 +141,14 @@ test("without WebAssembly and without enough memory the page says so", async () 
     const page = await browser.open(url, { before: "delete globalThis.WebAssembly" });
     await page.until("document.getElementById('message')?.hidden === false");
     assert.match(await page.ask("document.getElementById('message').textContent"), /no WebAssembly/);
-    const small = await browser.open(`${url}#memory=4`);
+    const long = (await readFile(file, "utf8")).replace(/(id="scene">)(.*?)(<\/script>)/s, (_, head, text, tail) => { // a thousand times as many pipes
+        const record = JSON.parse(text);
+        for (const call of record.calls) if (call[0] === "add_pipes") call[2] *= 1000;
+        return head + JSON.stringify(record).replaceAll("<", "\\u003c") + tail;
+    });
+    const longFile = `${file}.long.html`;
+    writeFileSync(longFile, long);
+    const small = await browser.open(`${pathToFileURL(resolve(longFile)).href}#memory=16`);
     await small.until("document.getElementById('message')?.hidden === false", 60);
     assert.match(await small.ask("document.getElementById('message').textContent"), /could not start: .*memory.*\n.*cannot run here/s);
     await quiet(page);
