@@ -3,7 +3,7 @@
     from drillmbd import live, scene
     live.write(scene.load("hole.toml"), "hole.toml", "hole.html")
 
-The package of JavaScript (bindings/web/build) is looked for in the folder that the environment variable DRILLMBD_WEB names, beside the
+The package of JavaScript (bindings/web/build) is found in the folder that the environment variable DRILLMBD_WEB names, beside the
 library, and in share/drillmbd/web of the usual prefixes."""
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def bundle(folder: pathlib.Path, names: tuple[str, ...]) -> str:
 
 
 def about(file: str, scene: Scene) -> str:
-    """The comment at the head of the scene file, which says what it shows."""
+    """The comment at the head of the scene file, which explains the scene."""
     lines = []
     for line in pathlib.Path(file).read_text(encoding="utf-8-sig").splitlines() if os.path.isfile(file) else []:
         if not line.startswith("#"):
@@ -113,7 +113,7 @@ def replay(scene: Scene, path: Any) -> tuple[str, str, float]:
 
 
 def _run(sim: Any, records: list[Any], end: float, step: float, length: float) -> None:
-    """The steps of the page: what was set at a time is set before the step that begins then."""
+    """The steps of the page: an input that was set at a time is set before the step that begins then."""
     at, hundredth = 0, 0
     while True:
         if at < len(records):
@@ -136,5 +136,5 @@ def _read(path: Any) -> dict[str, Any]:
         for one in log["inputs"]:
             one["time"], one["value"], one["call"], one["input"] = float(one["time"]), float(one["value"]), int(one["call"]), str(one["input"])
     except (ValueError, KeyError, TypeError) as error:
-        raise Usage(f"{path}: is no log that a live page saved ({error}); save it anew there") from error
+        raise Usage(f"{path}: is no log that a live page saved ({error}); save it again there") from error
     return log  # type: ignore[no-any-return]

@@ -102,6 +102,8 @@ def _drive_input(add: Any, parts: Described, drive: Any, part: Id) -> None:
         add("torque" if drive.component == enums.RX else "thrust", part=part, low=low, high=high)
         return
     low, high = _bounds(*parts.range_of(drive.time_function), USUAL[drive.component])
+    if drive.component == enums.X and low < 0.0:  # a rig that pulls can push, too
+        high = max(high, -low)
     rate = {"rate_limit": RATE[drive.component]} if drive.kind == enums.DRIVE_MOTION else {}
     add(word, part=part, low=low, high=high, **rate)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the live page must show: torque and thrust at the rig by `drillmbd run`, and the hash of the page's model by the native library.
+"""Prints the figures that the live page must reach: torque and thrust at the rig by `drillmbd run`, and the hash of the page's model by the native library.
 
 usage: expected.py SCENE.toml TIME > expected.json"""
 import csv
