@@ -315,8 +315,8 @@ static void inputs_on_their_way(void **state)
         must(&c[i].s, dmb_sim_step(c[i].s.sim, 1e-3, NULL));
     }
     expect_good(&c[0], &c[1], &c[1]);
-    expect(&c[0], &c[1], &c[2], DMB_ERR_VALUE, "high has input 0 (speed) on its way");
-    expect(&c[2], &c[0], &c[1], DMB_ERR_VALUE, "input 0 (speed) is on its way");
+    expect(&c[0], &c[1], &c[2], DMB_ERR_VALUE, "high has input 0 (speed) still changing");
+    expect(&c[2], &c[0], &c[1], DMB_ERR_VALUE, "input 0 (speed) is still changing");
     for (int i = 0; i < 3; i++) rig_close(&c[i].s);
 }
 

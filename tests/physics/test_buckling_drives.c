@@ -126,7 +126,7 @@ static void through_a_spring(void **state)
             options.scale = DMB_SCALE_PART;
             options.part = c.drive;
             assert_int_equal(dmb_analysis_path(c.s.sim, &options, NULL), DMB_ERR_UNSUPPORTED);
-            assert_non_null(strstr(dmb_sim_message(c.s.sim), "drive 0 moves what joints, springs"));
+            assert_non_null(strstr(dmb_sim_message(c.s.sim), "drive 0 moves a place that joints, springs"));
         }
         rig_close(&c.s);
     }

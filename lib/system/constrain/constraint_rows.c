@@ -336,4 +336,3 @@ int32_t dmb_constraint_curvature(dmb_evaluation *evaluation, uint32_t constraint
         coordinate_curvature(sim, c, coupling->joint[k], coupling->component[k], coupling->factor[k] * f[0], K);
     return DMB_OK;
 }
-

@@ -163,4 +163,3 @@ void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint,
     row_times(J, relative->to_a, factor, part);
     add_part(scene, constraint, joint->a.node, part, row);
 }
-

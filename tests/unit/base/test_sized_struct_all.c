@@ -48,7 +48,7 @@
     X(mode, 128)                \
     X(mode_shape, 104)          \
     X(model_info, 72)           \
-    X(model_options, 32)        \
+    X(model_options, 48)        \
     X(modes_info, 48)           \
     X(modes_options, 56)        \
     X(momentum, 88)             \

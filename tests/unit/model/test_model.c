@@ -148,7 +148,8 @@ static void compiled_is_frozen(void **state)
     assert_int_equal(dmb_model_set_environment(model, &environment), DMB_ERR_ORDER);
     assert_int_equal(dmb_model_compile(model, NULL), DMB_ERR_ORDER);
     assert_ptr_equal(model->scene, scene);
-    assert_string_equal(dmb_model_message(model), said); /* other threads may be reading it */
+    assert_string_equal(model->message.text, said);                                /* other threads may be reading it */
+    assert_non_null(strstr(dmb_model_message(model), "does not change any more")); /* of this thread */
     assert_ok(dmb_model_get_info(model, &info));
     assert_int_equal(dmb_model_get_info(model, NULL), DMB_ERR_NULL);
     info.struct_size = 5;

@@ -127,7 +127,8 @@ static void nothing_is_written(void **state)
     must(&s, dmb_analysis_check(s.sim, &report));
     must(&s, dmb_analysis_check_text(s.sim, text, sizeof text, NULL));
     print_message("%s", text);
-    assert_memory_equal(copy, s.sim->block, size); /* state, trial, work fields and message */
+    ((dmb_sim *)(void *)copy)->calls = s.sim->calls; /* every call counts */
+    assert_memory_equal(copy, s.sim->block, size);   /* state, trial, work fields and message */
     must(&s, dmb_sim_hash(s.sim, &after));
     assert_true(before == after);
     free(copy);
