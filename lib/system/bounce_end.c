@@ -162,7 +162,8 @@ static int touches_coarsely(const dmb_sim *sim, uint32_t s)
 
 static void mark_stay(dmb_sim *sim, uint32_t s, int stays)
 {
-    sim->site_mode[s] = (uint8_t)((sim->site_mode[s] & DMB_SITE_MODE) | (stays ? DMB_SITE_STAYS : 0));
+    sim->site_mode[s] =
+        (uint8_t)((sim->site_mode[s] & (DMB_SITE_MODE | DMB_SITE_CARRIED)) | (stays ? DMB_SITE_STAYS : 0));
 }
 
 /* Sites that touch: all at once, J M^-1 sum of J^T (k h + c) h in place of each by itself. */
