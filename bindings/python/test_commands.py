@@ -102,6 +102,17 @@ class ShippedTest(FolderTest):
         rock = text.replace('h1 = "2960 N"', "h1 = 0").replace('h1 = "-2960 N"', "h1 = 0").replace('mass = "5 kg"\n', 'mass = "5 kg"\nrock_law = "regenerative"\n')
         self.assertEqual([one for one in warnings_of(scene.loads(rock)) if "no load on the bit" in one], [])
 
+    def test_load_that_nothing_bears(self):
+        """A load on the bit without a drive along the string pushes it out of the hole, in `run` with status 0."""
+        from drillmbd import scene
+        from drillmbd.scene.warned import warnings_of
+        text = ('hole = {diameter = "94 mm"}\nstring = {pipes = {count = 3, pipe = "phi 73 x 6"}}\nbit = {load = "push"}\n'
+                'time_function = [{name = "push", segment = {h0 = "10 kN"}}, {name = "feed", segment = {h0 = "10 mm/s"}}]\n%s')
+        for drive, found in (("", 1), ('drive = {component = "x", time_function = "feed"}\n', 0)):
+            told = [one for one in warnings_of(scene.loads(text % drive if drive else (text % "").replace(
+                ', {name = "feed", segment = {h0 = "10 mm/s"}}', ""))) if "bears the load" in one]
+            self.assertEqual(len(told), found, drive)
+
 
 class NonsenseTest(FolderTest):
     """Nonsense is refused by each command with a line that names the fault; nothing is overwritten."""
