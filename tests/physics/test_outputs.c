@@ -487,11 +487,58 @@ static void in_tables(void **state)
     destroy(&r);
 }
 
+/* A sim that was put back to an earlier time is refused, with the remedy; rows go on once row_count is put back too. */
+static void in_tables_after_a_restore(void **state)
+{
+    (void)state;
+    scene r = make();
+    const dmb_output speed = {dmb_station((dmb_id){0, 0}, 0, 0.0), DMB_OUTPUT_BIT_SPEED, 0};
+    const int32_t torque = DMB_PROFILE_TORQUE;
+    double table[4][2], profiles[4][1 + 3];
+    size_t size = 0;
+    dmb_recorder recorder = dmb_recorder_default();
+    dmb_profile profile = dmb_profile_default();
+    dmb_profile_recorder rows = dmb_profile_recorder_default();
+    recorder.outputs = &speed;
+    recorder.output_count = 1;
+    recorder.table = &table[0][0];
+    recorder.capacity = rows.capacity = 4;
+    profile.station_count = 3;
+    profile.quantities = &torque;
+    profile.quantity_count = 1;
+    rows.profile = &profile;
+    rows.table = &profiles[0][0];
+    take_steps(&r.s, 1e-3, 1);
+    assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_OK);
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_OK);
+    must(&r.s, dmb_sim_snapshot_size(r.s.sim, &size));
+    void *kept = malloc(size);
+    assert_non_null(kept);
+    must(&r.s, dmb_sim_snapshot(r.s.sim, kept, size));
+    take_steps(&r.s, 1e-3, 1);
+    assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_OK);
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_OK);
+    must(&r.s, dmb_sim_restore(r.s.sim, kept, size));
+    assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_sim_message(r.s.sim), "row_count"));
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_ERR_ORDER);
+    assert_true(recorder.row_count == 2 && rows.row_count == 2);
+    recorder.row_count = rows.row_count = 1;
+    take_steps(&r.s, 1e-3, 1);
+    assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_OK);
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_OK);
+    check_close("time of the row that goes on", table[1][0], dmb_sim_time(r.s.sim), 0.0);
+    check_close("time of the profile that goes on", profiles[1][0], dmb_sim_time(r.s.sim), 0.0);
+    free(kept);
+    destroy(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_is_its_query),  cmocka_unit_test(names_are_numbers), cmocka_unit_test(what_is_not_there),
-        cmocka_unit_test(without_the_ledger), cmocka_unit_test(in_tables),
+        cmocka_unit_test(each_is_its_query), cmocka_unit_test(names_are_numbers),
+        cmocka_unit_test(what_is_not_there), cmocka_unit_test(without_the_ledger),
+        cmocka_unit_test(in_tables),         cmocka_unit_test(in_tables_after_a_restore),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
