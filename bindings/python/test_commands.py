@@ -1,4 +1,5 @@
 """Tests of all commands alike: on every shipped scene, with the same warnings, statuses and summaries, after Ctrl-C and after failures."""
+import importlib.util
 import json
 import pathlib
 import re
@@ -317,6 +318,8 @@ class EndTest(FolderTest):
         heavy = self.write("heavy.toml", HEAVY)
         for words in (("static",), ("run",), ("modes",), ("response",), ("speeds",), ("buckle",), ("torque-drag", "--depths", "500"), ("report",),
                       ("sweep", "static", "--vary", "hole.mu_dynamic=0.1,0.2"), ("probability", "--engine", "processes", "--workers", "2")):
+            if words[0] == "report" and importlib.util.find_spec("plotly") is None:
+                continue  # it ends at once, since plotly draws its figures
             with self.subTest(command=words[0]):
                 output = self.folder / words[0]
                 process = subprocess.Popen([*COMMAND, words[0], heavy, *words[1:], "-o", output], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
