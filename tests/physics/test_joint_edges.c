@@ -292,7 +292,8 @@ static void statics_do_not_fold_it(void **state)
         const int32_t status = rest_under(kinds[i], 20.0, &angle, message);
         print_message("    %s\n", message);
         assert_int_equal(status, i == 0 ? DMB_ERR_GEOMETRY : DMB_ERR_NO_CONVERGENCE);
-        assert_non_null(strstr(message, i == 0 ? "joint 0 (cross): before the equilibrium" : "joint 0 (cross) came to |RZ| = 1.5"));
+        assert_non_null(
+            strstr(message, i == 0 ? "joint 0 (cross): before the equilibrium" : "joint 0 (cross) came to |RZ| = 1.5"));
     }
 }
 
