@@ -23,13 +23,13 @@
  * X(type, name, count, check) */
 /* clang-format off */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
-    /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/trial_step, both from the    \
+    /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/trial_step, both from the \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
-       by system/constrain/cluster_projection, system/constrain/cluster_assembly, in axes that do not spin with them   \
-       by system/constrain/rotor; at the start and at jumps by                                                         \
-       system/constrain/cluster_placement, system/start, system/jump, system/bounce_end: */                            \
-    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
-    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
+       by system/constrain/cluster_projection, system/constrain/cluster_assembly, in axes that do not spin with them  \
+       by system/constrain/rotor; at the start and at jumps by                                                        \
+       system/constrain/cluster_placement, system/start, system/jump, system/bounce_end: */                           \
+    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */      \
+    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */ \
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
     X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
@@ -45,40 +45,41 @@
     X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
     X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \
-    X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */  \
-    X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall\
+    X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */ \
+    X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
                                             acts as at in a static state; 0: those of the nodes */                    \
-    X(double, axial_torsional_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
-    X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps system/assemble/ledger_work */ \
-    X(double, axial_torsional_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
-    X(int32_t, axial_torsional_sticks, pb, FLAGS)            /* [-] */                                                           \
-    /* system/assemble/drives, from time functions and velocity: */                                                       \
+    X(double, axial_torsional_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                       \
+    X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps                \
+                                     system/assemble/ledger_work */                                                   \
+    X(double, axial_torsional_bristle, 2 * pb, NUMBERS)      /* [m] */                                                \
+    X(int32_t, axial_torsional_sticks, pb, FLAGS)            /* [-] */                                                \
+    /* system/assemble/drives, from time functions and velocity: */                                                   \
     X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
     X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
-    X(double, drive_target, d, NUMBERS)           /* [unit of the time function] */                                       \
+    X(double, drive_target, d, NUMBERS)           /* [unit of the time function] */                                   \
     X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
     X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
     X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
-    X(double, load_factor, load, NUMBERS)         /* [-] time function of each load */                                    \
+    X(double, load_factor, load, NUMBERS)         /* [-] time function of each load */                                \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/assemble/bit: */                                                                                        \
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
-    X(double, bit_force, 4 * k, NUMBERS) /* [N, N m] of the rock, along the axis, about it, across it:                 \
-                                            system/assemble/bit; at jumps system/assemble/ledger_work */               \
-    X(double, bit_speed, 4 * k, NUMBERS) /* [m/s, rad/s] the same directions: system/assemble/bit; at jumps            \
-                                            system/assemble/ledger_work */                                             \
-    /* system/assemble/bounces, of stops and springs that may open: */                                              \
+    X(double, bit_force, 4 * k, NUMBERS) /* [N, N m] of the rock, along the axis, about it, across it:                \
+                                            system/assemble/bit; at jumps system/assemble/ledger_work */              \
+    X(double, bit_speed, 4 * k, NUMBERS) /* [m/s, rad/s] the same directions: system/assemble/bit; at jumps           \
+                                            system/assemble/ledger_work */                                            \
+    /* system/assemble/bounces, of stops and springs that may open: */                                                \
     X(double, bounce_place, u, NUMBERS)           /* [m, rad] coordinate of the joint, elongation of the spring */    \
     X(double, bounce_force, u, NUMBERS)           /* [N, N m] force of the law there, against growing coordinates */  \
     X(double, bounce_speed, u, NUMBERS)           /* [m/s, rad/s] of the coordinate */                                \
     X(double, law_speed, law, NUMBERS) /* [m/s, rad/s] of coordinates with a law: system/assemble/springs; at jumps   \
-                                          system/assemble/ledger_work */                                               \
+                                          system/assemble/ledger_work */                                              \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
-    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */   \
+    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */    \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
@@ -89,28 +90,28 @@
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/trial_step, integrator/step, system/start; \
-                                     powers: system/assemble/ledger */                                                 \
-    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/ledger */                        \
+                                     powers: system/assemble/ledger */                                                \
+    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/ledger */                       \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/trial_step, integrator/step, system/start, \
-                                              system/constrain/cluster_projection, system/constrain/cluster_assembly,  \
-                                              system/constrain/cluster */                                              \
+                                              system/constrain/cluster_projection, system/constrain/cluster_assembly, \
+                                              system/constrain/cluster */                                             \
     X(dmb_prediction, prediction, 1, PREDICTION) /* integrator/prediction */                                          \
     X(double, bounce_age, u, NUMBERS) /* [-] steps since touch, 0: open, < 0: integrated by itself: system/bounce_end, \
-                                         system/assemble/bounces */                                                  \
-    X(uint8_t, site_age, s, AGES)     /* [-] steps since touch, DMB_SITE_OWN more: integrated by itself:               \
-                                         system/bounce_end, system/assemble/bounces */                                 \
-    X(double, support_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
+                                         system/assemble/bounces */                                                   \
+    X(uint8_t, site_age, s, AGES)     /* [-] steps since touch, DMB_SITE_OWN more: integrated by itself:              \
+                                         system/bounce_end, system/assemble/bounces */                                \
+    X(double, support_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:      \
                                                system/assemble/evaluation */                                          \
-    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                 \
-    X(double, drive_input, d, INPUTS) /* [unit of the time function] value set by the caller; NaN: the time function:         \
+    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/ledger */                                                \
+    X(double, drive_input, d, INPUTS) /* [unit of the time function] value set by the caller; NaN: the time function: \
                                          run/inputs, run/life */                                                      \
-    X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each  \
+    X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each \
                                                                  drive with a delay: system/assemble/actuators */     \
-    X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the time function:          \
-                                                 run/inputs, sim/own_scene; of a stuck place that lets go          \
-                                                 system/jump */                                                      \
-    X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
-                                                 run/inputs, sim/own_scene */                                      \
+    X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the time function:      \
+                                                 run/inputs, sim/own_scene; of a stuck place that lets go             \
+                                                 system/jump */                                                       \
+    X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:                \
+                                                 run/inputs, sim/own_scene */                                         \
     X(double, event_since, event, EVENT_TIMES) /* [s] time at which it crossed and from which it is held; NaN: not    \
                                                   beyond its level; infinite: told, or beyond from the start of a     \
                                                   call: run/events */                                                 \
@@ -120,15 +121,15 @@
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
     X(double, hole_widening, cut, NUMBERS)   /* [m] of the hole's radius at stations, system/assemble/hole_cut,       \
                                                run/state_transfer */                                                  \
-    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                       \
-    X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */          \
+    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                        \
+    X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */         \
     X(double, stuck_anchor, 12 * stuck, NUMBERS)  /* [-, m] R and x of the place where it got stuck:                  \
                                                      system/assemble/stuck */                                         \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
                                               system/constrain/joint_motion */                                        \
-    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */   \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */  \
     X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
-                                           system/constrain/cluster_assembly */                                        \
+                                           system/constrain/cluster_assembly */                                       \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
@@ -143,10 +144,10 @@
 /* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
     /* system/solve/solve: */                                                                                         \
-    X(double, reused_diagonal, kd, NUMBERS)                                                                            \
-    X(double, reused_lower, kl, NUMBERS)                                                                               \
-    X(double, reused_upper, kl, NUMBERS)                                                                               \
-    X(double, reused_quaternion, 4 * kn, FRAMES) /* of the nodes where they were made */                               \
+    X(double, reused_diagonal, kd, NUMBERS)                                                                           \
+    X(double, reused_lower, kl, NUMBERS)                                                                              \
+    X(double, reused_upper, kl, NUMBERS)                                                                              \
+    X(double, reused_quaternion, 4 * kn, FRAMES) /* of the nodes where they were made */                              \
     X(dmb_factor_reuse, reuse, 1, REUSE) /* integrator/newton; cleared by system/solve/solve */
 /* clang-format on */
 
@@ -154,37 +155,37 @@
 /* clang-format off */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
-                               system/constrain/cluster_projection, at the start system/constrain/cluster_assembly,    \
-                               system/constrain/cluster_placement, prescribed system/assemble/drives; of statics        \
+                               system/constrain/cluster_projection, at the start system/constrain/cluster_assembly,   \
+                               system/constrain/cluster_placement, prescribed system/assemble/drives; of statics      \
                                analysis/static/static_move */                                                         \
-    X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of   \
+    X(double, turned_squared, n / DMB_GRAIN + 1) /* [rad2] of the node that turned most in the step, of the nodes of  \
                                                     each piece: system/assemble/evaluation */                         \
-    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
-    X(dmb_rotor_step, rotor_step, ro)   /* of bodies on joints that may spin, system/constrain/rotor */                \
+    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */ \
+    X(dmb_rotor_step, rotor_step, ro)   /* of bodies on joints that may spin, system/constrain/rotor */               \
     /* residual, matrix by the files of system/assemble/, system/bounce_end, forces of constraint                     \
-       system/constrain/cluster, system/constrain/sparse_cluster, of rotors system/constrain/rotor; torques of free  \
-       rotations taken out by analysis/static/static_spin;                                                           \
-       factors in their place by system/solve/solve: */                                                              \
+       system/constrain/cluster, system/constrain/sparse_cluster, of rotors system/constrain/rotor; torques of free   \
+       rotations taken out by analysis/static/static_spin;                                                            \
+       factors in their place by system/solve/solve: */                                                               \
     X(double, residual, r)              /* [N, N m] of the trial */                                                   \
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
-                                [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
-                                integrator/step_motion; shortened by                                                   \
-                                analysis/static/static_newton; without free rotations: analysis/static/static_spin;    \
-                                halved: integrator/newton; pulls and stretches: analysis/static/static_guess */                                     \
-    X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin   \
-                                     with: system/assemble/inertia_of_change */                                     \
+                                [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:             \
+                                integrator/step_motion; shortened by                                                  \
+                                analysis/static/static_newton; without free rotations: analysis/static/static_spin;   \
+                                halved: integrator/newton; pulls and stretches: analysis/static/static_guess */       \
+    X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve; would begin  \
+                                     with: system/assemble/inertia_of_change */                                       \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
-    X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force  \
-                                  in the history of the step; else 0: system/jump, system/assemble/bounces */                                  \
-    X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/companion */  \
-    X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces,                  \
-                                  integrator/companion */   \
-    X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,            \
-                                integrator/companion */                                                                  \
-    X(uint8_t, site_presses, s) /* 1: with a force > 0 in the trial: system/assemble/wall_contact */                   \
-    X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/companion */                       \
+    X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force \
+                                  in the history of the step; else 0: system/jump, system/assemble/bounces */         \
+    X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/companion */ \
+    X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces,    \
+                                  integrator/companion */                                                             \
+    X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,           \
+                                integrator/companion */                                                               \
+    X(uint8_t, site_presses, s) /* 1: with a force > 0 in the trial: system/assemble/wall_contact */                  \
+    X(uint8_t, bounce_mode, u) /* DMB_BOUNCE_...: system/assemble/bounces, integrator/companion */                    \
     X(double, bounce_own, u) /* [N, N m] force of the step's own integration: system/assemble/bounces */              \
     X(double, bounce_warmth, u) /* [W] into its damper: system/assemble/bounces */                                    \
     X(uint8_t, bounce_stays, u) /* 1: the next step does so too: system/bounce_end */                                 \
@@ -199,27 +200,27 @@
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */         \
     X(dmb_seam, seam, piece)            /* of elements made in pieces: system/assemble/elements */                    \
     X(dmb_chunk_sums, chunk_sums, piece) /* system/assemble/elements, system/assemble/nodes,                          \
-                                            system/assemble/wall_contact */                                          \
+                                            system/assemble/wall_contact */                                           \
     X(dmb_chunk_squares, chunk_squares, piece) /* system/solve/solve */                                               \
     X(int64_t, end_singular, 2 * chain) /* first singular block of both ends of chains that are made in parts, or -1: \
                                            system/solve/solve */                                                      \
     X(uint8_t, pivot, r)                /* LU factors only */                                                         \
     X(int32_t, factors, 1)              /* DMB_FACTORS_...: those at hand: system/solve/solve, integrator/newton,     \
-                                           integrator/trial_step */                                                      \
+                                           integrator/trial_step */                                                   \
     /* integrator/step_motion, system/constrain/cluster_projection: */                                                \
     X(double, raw_velocity, raw) /* of the trial before it is projected onto the constraints */                       \
     X(double, raw_acceleration, raw)                                                                                  \
     X(double, raw_pseudo_acceleration, raw)                                                                           \
     X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/jump */              \
     X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/jump */                           \
-    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */              \
+    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */             \
     X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
     X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \
     X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
     X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
     X(double, constraint_jacobian, jacobian)                                                                          \
     X(double, constraint_tangent, tangent) /* of joint forces, of springs and of B^T multiplier, by pose parameters:  \
-                                              system/assemble/springs, system/assemble/point_motion; cleared by  \
+                                              system/assemble/springs, system/assemble/point_motion; cleared by       \
                                               system/assemble/evaluation; without stiffness: system/solve/solve */    \
     /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \
@@ -236,7 +237,7 @@
     X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                      \
     X(double, cluster_full, full) /* iteration matrix before its reduction: system/solve/reduced_system */            \
     X(double, cluster_half, full) /* system/solve/reduced_system */                                                   \
-    /* reduced system, by system/solve/reduced_system and system/solve/reduced_system_sparse: */                       \
+    /* reduced system, by system/solve/reduced_system and system/solve/reduced_system_sparse: */                      \
     X(double, reduced_value, value)                                                                                   \
     X(uint32_t, reduced_pivot, pivots)                                                                                \
     X(uint32_t, reduced_size, block)                                                                                  \
@@ -250,14 +251,14 @@
     X(double, raw_residual, sparse_raw) /* residual with the forces of the multipliers at hand */                     \
     X(double, sparse_gradient, sparse_raw) /* by nodes: what multipliers of least norm have still to bear,            \
                                               system/constrain/sparse_cluster_least_norm */                           \
-    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_system_sparse */        \
-    X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_system_sparse */       \
+    X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                    \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \
     X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_reduced_mode, reduced_mode, 1) /* rows and violations by who finds them: system/, integrator/, analysis/,   \
                                             run/ */                                                                   \
-    X(double, input_before, 4 * input)  /* value and beginning, while a call sets some: run/inputs */              \
+    X(double, input_before, 4 * input)  /* value and beginning, while a call sets some: run/inputs */                 \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 /* clang-format on */
 
