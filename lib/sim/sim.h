@@ -89,7 +89,8 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/trial_step, integrator/step, system/start; \
+    X(dmb_clock, clock, 1, CLOCK) /* times, step lengths: system/bounce_end, integrator/trial_step, integrator/step,  \
+                                     system/start;                                                                    \
                                      powers: system/assemble/ledger */                                                \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/ledger */                       \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] system/bounce_end, integrator/trial_step, integrator/step, system/start, \
