@@ -117,14 +117,15 @@ static int meets(const dmb_sim *sim)
     return 0;
 }
 
-/* Tangents of bits, of PATH nodes (by the tension of their elements), of actuators and of callers are not taken for
- * exact, nor is the iteration matrix of joints, which leaves out how the projection turns with the pose. */
+/* Tangents of bits, of axial-torsional nodes (by the tension of their elements), of actuators, of callers and of mean
+ * forces are not exact, nor is the iteration matrix of joints, which neglects the rotation of the projection with the
+ * pose. */
 static int32_t is_exact(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     return scene->cluster_count == 0 && scene->free_rigid_count == 0 && scene->bit_count == 0 &&
            scene->axial_torsional_site_count == 0 && scene->actuator_count == 0 && scene->force_count == 0 &&
-           scene->stuck_count == 0 && !meets(sim);
+           scene->stuck_count == 0 && !meets(sim) && !dmb_sites_have_mean(sim);
 }
 
 /* ---- Corrections ------------------------------------------------------------------------------------------------- */

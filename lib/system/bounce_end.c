@@ -253,10 +253,15 @@ int32_t dmb_bounces_end(const dmb_evaluation *evaluation, int32_t *found)
     return DMB_OK;
 }
 
+void dmb_bounces_add_accelerations(const dmb_sim *sim, double *acceleration)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) acceleration[i] += taken_of(sim)[i] + given_of(sim)[i];
+}
+
 static void take_accelerations(dmb_sim *sim, double pseudo_factor)
 {
+    dmb_bounces_add_accelerations(sim, sim->trial.acceleration);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        sim->trial.acceleration[i] += taken_of(sim)[i] + given_of(sim)[i];
         sim->trial.pseudo_acceleration[i] += pseudo_factor * taken_of(sim)[i] + given_of(sim)[i];
     }
 }

@@ -45,6 +45,8 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
  * dmb_factor_mass_in_step.
  */
 int32_t dmb_bounces_end(const dmb_evaluation *evaluation, int32_t *found);
+/* Adds these accelerations to those of the trial, shape (rows), as dmb_bounces_accept will do. */
+void dmb_bounces_add_accelerations(const dmb_sim *sim, double *acceleration);
 /* The trial is accepted: its accelerations become those of the laws that are followed from here on; ages, counters. */
 void dmb_bounces_accept(const dmb_evaluation *evaluation, int32_t found);
 

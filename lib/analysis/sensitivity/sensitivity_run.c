@@ -206,6 +206,10 @@ int32_t dmb_sensitivity_companions(void *context, const dmb_trial_step *trial_st
     const int32_t followed = follow_all(s, &nominal);
     if (followed < 0) return followed;
     dmb_sensitivity_take_sight(s, &s->sim->trial);
+    /* with the accelerations that bounces leave when the step is accepted: no jump of theirs is to be followed */
+    if (trial_step->bounced)
+        dmb_bounces_add_accelerations(s->sim,
+                                      s->seen + 3 * (size_t)s->sim->scene->node_count + s->sim->scene->row_count);
     s->followed = 1;
     return followed;
 }
@@ -272,7 +276,7 @@ static int32_t refuse(const dmb_sensitivity *s, int32_t status)
 static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
 {
     int32_t status = dmb_sensitivity_alive(s);
-    if (status < 0) return dmb_told("sensitivity", status);
+    if (status < 0) return dmb_failed("sensitivity", status);
     status = dmb_sensitivity_stands(s);
     if (status < 0) return refuse(s, status);
     if (!is_set_as_made(s)) {
