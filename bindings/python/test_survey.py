@@ -253,7 +253,8 @@ class WordsTest(unittest.TestCase):
                      "between 100 m and 200 m", "20 pipes of 9 m", "reach 180 m", "weight 9.81 kN", "in a 216 mm hole", "rotation 130 rpm", "8 kN on the bit",
                      "time step 2 ms"):
             self.assertIn(part, told)
-        self.assertEqual([one.split(":")[0] for one in words.trivial(rig)], ["no eccentricity of the pipes", "no material damping of the pipes"])
+        self.assertEqual([one.split(":")[0] for one in words.trivial(rig)], ["no eccentricity of the pipes", "no drive along the string bears the load on the bit",
+                                                                             "no material damping of the pipes"])
         bare = scene.loads(SCENE.replace('survey_file = "%s"\n%s', 'direction = [0, 0, -1]'))
         self.assertIn("inclination 0 deg from the downward vertical", words.describe(bare, 0.0)[0])
         self.assertIn("no rotation", words.trivial(bare)[0])

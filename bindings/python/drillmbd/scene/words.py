@@ -42,7 +42,7 @@ def trivial(scene: Scene) -> list[str]:
     if calls.get("add_bit") and not any(one.get("rock_law") or _ever(calls, one.get("load")) for one, in calls["add_bit"]):
         found.append(phrase("no load on the bit: buckling and bit torque are not assessed; set load in [[bit]]"))
     if pipes and any(_ever(calls, one.get("load")) for one, in calls.get("add_bit", [])) and not _bears_thrust(calls):
-        found.append(phrase("no drive along the string bears the load on the bit, which pushes the string out of the hole; add a [[drive]] with "
+        found.append(phrase("no drive along the string bears the load on the bit: the string is pushed out of the hole; add a [[drive]] with "
                             "component = \"x\""))
     if pipes and not any(one.damping_time for one in pipes):
         found.append(phrase("no material damping of the pipes: vibrations do not decay by themselves; set damping_time in [[string.pipes]]"))
