@@ -973,13 +973,13 @@ public:
         begun(of, dmb_sim_create_in(of.get(), &options, block, size, &handle_));
     }
 
-    // Does call(), which makes calls of this sim; told(fraction) is called during them and ends one by true: it throws
-    // an error of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. An exception of told ends it too and comes
-    // out of here.
-    template <typename Told, typename Call>
-    void with_progress(Told told, Call call)
+    // Does call(), which makes calls of this sim; progress(fraction) is called during them and ends one by returning
+    // true: it throws an error of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. An exception of progress
+    // ends it too and comes out of here.
+    template <typename Progress, typename Call>
+    void with_progress(Progress progress, Call call)
     {
-        teller<Told> heard(*this, told);
+        teller<Progress> heard(*this, progress);
         try {
             call();
         } catch (...) {
@@ -1310,9 +1310,9 @@ public:
 
 private:
     // A function object as a C function, while it lives; its exceptions must not unwind through C.
-    template <typename Told>
+    template <typename Progress>
     struct teller {
-        teller(sim &of, Told &function) : told(function), owner(of)
+        teller(sim &of, Progress &function) : progress(function), owner(of)
         {
             owner.done(dmb_sim_set_progress(owner.handle_, &teller::call, this));
         }
@@ -1323,13 +1323,13 @@ private:
         {
             teller *self = static_cast<teller *>(context);
             try {
-                return self->told(fraction) ? 1 : 0;
+                return self->progress(fraction) ? 1 : 0;
             } catch (...) {
                 self->thrown = std::current_exception();
                 return 1;
             }
         }
-        Told &told;
+        Progress &progress;
         sim &owner;
         std::exception_ptr thrown;
     };

@@ -195,7 +195,7 @@ static int complete_turning(scene_file *scene, const open_record *record)
     return 0;
 }
 
-/* Gives the terms of a time function the callbacks that were told before it. */
+/* Gives the segments of a time function the callbacks that precede it in the record. */
 static int use_turnings(scene_file *scene, const open_record *record)
 {
     for (scene_turning *turning = scene->turnings; turning && !turning->is_used; turning = turning->next) {

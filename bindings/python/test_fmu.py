@@ -436,7 +436,7 @@ class Fmu(FolderTest):
         with self.assertRaisesRegex(fmu.CannotExport, "of its own"):
             fmu.export(twice, self.folder / "no.fmu")
         for text, name in ((SCENE.replace('initial = "0 rpm"', ""), "speed"), (MOVED.replace('initial = "0.2 kN"', ""), "weight")):
-            with self.assertRaisesRegex(fmu.CannotExport, f"input {name} stands for a time function that changes"):
+            with self.assertRaisesRegex(fmu.CannotExport, f"input {name} replaces a time function that changes"):
                 fmu.export(scene.loads(text), self.folder / "no.fmu")
         with self.assertRaises(OSError):
             fmu.export(loaded, self.folder / "nowhere" / "no.fmu")

@@ -34,7 +34,7 @@ def as_id(part: Id | str | None, parts: Parts | None = None, word: str = "") -> 
 
 
 def as_place(place: Place | Id | str | None, parts: Parts | None = None) -> Place:
-    """The place; a part, or its name where the parts of the model are given, stands for its reference point, None for no place."""
+    """The place. A part, or its name if the parts of the model are given, means its reference point; None means no place."""
     if isinstance(place, Place):
         return place
     if place is not None and not isinstance(place, (Id, str) if parts is not None else Id):

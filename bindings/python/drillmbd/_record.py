@@ -63,7 +63,7 @@ def read_as_numpy(cls: type[Record]) -> None:
 
 
 class Record(ctypes.Structure):
-    """A struct that checks its fields: a misspelt one is an error, a sequence fills an array, a part stands for its
+    """A struct that checks its fields: a misspelt one is an error, a sequence fills an array, a part means its
     reference point where a place is needed and None for no part. dict(struct) and struct["field"] read it as a mapping."""
     c_name: ClassVar[str] = ""
     about: ClassVar[str] = ""

@@ -223,7 +223,7 @@ def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
 
 
 def _refuse_changing(scene: Scene) -> None:
-    """Refuses an input that stands for a time function that changes. In a unit, an input that the importer does not set keeps its start
+    """Refuses an input in the place of a time function that changes. In a unit, an input that the importer does not set keeps its start
     value (FMI 3.0, 2.4.7); the unit would follow the time function instead, and the two importers' results would differ silently."""
     parts = _described(scene)
     for name, arguments in parts.values():
@@ -234,7 +234,7 @@ def _refuse_changing(scene: Scene) -> None:
         function = part[1][0].get("load" if part[0] == "add_bit" else "time_function")
         segments = parts[function.index][1] if function else ()
         if any(one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT or one.get("table") or one.get("function") for one in segments):
-            raise CannotExport(f"unit refused: input {given['name']} stands for a time function that changes, but an input of a unit has its start "
+            raise CannotExport(f"unit refused: input {given['name']} replaces a time function that changes, but an input of a unit has its start "
                                "value until it is set; give the [[input]] an initial value, or its part a constant time function")
 
 

@@ -178,17 +178,17 @@ def compare(sim: Sim, string: Any, name: str, out: CommandOutput, series: dict[s
             block_weight: float, friction: float) -> None:
     """A line for each series, a table of all measurements, and the summary."""
     rows: list[list[Any]] = []
-    told: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     for word, one in series.items():
         found = fit(Model(sim, string, operations[KINDS[word]], block_weight, one), friction)
         out.say(f"{name}, measured {label(word)}: {_text(one, found, friction, out.units)}")
-        told[word] = {"measurements": len(one.values), "friction": found.friction, "reason": found.reason or None,
+        result[word] = {"measurements": len(one.values), "friction": found.friction, "reason": found.reason or None,
                       "half_width_95": found.half_width, "scatter": found.scatter}
         factor = out.units.factor("N m" if word == "torque" else "N")
         points = found.by_point or [math.nan] * len(one.values)
         rows += [[depth, label(word), value * factor, computed * factor, point]
                  for depth, value, computed, point in zip(one.depths, one.values, found.computed, points)]
-    out.summary.setdefault("measured", {})[name] = told
+    out.summary.setdefault("measured", {})[name] = result
     out.table(f"measured_{file_name(name)}.csv", ["depth [m]", "quantity", "measured [N or N m]", "computed with the fit [N or N m]",
                                                     "friction of this measurement [-]"], rows)
 

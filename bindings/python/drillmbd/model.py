@@ -112,7 +112,7 @@ class Model(Handle, ModelCalls):
 
     @mirrors("dmb_model_add_time_function")
     def add_time_function(self, *segments: Any) -> TimeFunctionId:
-        """A time function of one or more segments. A number stands for a constant segment, a function of time for a callback."""
+        """A time function of one or more segments. A number is a constant segment, a function of time a callback."""
         made = [self._segment(number, segment) for number, segment in enumerate(segments)]
         array, part = (Segment * len(segments))(*made), Id()
         self._check(_lib.dmb_model_add_time_function(self._handle, array, len(segments), byref(part)))

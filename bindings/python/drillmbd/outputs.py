@@ -56,7 +56,7 @@ def output_names() -> list[str]:
     return [output_name(number) for number in output_numbers()]
 
 
-for _member in (*Quantity, *Reading):  # what the headers have no sentence of
+for _member in (*Quantity, *Reading):  # members without a sentence in the headers
     if _member.__doc__ == type(_member).__doc__ and _lib.dmb_output_name(int(_member), None):
         _member.__doc__ = f"[{output_unit(_member)}] the output {output_name(_member)}"
 

@@ -47,7 +47,7 @@ def _interval(value: Any) -> float:
 
 class Recorder:
     """A table of rows (time, outputs...). outputs are pairs (place, "bit_speed") or (place, OUTPUT_...), or triples
-    with a name for the column; a part, or its name, stands for its reference point, None (or "bit_speed" alone) for an output without a
+    with a name for the column; a part, or its name, means its reference point, None (or "bit_speed" alone) for an output without a
     place. Of a window
     place is the number of the watched output. Call take() after every step."""
 

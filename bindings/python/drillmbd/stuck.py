@@ -82,7 +82,7 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
         raise Usage("--overpull and --stretch belong together")
     more: dict[str, Any] = friction_option(options)
     string = scene.names[next(iter(scene.pipes))]
-    told: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     units = out.units
     with scene.new_sim() as sim:
         for name, ask in (("pull", pull_at_bit), ("push", push_at_bit)):
@@ -92,10 +92,10 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
                 continue
             force, row = ask(sim, string, limit, **more)
             if not force > 0.0:
-                told[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
+                result[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
                 out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: nothing arrives, weight and friction take it all")
                 continue
-            told[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
+            result[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
             out.say(f"{name} of {units.text(limit / 1e3, 'kN')} at the rig: {units.text(force / 1e3, 'kN')} at the far end, "
                        f"{row.helical_share:.2g} of helical buckling")
@@ -104,15 +104,15 @@ def stuck(scene: Scene, out: CommandOutput, options: Any) -> int:
             out.say("torque: no limit in the scene; give --torque")
         else:
             lost = _row(sim, string, enums.OPERATION_ROTATE, 0.0, **more).torque
-            told["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
+            result["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
             out.say(f"torque of {units.text(torque, 'N m')} at the rig: {units.text(max(0.0, torque - lost), 'N m')} at the far end")
     if options.stretch is not None:
         pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
         if not pull > 0.0 or not by > 0.0:
             raise Usage("--overpull and --stretch must be > 0")
         length = free_length(scene, string, pull, by)
-        told["free_length_m"] = length
+        result["free_length_m"] = length
         out.say("free as far as the string goes: it would lengthen by less" if length is None
                    else f"free down to {units.text(length, 'm')} from the rig end, friction left out")
-    out.summary["stuck"] = told
+    out.summary["stuck"] = result
     return out.finish()

@@ -176,15 +176,15 @@ def _values(curves: Curves, row: TorqueDragRow) -> list[float]:
 
 
 def _write_rows(sim: Sim, out: CommandOutput, curves: Curves, settings: Settings) -> None:
-    found, told = curves.found, {}
+    found, result = curves.found, {}
     for kind, row in zip(WORDS, found.rows[-1]):
         neutral = _neutral_point(sim, curves, settings, kind, float(row.depth))
         out.say(f"{curves.name}, {WORDS[kind]} at {out.units.text(row.depth, 'm')}: {_sentence(curves, row, neutral, out.units)}")
-        told[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
+        result[WORDS[kind]] = {"depth_m": row.depth, "locked": bool(row.locked), "neutral_point_m": neutral,
                              **{key_of(name, FIELDS[name]): finite(value) for name, value in zip(FIELDS, _values(curves, row))}}
     if any(not row.locked and not math.isfinite(row.yield_share) for row in found.rows[-1]):
         out.say(f"{curves.name}, stress: not assessed, because not all pipes have a yield_strength")
-    out.summary.setdefault("torque_drag", {})[curves.name] = told
+    out.summary.setdefault("torque_drag", {})[curves.name] = result
     out.summary.setdefault("torque_drag_by_depth", {})[curves.name] = {
         word: {"depth_m": found.column("depth", number), "locked": [bool(one) for one in found.column("locked", number)],
                **{key_of(name, FIELDS[name]): list(column) for name, column in zip(FIELDS, zip(*(_values(curves, rows[number]) for rows in found.rows)))}}

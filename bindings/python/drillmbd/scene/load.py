@@ -591,7 +591,7 @@ class Loader:
         return fields.setting_units(self.word(known["target"], table.get("target"), 0), drive)
 
     def _inline_time_functions(self, kind: str, path: Path, table: dict[str, Any]) -> None:
-        """time_function = "120 rpm" stands for a time function of that constant."""
+        """time_function = "120 rpm" is a time function of that constant."""
         keys = {"drive": ("time_function", "excitation"), "bit": ("load",), "load": ("time_function",)}.get(kind, ())
         unit = {"bit": "N", "load": "-"}.get(kind) or self.drive_unit(table)
         for key in keys:
