@@ -31,7 +31,7 @@ void dmb_failure_note(const dmb_message *message, const dmb_refused_number *numb
 int32_t dmb_failure(const dmb_failed_object *of, const dmb_error_handler *handler, int32_t status, const char *call,
                     const char *text);
 /* The same of an object that has no message of its own. Passes on what is no failure. */
-static inline int32_t dmb_told(const char *call, int32_t status)
+static inline int32_t dmb_failed(const char *call, int32_t status)
 {
     return status >= 0 ? status : dmb_failure(NULL, NULL, status, call, NULL);
 }

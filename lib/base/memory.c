@@ -296,9 +296,9 @@ static void describe(dmb_allocator *allocator, pool *p)
 
 int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator)
 {
-    if (memory == NULL || allocator == NULL) return dmb_told("pool", DMB_ERR_NULL);
+    if (memory == NULL || allocator == NULL) return dmb_failed("pool", DMB_ERR_NULL);
     if (size < 4 * (size_t)DMB_ALIGNMENT || size > UINTPTR_MAX - (uintptr_t)memory)
-        return dmb_told("pool", DMB_ERR_VALUE);
+        return dmb_failed("pool", DMB_ERR_VALUE);
     const size_t start = (size_t)(-(uintptr_t)memory % DMB_ALIGNMENT);
     pool *p = (pool *)(void *)((unsigned char *)memory + start);
     p->first = (gap *)(void *)((unsigned char *)p + DMB_ALIGNMENT);

@@ -8,7 +8,7 @@
 #include "force/normal_law.h"
 #include "math/mat6.h"
 
-/* A contact ring on a FULL node that can touch the wall. The compile step creates it. */
+/* A contact ring on a six-DOF node that can touch the wall. The compile step creates it. */
 typedef struct dmb_site {
     double offset;    /* [m] along body x from the node */
     double radius;    /* [m] of the ring */

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "drillmbd/scene.h"
-#include "force/mean_force.h"
+#include "force/unilateral.h"
 #include "math/elementary.h"
 
 typedef struct dmb_normal_law {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "drillmbd/scene.h"
-#include "force/mean_force.h"
 
 int dmb_stop_acts(const dmb_joint_law *law)
 {

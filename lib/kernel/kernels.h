@@ -18,9 +18,9 @@ typedef struct dmb_seam {
     double residual[6], scale[6], stiffness[36], inertia[36];
 } dmb_seam;
 
-/* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
- * first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written between
- * them, where elements are the first to add something. */
+/* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them six-DOF. Pointers are to the
+ * run's first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written
+ * between them, where elements are the first to add something. */
 typedef struct dmb_beam_args {
     uint32_t count;  /* elements */
     uint32_t failed; /* out: the first element that turned too far */
@@ -46,8 +46,8 @@ typedef struct dmb_beam_args {
     dmb_seam *seam;                               /* added to in place of the last node; NULL: that itself is */
 } dmb_beam_args;
 
-/* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
- * the run's first bar, node or row. */
+/* A run of axial-torsional elements: element i lies between the nodes i and i + 1 of the run, all of them
+ * axial-torsional. Pointers are to the run's first bar, node or row. */
 typedef struct dmb_axial_torsional_args {
     uint32_t count;  /* bars */
     int32_t dynamic; /* as in dmb_evaluation */
@@ -61,7 +61,7 @@ typedef struct dmb_axial_torsional_args {
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
 } dmb_axial_torsional_args;
 
-/* A run of FULL nodes. */
+/* A run of six-DOF nodes. */
 typedef struct dmb_node_args {
     uint32_t count;
     uint32_t reserved;
@@ -71,7 +71,7 @@ typedef struct dmb_node_args {
     double turned;                     /* [rad2] raised to the square of the largest rotation */
 } dmb_node_args;
 
-/* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
+/* Rigid masses, weight and external damping on a run of six-DOF nodes. Pointers are to the run's first node, row or
  * block. */
 typedef struct dmb_node_force_args {
     uint32_t count;                     /* nodes */
@@ -158,7 +158,7 @@ static inline void dmb_wall_args_skip(dmb_wall_args *args, uint32_t count)
     dmb_site_fields_skip(args, count, &args->trial);
 }
 
-/* Turns of FULL nodes about their own x axes. */
+/* Turns of six-DOF nodes about their own x axes. */
 typedef struct dmb_turn_args {
     uint32_t count;
     uint32_t reserved;
@@ -168,7 +168,8 @@ typedef struct dmb_turn_args {
     double *turn;                         /* [rad] revolutions counted */
 } dmb_turn_args;
 
-/* Vectors of FULL nodes, given in one frame of each and wanted in another that is twisted about the node's x axis. */
+/* Vectors of six-DOF nodes, given in one frame of each and wanted in another that is twisted about the node's x axis.
+ */
 typedef struct dmb_twist_args {
     uint32_t count;
     uint32_t reserved;
@@ -208,7 +209,7 @@ typedef struct dmb_power_args {
     double left, exchanged; /* [W] out: sum residual[i] velocity[i], sum |scale[i] velocity[i]| */
 } dmb_power_args;
 
-/* Diagonal blocks of the iteration matrix of FULL nodes: K T6(z) + C. */
+/* Diagonal blocks of the iteration matrix of six-DOF nodes: K T6(z) + C. */
 typedef struct dmb_matrix_args {
     uint32_t count;
     uint32_t reserved;
@@ -241,7 +242,7 @@ typedef struct dmb_response_job {
     double *work;  /* shape (numbers in the chain's `upper`, 2, DMB_FREQUENCIES) */
 } dmb_response_job;
 
-/* Sums of squares that are made side by side: of four FULL nodes, of twelve PATH nodes. */
+/* Sums of squares that are made side by side: of four six-DOF nodes, of twelve axial-torsional nodes. */
 #define DMB_SQUARES 24
 
 typedef struct dmb_kernels {

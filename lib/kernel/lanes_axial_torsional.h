@@ -1,4 +1,4 @@
-/* Axial-torsional bars (eq:bar.force) side by side: row after row of their nodes, in which stretch and twist take
+/* Axial-torsional elements (eq:bar.force) side by side: row after row of their nodes, in which stretch and twist take
  * turns. */
 #ifndef DMB_KERNEL_LANES_AXIAL_TORSIONAL_H
 #define DMB_KERNEL_LANES_AXIAL_TORSIONAL_H

@@ -109,12 +109,12 @@ int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no
 {
     dmb_motor read = dmb_motor_default();
     dmb_drive_def made = dmb_drive_def_default();
-    if (motor == NULL || drive == NULL || no_load_speed == NULL) return dmb_told("motor", DMB_ERR_NULL);
+    if (motor == NULL || drive == NULL || no_load_speed == NULL) return dmb_failed("motor", DMB_ERR_NULL);
     int32_t status = dmb_motor_read(&read, motor);
     if (status >= 0) status = check_motor(&read);
     if (status >= 0) status = dmb_drive_def_read(&made, drive);
     if (status >= 0 && read.table_count > 0 && drive->struct_size < sizeof made) status = DMB_ERR_STRUCT_SIZE;
-    if (status < 0) return dmb_told("motor", status);
+    if (status < 0) return dmb_failed("motor", status);
     made.kind = DMB_DRIVE_CONTROL;
     made.component = DMB_RX;
     made.integral_gain = 0.0;
@@ -124,5 +124,5 @@ int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no
     if (!read.brakes && read.table_count == 0) made.limit_low = 0.0;
     status = dmb_drive_def_write(drive, &made);
     if (status >= 0) *no_load_speed = speed;
-    return dmb_told("motor", status);
+    return dmb_failed("motor", status);
 }

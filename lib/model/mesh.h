@@ -48,7 +48,7 @@ typedef struct dmb_mesh_node {
     uint32_t rigid_mass; /* in rigid_masses; DMB_NONE: none */
     uint32_t added_mass; /* in added_masses; DMB_NONE: none */
     uint8_t size;        /* DMB_NODE_SIX_DOF or DMB_NODE_AXIAL_TORSIONAL */
-    uint8_t free;        /* mask of free components; of a PATH node X and RX count */
+    uint8_t free;        /* mask of free components; of an axial-torsional node X and RX count */
     uint8_t prescribed;  /* mask of components moved by MOTION drives */
     uint8_t rigid;       /* 1: carries a rigid body */
 } dmb_mesh_node;

@@ -23,7 +23,7 @@ static uint32_t driven_node(const dmb_mesh *mesh, dmb_id part)
     return dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, part))->start_node;
 }
 
-/* A PATH node has no other components than those along and about its axis. */
+/* An axial-torsional node has no other components than those along and about its axis. */
 static bool is_free(const dmb_mesh_node *node, int32_t component)
 {
     const int32_t mask = node->size == DMB_NODE_AXIAL_TORSIONAL ? node->free & DMB_FREE_CYLINDRICAL : node->free;
@@ -171,7 +171,7 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
     return law;
 }
 
-/* Left out with the rock; PATH nodes do not move sideways. */
+/* Left out with the rock; axial-torsional nodes do not move sideways. */
 static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     if (!(def->side_cutting > 0.0) || (mesh->features & DMB_FEATURE_ROCK) == 0) return DMB_OK;

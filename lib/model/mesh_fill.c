@@ -55,8 +55,9 @@ static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32
     }
 }
 
-/* Velocity of the string as a rigid body at a FULL node: Ad(H)^-1 of the rig end's, H the node seen from it. PATH nodes
- * slide and turn on the axis as the rig end does, so that the string keeps its length on a curved axis too. */
+/* Velocity of the string as a rigid body at a six-DOF node: Ad(H)^-1 of the rig end's, H the node seen from it.
+ * axial-torsional nodes slide and turn on the axis as the rig end does, so that the string keeps its length on a curved
+ * axis too. */
 static void string_velocity(const dmb_mesh *mesh, const dmb_mesh_node *node, double v[6])
 {
     const dmb_string_map *map = dmb_mesh_string_at(mesh, node->string);

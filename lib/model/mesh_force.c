@@ -190,7 +190,7 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
 
 /* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
 
-/* PATH nodes have no motion sideways, so nothing may act on them there. */
+/* axial-torsional nodes have no motion sideways, so nothing may act on them there. */
 static void check_sideways(dmb_check *check, const dmb_mesh *mesh, const dmb_stuck_def *def,
                            const dmb_scene_point *point)
 {

@@ -113,7 +113,7 @@ void dmb_mesh_check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *fie
     dmb_check_count(check, name.text, place->pipe, 0, dmb_mesh_string_at(mesh, string)->pipe_count - 1);
 }
 
-/* PATH nodes turn with the axis where it is curved, and a joint would feel that: not offered. */
+/* axial-torsional nodes turn with the axis where it is curved, and a joint would feel that: not offered. */
 void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                          uint32_t node)
 {

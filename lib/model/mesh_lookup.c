@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "model/field_check.h"
-#include "model/scene.h"
 
 bool dmb_same_numbers(const double *a, const double *b, size_t count)
 {

@@ -217,7 +217,7 @@ static void mesh_and_count(string_iterator *iterator, const pipe_iterator *pipe)
     map->elements = elements;
 }
 
-/* A node stays a PATH node while all its neighbours are axial-torsional. */
+/* A node stays an axial-torsional node while all its neighbours are axial-torsional. */
 static void mesh_elastic_run(string_iterator *iterator, uint32_t run_index)
 {
     const dmb_pipe_run *run = dmb_mesh_run_at(iterator->mesh, run_index);

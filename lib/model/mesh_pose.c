@@ -55,7 +55,7 @@ static void turn_to(const double t[3], double q[4])
     dmb_quat_normalize(q);
 }
 
-/* As the axis carries PATH nodes in every step. */
+/* As the axis carries axial-torsional nodes in every step. */
 static void carry(const dmb_mesh *mesh, double from, double to, double q[4])
 {
     double turn[9], turned[4];
@@ -65,8 +65,8 @@ static void carry(const dmb_mesh *mesh, double from, double to, double q[4])
     dmb_quat_normalize(q);
 }
 
-/* The rig end has the hole's own frame. From there on frames are carried along without twist, between PATH nodes by the
- * axis itself: these turn about it by nothing but torsion wherever they move. */
+/* The rig end has the hole's own frame. From there on frames are carried along without twist, between axial-torsional
+ * nodes by the axis itself: these turn about it by nothing but torsion wherever they move. */
 static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_node *node, const dmb_mesh_node *before)
 {
     double tangent[3], shift[3] = {0.0, def->offset[0], def->offset[1]}, frame[4];

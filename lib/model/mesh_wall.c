@@ -104,7 +104,8 @@ static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diamete
     return push_site(mesh, &site);
 }
 
-/* Rings on nodes up to that of the present place, which meet the wall first; a PATH node rubs at their diameter. */
+/* Rings on nodes up to that of the present place, which meet the wall first; an axial-torsional node rubs at their
+ * diameter. */
 static int32_t pass_rings(site_iterator *iterator)
 {
     const dmb_mesh *mesh = iterator->mesh;

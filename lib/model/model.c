@@ -1,9 +1,7 @@
 /* Making and unmaking a model, its ids, its message. */
 #include "model/model.h"
 
-#include "base/build.h"
 #include "base/memory.h"
-#include "base/message.h"
 #include "base/sized_struct.h"
 #include "drillmbd/scene.h"
 #include "model/describe.h"
@@ -25,13 +23,13 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
     dmb_allocator allocator;
     dmb_model *created;
     int32_t status = DMB_OK;
-    if (model == NULL) return dmb_told("model", DMB_ERR_NULL);
+    if (model == NULL) return dmb_failed("model", DMB_ERR_NULL);
     *model = NULL;
     if (options != NULL) status = dmb_model_options_read(&read, options);
     if (status >= 0) status = dmb_allocator_copy(&allocator, read.allocator);
-    if (status < 0) return dmb_told("model", status);
+    if (status < 0) return dmb_failed("model", status);
     created = dmb_allocate(&allocator, sizeof *created);
-    if (created == NULL) return dmb_told("model", DMB_ERR_NO_MEMORY);
+    if (created == NULL) return dmb_failed("model", DMB_ERR_NO_MEMORY);
     created->magic = DMB_HANDLE_MODEL;
     created->stamp = dmb_new_stamp();
     atomic_init(&created->holders, 1u);

@@ -5,9 +5,7 @@
 #include "base/message.h"
 #include "base/sized_struct.h"
 #include "drillmbd/scene.h"
-#include "model/describe.h"
 #include "model/field_check.h"
-#include "model/scene.h"
 
 void dmb_model_refuse_re_entry(dmb_model *model)
 {

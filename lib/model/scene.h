@@ -2,9 +2,9 @@
  * then read by any number of threads.
  *
  * Nodes are numbered along the strings, rig end first, then the free bodies, so that every string and every free body
- * is a chain of neighbouring blocks. A FULL node has a pose in SE(3) and 6 rows (body-frame velocity); a PATH node
- * slides and turns on the axis of the hole and has 2 rows (along the axis, about it). Element e joins nodes a and
- * a+1. */
+ * is a chain of neighbouring blocks. A six-DOF node has a pose in SE(3) and 6 rows (body-frame velocity); an
+ * axial-torsional node slides and turns on the axis of the hole and has 2 rows (along the axis, about it). Element e
+ * joins nodes a and a+1. */
 #ifndef DMB_MODEL_SCENE_H
 #define DMB_MODEL_SCENE_H
 
@@ -32,12 +32,13 @@
 enum { DMB_NODE_AXIAL_TORSIONAL = 2, DMB_NODE_SIX_DOF = 6 };
 /* Kernels of an element. */
 enum {
-    DMB_KERNEL_BEAM = 0,            /* two FULL nodes */
-    DMB_KERNEL_AXIAL_TORSIONAL = 1, /* two PATH nodes: stretch and torsion only */
-    DMB_KERNEL_MIXED = 2            /* a beam with one FULL and one PATH node */
+    DMB_KERNEL_BEAM = 0,            /* two six-DOF nodes */
+    DMB_KERNEL_AXIAL_TORSIONAL = 1, /* two axial-torsional nodes: stretch and torsion only */
+    DMB_KERNEL_MIXED = 2            /* a beam with one six-DOF and one axial-torsional node */
 };
 
-/* A PATH node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved holes. */
+/* An axial-torsional node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved
+ * holes. */
 typedef struct dmb_axial_torsional_site {
     double radius; /* [m] */
     double length; /* [m] it stands for */
@@ -230,7 +231,7 @@ typedef struct dmb_scene {
     size_t bytes;                      /* of the arena, this struct included */
     int32_t features;                  /* DMB_FEATURE_... that the scene really has: asked for and described */
     int32_t damped, arms;              /* 1: some element has a damping time, stands off its nodes by rigid arms */
-    int32_t beams_only;                /* 1: every element has two FULL nodes */
+    int32_t beams_only;                /* 1: every element has two six-DOF nodes */
     int32_t curved, curved_reserved;   /* 1: some element has the mass of bent ones */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
@@ -270,7 +271,8 @@ typedef struct dmb_scene {
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
-    double *reference_position;   /* [m] world, where displacement is 0, shape (node, 3); of a PATH node on the axis */
+    double *reference_position;   /* [m] world, where displacement is 0, shape (node, 3); of an axial-torsional node on
+                                     the axis */
     double *reference_quaternion; /* [-] at time 0, scalar first, shape (node, 4) */
     double *reference_depth;      /* [m] measured depth at time 0, shape (node); 0 without a hole */
     double *initial_velocity;     /* [m/s, rad/s] as described, shape (velocity_count) */

@@ -316,7 +316,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
 {
     const int32_t status = check_ask(fatigue, place, result);
     dmb_fatigue_result answer = {0};
-    if (status < 0) return dmb_told("fatigue", status);
+    if (status < 0) return dmb_failed("fatigue", status);
     answer.point = worst_point(fatigue, place);
     const dmb_fatigue_counter found = whole(fatigue, place, answer.point);
     answer.samples = fatigue->samples;
@@ -328,7 +328,7 @@ int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_
     answer.highest = fatigue->samples > 0 ? found.highest : 0.0;
     answer.time = fatigue->last - fatigue->first;
     answer.life = found.damage > 0.0 ? answer.time / found.damage : (double)INFINITY;
-    return dmb_told("fatigue", dmb_fatigue_result_write(result, &answer));
+    return dmb_failed("fatigue", dmb_fatigue_result_write(result, &answer));
 }
 
 static void add_to_histogram(void *context, const dmb_turn *low, const dmb_turn *high, double weight)
@@ -340,7 +340,7 @@ int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double
 {
     const int32_t status = check_ask(fatigue, place, cycles);
     const dmb_fatigue_counter *at;
-    if (status < 0) return dmb_told("fatigue", status);
+    if (status < 0) return dmb_failed("fatigue", status);
     at = &fatigue->counters[(size_t)place * fatigue->options.points + worst_point(fatigue, place)];
     memcpy(cycles, at->cycles, fatigue->options.classes * sizeof(double));
     dmb_rainflow_rest(&at->flow, add_to_histogram, cycles);

@@ -46,7 +46,7 @@ int32_t dmb_fatigue_snapshot_size(const dmb_fatigue *fatigue, size_t *size)
 {
     const int32_t status = check(fatigue, size);
     if (status >= 0) *size = bytes_of(fatigue);
-    return dmb_told("fatigue", status);
+    return dmb_failed("fatigue", status);
 }
 
 /* ---- Saving ------------------------------------------------------------------------------------------------------ */
@@ -61,8 +61,8 @@ int32_t dmb_fatigue_snapshot(const dmb_fatigue *fatigue, void *block, size_t siz
 {
     const int32_t status = check(fatigue, block);
     unsigned char *to = block;
-    if (status < 0) return dmb_told("fatigue", status);
-    if (size != bytes_of(fatigue)) return dmb_told("fatigue", DMB_ERR_VALUE);
+    if (status < 0) return dmb_failed("fatigue", status);
+    if (size != bytes_of(fatigue)) return dmb_failed("fatigue", DMB_ERR_VALUE);
     const head start = {MARK, fatigue->options, fatigue->place_count, fatigue->samples, fatigue->first, fatigue->last};
     to = put(to, &start, sizeof start);
     for (uint32_t i = 0; i < fatigue->place_count; i++)
@@ -154,12 +154,12 @@ int32_t dmb_fatigue_restore(dmb_fatigue *fatigue, const void *block, size_t size
     const int32_t status = check(fatigue, block);
     const unsigned char *from = block;
     head start;
-    if (status < 0) return dmb_told("fatigue", status);
-    if (size != bytes_of(fatigue)) return dmb_told("fatigue", DMB_ERR_VALUE);
+    if (status < 0) return dmb_failed("fatigue", status);
+    if (size != bytes_of(fatigue)) return dmb_failed("fatigue", DMB_ERR_VALUE);
     memcpy(&start, from, sizeof start);
     from += sizeof start;
     if (!is_of(fatigue, &start) || !are_counters(fatigue, from + fatigue->place_count * sizeof(uint64_t)))
-        return dmb_told("fatigue", DMB_ERR_VALUE);
+        return dmb_failed("fatigue", DMB_ERR_VALUE);
     for (uint32_t i = 0; i < fatigue->place_count; i++, from += sizeof(uint64_t))
         memcpy(&fatigue->sections[i].clipped, from, sizeof(uint64_t));
     for (size_t i = 0; i < counters_of(fatigue); i++, from += sizeof(dmb_fatigue_counter)) {

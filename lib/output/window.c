@@ -143,8 +143,8 @@ void dmb_window_destroy(dmb_window **window)
 
 int32_t dmb_window_reset(dmb_window *window)
 {
-    if (window == NULL) return dmb_told("window", DMB_ERR_NULL);
-    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return dmb_told("window", DMB_ERR_HANDLE);
+    if (window == NULL) return dmb_failed("window", DMB_ERR_NULL);
+    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return dmb_failed("window", DMB_ERR_HANDLE);
     window->taken = 0;
     for (uint32_t k = 0; k < window->slot_count; k++) window->slots[k].number = -1.0;
     return DMB_OK;
@@ -277,10 +277,10 @@ static int32_t check_ask(const dmb_window *window, uint32_t output)
 int32_t dmb_window_get(const dmb_window *window, uint32_t output, dmb_window_result *result)
 {
     const int32_t status = check_ask(window, output);
-    if (result == NULL) return dmb_told("window", DMB_ERR_NULL);
-    if (status < 0) return dmb_told("window", status);
+    if (result == NULL) return dmb_failed("window", DMB_ERR_NULL);
+    if (status < 0) return dmb_failed("window", status);
     const dmb_window_result answer = result_of(window, output);
-    return dmb_told("window", dmb_window_result_write(result, &answer));
+    return dmb_failed("window", dmb_window_result_write(result, &answer));
 }
 
 int32_t dmb_window_value(const dmb_window *window, const dmb_output *output, double *value)

@@ -1,5 +1,5 @@
 /* The wall at the accepted state: contact, the hole at a depth, places that can be stuck. Contact points are numbered
- * with those of FULL nodes first (strings, then bodies), then those of PATH nodes. */
+ * with those of six-DOF nodes first (strings, then bodies), then those of axial-torsional nodes. */
 #include <math.h>
 #include <string.h>
 

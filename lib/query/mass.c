@@ -179,7 +179,7 @@ static double rigid_pipe_mud_energy(const dmb_sim *sim, const dmb_described_pipe
     return dmb_added_mass_kinetic_energy(sim->scene, &sim->now, &part);
 }
 
-/* On a PATH node only the mass and the inertia about the hole's axis contribute. */
+/* On an axial-torsional node only the mass and the inertia about the hole's axis contribute. */
 double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 {
     const double *v = sim->now.velocity + sim->scene->layout.row[share->node];

@@ -45,7 +45,7 @@ static int parts_of(const dmb_modes *modes)
 int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info)
 {
     const int32_t status = check_modes(modes, info);
-    return dmb_told("modes", status < 0 ? status : dmb_modes_info_write(info, &modes->info));
+    return dmb_failed("modes", status < 0 ? status : dmb_modes_info_write(info, &modes->info));
 }
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
@@ -123,10 +123,10 @@ int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
 {
     const int32_t status = check_index(modes, index, mode);
     dmb_mode answer;
-    if (status < 0) return dmb_told("modes", status);
+    if (status < 0) return dmb_failed("modes", status);
     memset(&answer, 0, sizeof answer);
     describe(modes, index, &answer);
-    return dmb_told("modes", dmb_mode_write(mode, &answer));
+    return dmb_failed("modes", dmb_mode_write(mode, &answer));
 }
 
 /* ---- By part ----------------------------------------------------------------------------------------------------- */
@@ -169,12 +169,12 @@ int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint
 {
     int32_t status = check_index(modes, index, kinetic);
     part_energy sum = {0.0, 0.0};
-    if (status < 0) return dmb_told("modes", status);
-    if (strain == NULL) return dmb_told("modes", DMB_ERR_NULL);
+    if (status < 0) return dmb_failed("modes", status);
+    if (strain == NULL) return dmb_failed("modes", DMB_ERR_NULL);
     for (int i = 0; i < parts_of(modes); i++) {
         const dmb_sim view = moving(modes, index, i);
         status = add_part(&view, part, pipe, &sum);
-        if (status < 0) return dmb_told("modes", status);
+        if (status < 0) return dmb_failed("modes", status);
     }
     const double *s = modes->s + 2 * (size_t)index;
     *kinetic = (s[0] * s[0] + s[1] * s[1]) * sum.kinetic;
@@ -197,10 +197,10 @@ int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place,
     dmb_material_point point;
     dmb_material_point_pose pose;
     if (status == DMB_OK) status = dmb_mode_shape_read(&answer, shape);
-    if (status < 0) return dmb_told("modes", status);
-    if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return dmb_told("modes", DMB_ERR_VALUE);
+    if (status < 0) return dmb_failed("modes", status);
+    if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return dmb_failed("modes", DMB_ERR_VALUE);
     status = dmb_material_point_of(modes->state, place, &point);
-    if (status < 0) return dmb_told("modes", status);
+    if (status < 0) return dmb_failed("modes", status);
     dmb_material_point_pose_of(modes->state->scene, &modes->state->now, &point, &pose);
     memset(answer.im, 0, sizeof answer.im);
     for (int part = 0; part < parts_of(modes); part++) {
@@ -211,5 +211,5 @@ int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place,
         dmb_vec6_copy(motion.velocity, to);
         if (answer.frame == DMB_FRAME_WORLD) turn_to_world(pose.rotation, to);
     }
-    return dmb_told("modes", dmb_mode_shape_write(shape, &answer));
+    return dmb_failed("modes", dmb_mode_shape_write(shape, &answer));
 }

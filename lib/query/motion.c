@@ -256,7 +256,8 @@ static double along(const dmb_scene *scene, const dmb_material_point *material_p
     return type->arm[0] + material_point->fraction * type->length;
 }
 
-/* The depth of a PATH node is known exactly; otherwise the axis is searched near the approximate depth of the section.
+/* The depth of an axial-torsional node is known exactly; otherwise the axis is searched near the approximate depth of
+ * the section.
  */
 double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
                                 const dmb_material_point *material_point, const double x[3])

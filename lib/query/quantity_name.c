@@ -282,13 +282,13 @@ const char *dmb_output_name(int32_t quantity, const char **unit)
 
 int32_t dmb_output_quantity(const char *name, int32_t *quantity)
 {
-    if (name == NULL || quantity == NULL) return dmb_told("output", DMB_ERR_NULL);
+    if (name == NULL || quantity == NULL) return dmb_failed("output", DMB_ERR_NULL);
     for (size_t i = 0; i < NAME_COUNT; i++) {
         if (strcmp(names[i].name, name) != 0) continue;
         *quantity = names[i].quantity;
         return DMB_OK;
     }
-    return dmb_told("output", DMB_ERR_VALUE);
+    return dmb_failed("output", DMB_ERR_VALUE);
 }
 
 int32_t dmb_output_next(int32_t quantity)

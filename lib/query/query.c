@@ -1,16 +1,16 @@
-/* The questions of the public headers: an answer, and where there is none the message why. */
+/* Public queries: the result, and the message of a query that fails. */
 #include "query/query.h"
 #include "sim/access.h"
 
-/* ---- Why not ----------------------------------------------------------------------------------------------------- */
+/* ---- Messages ---------------------------------------------------------------------------------------------------- */
 
-/* The word of a question, and its arguments as far as they can be wrong by themselves. */
-typedef struct question {
+/* The name of a query in messages, and the arguments that can be wrong by themselves. */
+typedef struct query {
     const char *word;
-    const dmb_place *place;  /* NULL: it has none */
-    const char *unsupported; /* what DMB_ERR_UNSUPPORTED means; NULL: it does not come */
+    const dmb_place *place;  /* NULL: none */
+    const char *unsupported; /* the reason of DMB_ERR_UNSUPPORTED; NULL: never returned */
     int32_t frame, has_frame;
-} question;
+} query;
 
 static void explain_id(const dmb_model *model, const char *word, dmb_id id, dmb_message *why)
 {
@@ -42,7 +42,7 @@ static void explain_place(const dmb_sim *sim, const char *word, dmb_place place,
     }
 }
 
-static int32_t refuse(const dmb_sim *sim, const question *asked, int32_t status)
+static int32_t refuse(const dmb_sim *sim, const query *asked, int32_t status)
 {
     dmb_message why;
     dmb_message_clear(&why);
@@ -60,207 +60,151 @@ static int32_t refuse(const dmb_sim *sim, const question *asked, int32_t status)
     return dmb_sim_fail(sim, status, asked->word, why.text);
 }
 
-/* ---- Questions --------------------------------------------------------------------------------------------------- */
+/* Returns the status; a failing one has its message. */
+static int32_t result(const dmb_sim *sim, int32_t status, query asked)
+{
+    return status >= 0 ? status : refuse(sim, &asked, status);
+}
+
+/* ---- Queries ----------------------------------------------------------------------------------------------------- */
 
 int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
 {
     const dmb_place place = dmb_station(bit, 0, 0.0);
-    const int32_t status = dmb_answer_bit(sim, bit, state);
-    if (status >= 0) return status;
-    const question asked = {"bit", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_bit(sim, bit, state), (query){"bit", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count)
 {
     const dmb_place place = dmb_station(part, 0, 0.0);
-    const int32_t status = dmb_answer_constraint_rows(sim, part, first, count);
-    if (status >= 0) return status;
-    const question asked = {"constraint rows", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_constraint_rows(sim, part, first, count),
+                  (query){"constraint rows", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_contact(const dmb_sim *sim, uint32_t number, dmb_contact *contact)
 {
-    const int32_t status = dmb_answer_contact(sim, number, contact);
-    if (status >= 0) return status;
-    const question asked = {"contact point", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_contact(sim, number, contact), (query){"contact point", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
 {
-    const int32_t status = dmb_answer_contact_total(sim, sum);
-    if (status >= 0) return status;
-    const question asked = {"contact", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_contact_total(sim, sum), (query){"contact", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state)
 {
     const dmb_place place = dmb_station(drive, 0, 0.0);
-    const int32_t status = dmb_answer_drive(sim, drive, state);
-    if (status >= 0) return status;
-    const question asked = {"drive", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_drive(sim, drive, state), (query){"drive", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy)
 {
-    const int32_t status = dmb_answer_energy(sim, energy);
-    if (status >= 0) return status;
-    const question asked = {"energy", NULL, "the sim keeps no energy ledger; create it with energy_ledger = 1", 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_energy(sim, energy),
+                  (query){"energy", NULL, "the sim keeps no energy ledger; create it with energy_ledger = 1", 0, 0});
 }
 
 int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow)
 {
-    const int32_t status = dmb_answer_flow(sim, flow);
-    if (status >= 0) return status;
-    const question asked = {"flow", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_flow(sim, flow), (query){"flow", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)
 {
-    const int32_t status = dmb_answer_hole_now(sim, depth, point);
-    if (status >= 0) return status;
-    const question asked = {"hole", NULL, "the model has no wall; add one before it is compiled", 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_hole_now(sim, depth, point),
+                  (query){"hole", NULL, "the model has no wall; add one before it is compiled", 0, 0});
 }
 
 int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state)
 {
     const dmb_place place = dmb_station(joint, 0, 0.0);
-    const int32_t status = dmb_answer_joint(sim, joint, state);
-    if (status >= 0) return status;
-    const question asked = {"joint", &place, NULL, state == NULL ? 0 : state->frame, state != NULL};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_joint(sim, joint, state),
+                  (query){"joint", &place, NULL, state == NULL ? 0 : state->frame, state != NULL});
 }
 
 int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy)
 {
     const dmb_place place = dmb_station(part, pipe, 0.0);
-    const int32_t status = dmb_answer_kinetic_energy(sim, part, pipe, energy);
-    if (status >= 0) return status;
-    const question asked = {"kinetic energy", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_kinetic_energy(sim, part, pipe, energy),
+                  (query){"kinetic energy", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum)
 {
-    const int32_t status = dmb_answer_momentum(sim, momentum);
-    if (status >= 0) return status;
-    const question asked = {"momentum", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_momentum(sim, momentum), (query){"momentum", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion)
 {
-    const int32_t status = dmb_answer_motion(sim, place, motion);
-    if (status >= 0) return status;
-    const question asked = {"motion", &place, NULL, motion == NULL ? 0 : motion->frame, motion != NULL};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_motion(sim, place, motion),
+                  (query){"motion", &place, NULL, motion == NULL ? 0 : motion->frame, motion != NULL});
 }
 
 int32_t dmb_query_motion_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_motion *motion)
 {
-    const int32_t status = dmb_answer_motion_at(sim, place, offset, motion);
-    if (status >= 0) return status;
-    const question asked = {"motion", &place, NULL, motion == NULL ? 0 : motion->frame, motion != NULL};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_motion_at(sim, place, offset, motion),
+                  (query){"motion", &place, NULL, motion == NULL ? 0 : motion->frame, motion != NULL});
 }
 
 int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
 {
     const dmb_place place = dmb_station(part, 0, 0.0);
-    const int32_t status = dmb_answer_multipliers(sim, part, multipliers, count);
-    if (status >= 0) return status;
-    const question asked = {"multipliers", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_multipliers(sim, part, multipliers, count),
+                  (query){"multipliers", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)
 {
-    const int32_t status = dmb_answer_pose(sim, place, pose);
-    if (status >= 0) return status;
-    const question asked = {"pose", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_pose(sim, place, pose), (query){"pose", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_pose_at(const dmb_sim *sim, dmb_place place, const double offset[3], dmb_pose *pose)
 {
-    const int32_t status = dmb_answer_pose_at(sim, place, offset, pose);
-    if (status >= 0) return status;
-    const question asked = {"pose", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_pose_at(sim, place, offset, pose), (query){"pose", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile)
 {
-    const int32_t status = dmb_answer_profile(sim, profile);
-    if (status >= 0) return status;
-    const question asked = {"profile", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_profile(sim, profile), (query){"profile", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
 {
     const dmb_place place = dmb_station(part, 0, 0.0);
-    const int32_t status = dmb_answer_reaction(sim, part, reaction);
-    if (status >= 0) return status;
-    const question asked = {"reaction", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_reaction(sim, part, reaction), (query){"reaction", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_rotation(const dmb_sim *sim, dmb_place place, double *angle)
 {
-    const int32_t status = dmb_answer_rotation(sim, place, angle);
-    if (status >= 0) return status;
-    const question asked = {"rotation", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_rotation(sim, place, angle), (query){"rotation", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
 {
-    const int32_t status = dmb_answer_row(sim, row, answer);
-    if (status >= 0) return status;
-    const question asked = {"row", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_row(sim, row, answer), (query){"row", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *section)
 {
-    const int32_t status = dmb_answer_section(sim, place, section);
-    if (status >= 0) return status;
-    const question asked = {
-        "section", &place,
-        "the place is on a rigid pipe or body, whose section forces are not known; ask for a flexible pipe", 0, 0};
-    return refuse(sim, &asked, status);
+    return result(
+        sim, dmb_answer_section(sim, place, section),
+        (query){"section", &place,
+                "the place is on a rigid pipe or body, whose section forces are not known; ask for a flexible pipe", 0,
+                0});
 }
 
 int32_t dmb_query_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *state)
 {
     const dmb_place place = dmb_station(spring, 0, 0.0);
-    const int32_t status = dmb_answer_spring(sim, spring, state);
-    if (status >= 0) return status;
-    const question asked = {"spring", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_spring(sim, spring, state), (query){"spring", &place, NULL, 0, 0});
 }
 
 int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)
 {
-    const int32_t status = dmb_answer_statistics(sim, statistics);
-    if (status >= 0) return status;
-    const question asked = {"statistics", NULL, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_statistics(sim, statistics), (query){"statistics", NULL, NULL, 0, 0});
 }
 
 int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state)
 {
     const dmb_place place = dmb_station(stuck, 0, 0.0);
-    const int32_t status = dmb_answer_stuck(sim, stuck, state);
-    if (status >= 0) return status;
-    const question asked = {"stuck", &place, NULL, 0, 0};
-    return refuse(sim, &asked, status);
+    return result(sim, dmb_answer_stuck(sim, stuck, state), (query){"stuck", &place, NULL, 0, 0});
 }

@@ -98,7 +98,7 @@ typedef struct dmb_material_point_motion {
 void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
                                   const dmb_material_point *point, dmb_material_point_motion *motion);
 
-/* Pose, motion and axes at time 0 of a section between two PATH nodes of a curved hole, which is on its axis
+/* Pose, motion and axes at time 0 of a section between two axial-torsional nodes of a curved hole, which is on its axis
  * (query/motion_axis). */
 int dmb_is_on_curved_axis(const dmb_scene *scene, const dmb_material_point *point);
 void dmb_axis_pose_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,

@@ -304,7 +304,7 @@ int32_t dmb_has(int32_t what)
     case DMB_HAS_CHOLMOD: return dmb_has_cholmod();
     case DMB_HAS_FILES: return DMB_WITH_FILES;
     case DMB_HAS_HEAP: return DMB_WITH_HEAP;
-    default: return dmb_told("ability", DMB_ERR_VALUE);
+    default: return dmb_failed("ability", DMB_ERR_VALUE);
     }
 }
 

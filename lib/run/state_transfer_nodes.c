@@ -46,8 +46,8 @@ static double turn_of(const dmb_scene *scene, uint32_t node, const double q[4], 
 typedef struct iterator {
     double shift[3];             /* [m] new less old displacement of the last node, world */
     double offset[3];            /* [m] new less old place of the last node, world: along its arm */
-    double along;                /* [m] the same shift along the axis of PATH nodes */
-    int32_t was_axial_torsional; /* 1: the last node was a PATH node */
+    double along;                /* [m] the same shift along the axis of axial-torsional nodes */
+    int32_t was_axial_torsional; /* 1: the last node was an axial-torsional node */
     int32_t started;
 } iterator;
 
@@ -85,7 +85,8 @@ static void transfer_six_dof(dmb_sim *sim, uint32_t node, const dmb_sim *from, u
     dmb_arm_velocity(arm, v);
 }
 
-/* [m] what must be added to the advance of a PATH node to stay where it is; without a hole, along its line. */
+/* [m] what must be added to the advance of an axial-torsional node to stay where it is; without a hole, along its line.
+ */
 static double axial_torsional_shift(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old)
 {
     const double ex[3] = {1.0, 0.0, 0.0};

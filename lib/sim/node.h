@@ -1,5 +1,5 @@
-/* Nodes whatever their kind: pose and speed (of a PATH node from its place on the hole's axis), and the described part
- * that a node, an element, a row or a constraint belongs to. */
+/* Nodes whatever their kind: pose and speed (of an axial-torsional node from its place on the hole's axis), and the
+ * described part that a node, an element, a row or a constraint belongs to. */
 #ifndef DMB_SIM_NODE_H
 #define DMB_SIM_NODE_H
 
@@ -9,19 +9,19 @@
 /* Rotation (body to world, row-major) and displacement [m] (world, from reference_position) of a node. */
 void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
                    double displacement[3]);
-/* Body-frame 6-vector from an array over rows (velocity or acceleration): PATH rows become components x and rx, on a
- * curved hole with the turning of the tangent. */
+/* Body-frame 6-vector from an array over rows (velocity or acceleration): axial-torsional rows become components x and
+ * rx, on a curved hole with the turning of the tangent. */
 void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
                      double vector[6]);
 /* 1: a quasi-static state, in equilibrium with friction at an assumed slip (dmb_static_options). Neither inertia nor
  * damping acts in it; `acceleration` of the configuration belongs to the motion that begins when friction follows the
  * velocities again, with the next step. */
 int dmb_is_quasi_static(const dmb_configuration *configuration);
-/* Columns of the body-frame motion of a PATH node per unit of its two rows (eq:kinematics.path-velocity), shape (2, 6);
- * rotation is its present one. */
+/* Columns of the body-frame motion of an axial-torsional node per unit of its two rows (eq:kinematics.path-velocity),
+ * shape (2, 6); rotation is its present one. */
 void dmb_axial_torsional_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                                  const double rotation[9], double columns[12]);
-/* [m] measured depth of a PATH node. */
+/* [m] measured depth of an axial-torsional node. */
 double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
 /* Arc of the hole's axis at which the search for the point of it nearest to x starts (dmb_hole_project); x [m] is on or
  * beside the section of a node that is `arm` [m] along body x from it. `known`: configuration whose contact points are
@@ -30,7 +30,7 @@ double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration
 uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
                           const double x[3]);
 
-/* The number of FULL nodes that follow one another from this one on; 0: it is a PATH node. */
+/* The number of six-DOF nodes that follow one another from this one on; 0: it is an axial-torsional node. */
 uint32_t dmb_count_six_dof_nodes(const dmb_scene *scene, uint32_t node);
 static inline uint32_t dmb_six_dof_nodes_at(const dmb_scene *scene, uint32_t node)
 {
@@ -71,7 +71,7 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part);
 
 /* Unbalance of the rigid masses on the nodes. */
 
-/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per
+/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its six-DOF node for unit spin about the node's axis, per
  * square of the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of
  * inertia. */
 void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6]);

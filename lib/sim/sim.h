@@ -28,10 +28,12 @@
        by system/constrain/cluster_projection, system/constrain/cluster_assembly, in axes that do not spin with them  \
        by system/constrain/rotor; at the start and at jumps by                                                        \
        system/constrain/cluster_placement, system/start, system/jump, system/bounce_end: */                           \
-    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */      \
-    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */ \
+    X(double, displacement, 3 * n, NUMBERS) /* [m] six-DOF nodes: world, from reference_position;                     \
+                                               axial-torsional nodes: [0] along the axis */                           \
+    X(double, quaternion, 4 * n, NUMBERS) /* [-] six-DOF nodes: body to world, scalar first, unit;                    \
+                                             axial-torsional nodes: as at time 0 */                                   \
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
-    X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
+    X(double, velocity, r, NUMBERS) /* [m/s, rad/s] body frame; axial-torsional: along and about the axis */          \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
     X(double, pseudo_acceleration, r, NUMBERS) /* [m/s2, rad/s2] the a of generalized-alpha; in load steps of statics \
                                                   the increments of the one reached */                                \
@@ -48,7 +50,7 @@
     X(double, site_touch, DMB_TOUCH_SIZE * st, NUMBERS) /* [-, s, -, N/m] of force/normal_law: touch within a step */ \
     X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
                                             acts as at in a static state; 0: those of the nodes */                    \
-    X(double, axial_torsional_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                       \
+    X(double, axial_torsional_slip, 2 * p, NUMBERS)          /* [m/s] likewise of axial-torsional nodes */            \
     X(double, axial_torsional_friction, 2 * pf, NUMBERS) /* [N] system/assemble/wall_contact; at jumps                \
                                      system/assemble/ledger_work */                                                   \
     X(double, axial_torsional_bristle, 2 * pb, NUMBERS)      /* [m] */                                                \

@@ -207,9 +207,9 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
 
 int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info)
 {
-    if (buckling == NULL || info == NULL) return dmb_told("buckling", DMB_ERR_NULL);
-    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return dmb_told("buckling", DMB_ERR_HANDLE);
-    return dmb_told("buckling", dmb_buckling_info_write(info, &buckling->info));
+    if (buckling == NULL || info == NULL) return dmb_failed("buckling", DMB_ERR_NULL);
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return dmb_failed("buckling", DMB_ERR_HANDLE);
+    return dmb_failed("buckling", dmb_buckling_info_write(info, &buckling->info));
 }
 
 uint32_t dmb_buckling_count(const dmb_buckling *buckling)
@@ -228,7 +228,7 @@ int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double 
 {
     const int32_t status = check_mode(buckling, mode, factor);
     if (status == DMB_OK) *factor = buckling->factor[mode];
-    return dmb_told("buckling", status);
+    return dmb_failed("buckling", status);
 }
 
 /* A shape is a field of small displacements, interpolated like a field of velocities. */
@@ -236,10 +236,10 @@ int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_plac
 {
     int32_t status = check_mode(buckling, mode, shape);
     dmb_motion motion = dmb_motion_default();
-    if (status < 0) return dmb_told("buckling", status);
+    if (status < 0) return dmb_failed("buckling", status);
     const size_t rows = buckling->work->scene->row_count;
     memcpy(buckling->work->now.velocity, buckling->shape + mode * rows, rows * sizeof(double));
     status = dmb_answer_motion(buckling->work, place, &motion);
     if (status == DMB_OK) memcpy(shape, motion.velocity, sizeof motion.velocity);
-    return dmb_told("buckling", status);
+    return dmb_failed("buckling", status);
 }

@@ -1,10 +1,6 @@
 /* Factors and shapes of linear buckling about one state. */
 #include "analysis/buckling/buckling.h"
 
-#include "base/failure.h"
-#include "base/sized_struct.h"
-#include "base/value_check.h"
-#include "query/query.h"
 #include "sim/access.h"
 
 /* [-] Relative difference below which factors count as equal, with mutually orthogonal vectors. */

@@ -31,7 +31,7 @@ static void restrict_turn(const double Q[9], const uint8_t *solved, double out[9
     out[3 * a + b] = -sin(angle);
 }
 
-/* T of a node, size x size; the identity for a PATH node, whose axis does not rotate. */
+/* T of a node, size x size; the identity for an axial-torsional node, whose axis does not rotate. */
 static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
 {
     const uint32_t size = sim->scene->layout.size[node];

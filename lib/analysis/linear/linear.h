@@ -175,7 +175,7 @@ static inline void dmb_linear_add_array(double factor, const double *from, size_
 }
 /* to += factor from, all of their blocks. */
 void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matrix *from, dmb_linear_matrix *to);
-/* to += factor A blkdiag(v^), v by rows; a PATH node turns about its own axis alone and has none. */
+/* to += factor A blkdiag(v^), v by rows; an axial-torsional node turns about its own axis alone and has none. */
 void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
                              dmb_linear_matrix *to);
 /* stiffness_size of the stiffness as it is. */

@@ -2,9 +2,9 @@
  *
  *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
  *
- * Six rows (translation; rotation) of a FULL node, H = H0 exp(d), two (along the hole; about its axis) of a PATH node.
- * Rows that supports and motion drives hold are out: their rows and columns are zero. With joints d = R z, z being the
- * independent coordinates of the partition, else z are the rows that are left:
+ * Six rows (translation; rotation) of a six-DOF node, H = H0 exp(d), two (along the hole; about its axis) of an
+ * axial-torsional node. Rows that supports and motion drives hold are out: their rows and columns are zero. With joints
+ * d = R z, z being the independent coordinates of the partition, else z are the rows that are left:
  *
  *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
  *

@@ -3,11 +3,6 @@
 
 #include <string.h>
 
-#include "system/assemble/assemble.h"
-#include "system/constrain/constrain.h"
-#include "system/solve/solve.h"
-#include "system/system.h"
-
 dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear)
 {
     dmb_evaluation evaluation;

@@ -3,9 +3,6 @@
 #include <math.h>
 
 #include "analysis/modes/modes.h"
-#include "base/sized_struct.h"
-#include "base/value_check.h"
-#include "sim/access.h"
 
 /* The dense method is faster up to so many coordinates, or if a third of all modes is requested. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };

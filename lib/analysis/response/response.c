@@ -3,12 +3,10 @@
 
 #include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
-#include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/analyse.h"
-#include "math/so3.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/actuators.h"

@@ -312,7 +312,7 @@ static void add_rigid_mass(const dmb_sim *copy, uint32_t i, const double g[6], d
     }
 }
 
-/* PATH nodes are held across the hole, in time too: what pulls them sideways moves nothing. */
+/* axial-torsional nodes are held across the hole, in time too: what pulls them sideways moves nothing. */
 static int32_t eccentricity(const request *r)
 {
     const dmb_scene *scene = r->copy->scene;

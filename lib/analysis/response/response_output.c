@@ -139,7 +139,7 @@ static void normal_force(const request *r, const dmb_contact_slope *slope, dmb_f
     dmb_functional_add(slope->normal_by_rate, &part, out);
 }
 
-/* Slips of PATH nodes are their own speeds. */
+/* Slips of axial-torsional nodes are their own speeds. */
 static void slip(const request *r, int32_t direction, dmb_functional *out)
 {
     const dmb_scene *scene = r->copy->scene;

@@ -9,7 +9,6 @@
 #include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
-#include "base/value_check.h"
 #include "drillmbd/analyse.h"
 #include "sim/access.h"
 
@@ -69,7 +68,7 @@ static int32_t ask(const dmb_response *response, const void *answer)
 int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3])
 {
     const int32_t status = ask(response, dimensions);
-    if (status < 0) return dmb_told("response", status);
+    if (status < 0) return dmb_failed("response", status);
     dimensions[0] = response->points;
     dimensions[1] = response->excitations;
     dimensions[2] = response->outputs;
@@ -80,7 +79,7 @@ int32_t dmb_response_frequencies(const dmb_response *response, double *frequenci
 {
     const int32_t status = ask(response, frequencies);
     if (status == DMB_OK) memcpy(frequencies, response->frequency, response->points * sizeof(double));
-    return dmb_told("response", status);
+    return dmb_failed("response", status);
 }
 
 /* to += amplitude e^(i phase) value */
@@ -102,9 +101,9 @@ void dmb_response_combined(const dmb_response *response, size_t point, uint32_t 
 int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values)
 {
     const int32_t status = ask(response, values);
-    if (status < 0) return dmb_told("response", status);
+    if (status < 0) return dmb_failed("response", status);
     if (output >= response->outputs || (input >= response->excitations && input != DMB_COMBINED))
-        return dmb_told("response", DMB_ERR_VALUE);
+        return dmb_failed("response", DMB_ERR_VALUE);
     for (size_t point = 0; point < response->points; point++) {
         double *to = values + 2 * point;
         if (input != DMB_COMBINED)

@@ -8,7 +8,6 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/analyse.h"
-#include "math/so3.h"
 #include "sim/access.h"
 #include "sim/sim.h"
 #include "system/system.h"

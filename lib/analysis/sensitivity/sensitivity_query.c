@@ -7,9 +7,6 @@
 #include "base/sized_struct.h"
 #include "math/so3.h"
 #include "query/query.h"
-#include "sim/own_scene.h"
-#include "system/constrain/constrain.h"
-#include "system/system.h"
 
 /* The corresponding output in another model of the scene. */
 static dmb_output output_in(const dmb_model *model, const dmb_output *output)
@@ -73,18 +70,18 @@ int32_t dmb_sensitivity_outputs(dmb_sensitivity *sensitivity, const dmb_output *
 {
     dmb_sensitivity *s = sensitivity;
     int32_t status = dmb_sensitivity_alive(s);
-    if (status < 0) return dmb_told("sensitivity", status);
-    if (outputs == NULL || derivatives == NULL) return dmb_told("sensitivity", DMB_ERR_NULL);
+    if (status < 0) return dmb_failed("sensitivity", status);
+    if (outputs == NULL || derivatives == NULL) return dmb_failed("sensitivity", DMB_ERR_NULL);
     status = dmb_sensitivity_stands(s);
     if (status >= 0) status = check_outputs(s, outputs, count);
     if (status >= 0) status = dmb_sensitivity_catch_up(s);
-    if (status < 0) return dmb_told("sensitivity", status);
+    if (status < 0) return dmb_failed("sensitivity", status);
     dmb_sensitivity_stand(s);
     for (uint32_t i = 0; i < count; i++) {
         if (values != NULL) (void)dmb_output_value(s->sim, &outputs[i], &values[i]);
         for (uint32_t k = 0; k < s->count; k++) {
             status = output_rate(s, &s->parameters[k], &outputs[i], &derivatives[(size_t)i * s->count + k]);
-            if (status < 0) return dmb_told("sensitivity", refuse_output(s, i, outputs[i].quantity, status));
+            if (status < 0) return dmb_failed("sensitivity", refuse_output(s, i, outputs[i].quantity, status));
         }
     }
     return DMB_OK;
@@ -136,10 +133,10 @@ int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter_nu
 {
     const dmb_sensitivity *s = sensitivity;
     int32_t status = check_parameter(s, parameter_number);
-    if (status < 0) return dmb_told("sensitivity", status);
-    if (rows == NULL) return dmb_told("sensitivity", DMB_ERR_NULL);
+    if (status < 0) return dmb_failed("sensitivity", status);
+    if (rows == NULL) return dmb_failed("sensitivity", DMB_ERR_NULL);
     if (velocity != NULL || pose != NULL) status = dmb_sensitivity_stands(s);
-    if (status < 0) return dmb_told("sensitivity", status);
+    if (status < 0) return dmb_failed("sensitivity", status);
     const dmb_rated_parameter *p = &s->parameters[parameter_number];
     *rows = s->sim->scene->row_count;
     if (velocity != NULL) memcpy(velocity, dmb_rates_of(s, p, s->sim->now.velocity), *rows * sizeof(double));
@@ -150,8 +147,8 @@ int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter_nu
 int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t parameter_number, uint64_t *kinks)
 {
     const int32_t status = check_parameter(sensitivity, parameter_number);
-    if (status < 0) return dmb_told("sensitivity", status);
-    if (kinks == NULL) return dmb_told("sensitivity", DMB_ERR_NULL);
+    if (status < 0) return dmb_failed("sensitivity", status);
+    if (kinks == NULL) return dmb_failed("sensitivity", DMB_ERR_NULL);
     *kinks = sensitivity->parameters[parameter_number].kinks;
     return DMB_OK;
 }

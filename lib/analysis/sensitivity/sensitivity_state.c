@@ -1,12 +1,10 @@
-/* States beside the state of the sim: which fields they have, how they are read and stood aside. */
-#include <math.h>
+/* Perturbed states: their fields, how they are read and set. */
+#include "analysis/sensitivity/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "analysis/sensitivity/sensitivity.h"
 #include "base/sized_struct.h"
-#include "query/query.h"
 #include "sim/own_scene.h"
 #include "system/constrain/constrain.h"
 #include "system/system.h"

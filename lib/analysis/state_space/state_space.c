@@ -326,17 +326,17 @@ static int32_t ask(const dmb_state_space *space, const void *answer)
 int32_t dmb_state_space_get_info(const dmb_state_space *space, dmb_state_space_info *info)
 {
     const int32_t status = ask(space, info);
-    return dmb_told("state space", status < 0 ? status : dmb_state_space_info_write(info, &space->info));
+    return dmb_failed("state space", status < 0 ? status : dmb_state_space_info_write(info, &space->info));
 }
 
 int32_t dmb_state_space_dense(const dmb_state_space *space, int32_t matrix, double *values)
 {
     const int32_t status = ask(space, values);
-    if (status < 0) return dmb_told("state space", status);
+    if (status < 0) return dmb_failed("state space", status);
     const size_t states = space->info.states, inputs = space->info.inputs, outputs = space->info.outputs;
     const double *all[4] = {space->A, space->B, space->C, space->D};
     const size_t counts[4] = {states * states, states * inputs, outputs * states, outputs * inputs};
-    if (matrix < DMB_MATRIX_A || matrix > DMB_MATRIX_D) return dmb_told("state space", DMB_ERR_VALUE);
+    if (matrix < DMB_MATRIX_A || matrix > DMB_MATRIX_D) return dmb_failed("state space", DMB_ERR_VALUE);
     if (counts[matrix] > 0) memcpy(values, all[matrix], counts[matrix] * sizeof(double));
     return DMB_OK;
 }
@@ -344,7 +344,7 @@ int32_t dmb_state_space_dense(const dmb_state_space *space, int32_t matrix, doub
 int32_t dmb_state_space_shapes(const dmb_state_space *space, double *shapes)
 {
     const int32_t status = ask(space, shapes);
-    if (status < 0) return dmb_told("state space", status);
+    if (status < 0) return dmb_failed("state space", status);
     const size_t numbers = (size_t)space->info.coordinates * space->info.rows;
     if (numbers > 0) memcpy(shapes, space->shapes, numbers * sizeof(double));
     return DMB_OK;
@@ -390,13 +390,13 @@ int32_t dmb_state_space_sparse(const dmb_state_space *space, int32_t matrix, uin
                                double *values, uint64_t *count)
 {
     const int32_t status = ask(space, count);
-    if (status < 0) return dmb_told("state space", status);
-    if (matrix < DMB_MATRIX_MASS || matrix > DMB_MATRIX_COORDINATES) return dmb_told("state space", DMB_ERR_VALUE);
+    if (status < 0) return dmb_failed("state space", status);
+    if (matrix < DMB_MATRIX_MASS || matrix > DMB_MATRIX_COORDINATES) return dmb_failed("state space", DMB_ERR_VALUE);
     const int given = (rows != NULL) + (columns != NULL) + (values != NULL);
-    if (given != 0 && given != 3) return dmb_told("state space", DMB_ERR_NULL);
+    if (given != 0 && given != 3) return dmb_failed("state space", DMB_ERR_NULL);
     const sparse_view A = view_of(space, matrix);
     const uint64_t needed = put_entries(&A, NULL, NULL, NULL);
-    if (given == 3 && *count < needed) return dmb_told("state space", DMB_ERR_VALUE);
+    if (given == 3 && *count < needed) return dmb_failed("state space", DMB_ERR_VALUE);
     *count = given == 3 ? put_entries(&A, rows, columns, values) : needed;
     return DMB_OK;
 }

@@ -19,14 +19,11 @@
 
 #include <string.h>
 
-#include "analysis/linear/linear.h"
 #include "base/sized_struct.h"
-#include "base/value_check.h"
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/assemble.h"
-#include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"

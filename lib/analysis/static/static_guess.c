@@ -5,18 +5,11 @@
 
 #include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
-#include "base/sized_struct.h"
-#include "base/value_check.h"
 #include "math/so3.h"
 #include "math/vec3.h"
-#include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"
-#include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/constrain.h"
-#include "system/solve/solve.h"
-#include "system/system.h"
 #include <string.h>
 
 /* [m] Penetration under a force [N] */

@@ -2,9 +2,6 @@
 
 #include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
-#include "base/sized_struct.h"
-#include "base/value_check.h"
-#include "sim/access.h"
 
 #define DMB_HARDER 10.0
 

@@ -13,8 +13,6 @@
 #include <string.h>
 
 #include "analysis/static/static.h"
-#include "sim/access.h"
-#include "system/solve/solve.h"
 
 uint32_t dmb_static_spin_row(const dmb_scene *scene, uint32_t node)
 {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "analysis/static/static.h"
-#include "sim/access.h"
 #include "system/solve/solve.h"
 
 /* [-] Rounding level of eq:static.spin, over the root of the product of the two diagonal entries. */

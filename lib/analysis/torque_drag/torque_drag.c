@@ -27,11 +27,11 @@ int32_t dmb_operation_usual(int32_t operation, dmb_operation *out)
         [DMB_OPERATION_SLIDE] = {0.005, 0.0},       [DMB_OPERATION_BACK_REAM] = {-0.1, DMB_TWO_PI},
     };
     dmb_operation answer = dmb_operation_default();
-    if (out == NULL) return dmb_told("operation", DMB_ERR_NULL);
-    if (operation < 0 || operation >= DMB_OPERATION_COUNT) return dmb_told("operation", DMB_ERR_VALUE);
+    if (out == NULL) return dmb_failed("operation", DMB_ERR_NULL);
+    if (operation < 0 || operation >= DMB_OPERATION_COUNT) return dmb_failed("operation", DMB_ERR_VALUE);
     answer.axial_speed = usual[operation][0];
     answer.rotary_speed = usual[operation][1];
-    return dmb_told("operation", dmb_operation_write(out, &answer));
+    return dmb_failed("operation", dmb_operation_write(out, &answer));
 }
 
 const char *dmb_operation_name(int32_t operation)

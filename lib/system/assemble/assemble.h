@@ -43,7 +43,8 @@ void dmb_assemble_point_load(dmb_evaluation *evaluation, const dmb_scene_load *l
 /* ---- The wall ---------------------------------------------------------------------------------------------------- */
 
 typedef struct dmb_contact_slope {
-    double normal_by_depth;       /* [N/m] 0 of an open site, and of PATH sites, whose force is that of their tension */
+    double normal_by_depth;       /* [N/m] 0 of an open site, and of axial-torsional sites, whose force is that of their
+                                     tension */
     double normal_by_rate;        /* [N s/m] */
     double friction_by_slip[4];   /* [N s/m] shape (2, 2) */
     double friction_by_normal[2]; /* [-] shape (2) */
@@ -52,9 +53,9 @@ typedef struct dmb_contact_slope {
 /* site: counted as dmb_query_contact does. Friction without memory only: of bristles what they are once they slide. */
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
                           dmb_contact_slope *out);
-/* Of a ring of a FULL node in the trial just evaluated: normal n and, for a unit of normal force, what friction adds to
- * the side of the forces that balance the wall, f = -(F_t j_t + F_b j_b) with its moment about the node, both in body
- * axes. 0: it does not touch or not slip. */
+/* Of a ring of a six-DOF node in the trial just evaluated: normal n and, for a unit of normal force, what friction adds
+ * to the side of the forces that balance the wall, f = -(F_t j_t + F_b j_b) with its moment about the node, both in
+ * body axes. 0: it does not touch or not slip. */
 int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t site, double n[3], double f[6]);
 /* Law of friction at a site, counted likewise: that of the scene, or `local` with the coefficients of a section. */
 const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *configuration,
@@ -62,7 +63,7 @@ const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const d
 /* Node of a site. */
 uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site);
 
-/* Rings on FULL nodes against the wall of the hole: normal and friction force in the contact frame
+/* Rings on six-DOF nodes against the wall of the hole: normal and friction force in the contact frame
  * (n outward from the axis, t along the axis, b = t x n). */
 
 typedef struct dmb_site_force {
@@ -93,7 +94,7 @@ double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *c
 /* Adds factor times the force of a site in `force` to generalised forces, shape (row). */
 void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, double factor,
                         const dmb_site_force *force, double *rows);
-/* The same for a PATH site; normal_force by Johancsik. */
+/* The same for an axial-torsional site; normal_force by Johancsik. */
 void dmb_axial_torsional_site_force(const dmb_scene *scene, const dmb_configuration *configuration,
                                     uint32_t axial_torsional_site, dmb_site_force *out);
 

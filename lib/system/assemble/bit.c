@@ -6,6 +6,7 @@
 #include "element/beam.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
+#include "system/constrain/rotor.h"
 
 /* Motion of a bit along and about the axis of the hole. */
 typedef struct bit_motion {

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "system/assemble/assemble.h"
-
 uint32_t dmb_bounce_of_spring(const dmb_scene *scene, uint32_t spring)
 {
     return scene->law_count + spring;

@@ -8,6 +8,7 @@
 
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
+#include "system/constrain/rotor.h"
 
 /* ---- Time functions, controllers and motion
  * -------------------------------------------------------------------------- */

@@ -171,7 +171,8 @@ static int32_t assemble_beams(dmb_evaluation *evaluation, const dmb_batch *batch
     return DMB_OK;
 }
 
-/* ---- Axial-torsional bars on the hole's axis: PATH nodes --------------------------------------------------------- */
+/* ---- Axial-torsional elements on the hole's axis: axial-torsional nodes
+ * --------------------------------------------------------- */
 
 /* Per bar K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes
  * (kernel/lanes_axial_torsional.h).
@@ -236,11 +237,13 @@ static void assemble_axial_torsional_elements(dmb_evaluation *evaluation, const 
             axial_torsional_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
 }
 
-/* ---- A beam with one FULL and one PATH node: the PATH side is seen through its two columns ---------------------- */
+/* ---- A beam with one six-DOF and one axial-torsional node: the axial-torsional side is seen through its two columns
+ * ---------------------- */
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
-    double z[6];  /* increment of the step; 0 on the PATH side, whose two columns are pose parameters already */
+    double
+        z[6]; /* increment of the step; 0 on the axial-torsional side, whose two columns are pose parameters already */
     double J[36]; /* (6, rows) row-major with `rows` columns used */
     uint32_t rows;
 } mixed_side;
@@ -309,7 +312,8 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
     dmb_vec6_copy(B->z, in->zb);
 }
 
-/* As a beam between two poses; forces and tangents come to the PATH side as J^T f and J^T K J, J its two columns. */
+/* As a beam between two poses; forces and tangents come to the axial-torsional side as J^T f and J^T K J, J its two
+ * columns. */
 DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;

@@ -106,7 +106,7 @@ void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *
     parts[2] = 0.5 * (dmb_vec6_dot(m.va, m.pa) + dmb_vec6_dot(m.vb, m.pb)) - parts[0] - parts[1];
 }
 
-/* v . M v/2; on the axis of the hole (m s'^2 + J w^2)/2 with the two speeds of a PATH node. */
+/* v . M v/2; on the axis of the hole (m s'^2 + J w^2)/2 with the two speeds of an axial-torsional node. */
 double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
                                      uint32_t rigid_mass)
 {

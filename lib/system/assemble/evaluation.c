@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "kernel/kernels.h"
-#include "math/se3.h"
 #include "sim/chunks.h"
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
@@ -55,8 +54,8 @@ static void clear(dmb_evaluation *evaluation)
     memset(sim->stiffness_upper, 0, link);
 }
 
-/* Along the axis and about it, from node `first` on as long as there are PATH nodes before `end`; what else a pose has
- * stays. Returns how many they are; *turned is raised to the square of the largest rotation. */
+/* Along the axis and about it, from node `first` on as long as there are axial-torsional nodes before `end`; what else
+ * a pose has stays. Returns how many they are; *turned is raised to the square of the largest rotation. */
 static uint32_t move_axial_torsional_nodes(dmb_sim *sim, uint32_t first, uint32_t end, double *turned)
 {
     const dmb_scene *scene = sim->scene;
@@ -164,8 +163,8 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
  * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
  * links; what is left are the blocks of the nodes, to which all forces add. */
 
-/* FULL nodes from `node` on and before `end`, up to the next free rigid body, whose block is done but for its inertia;
- * `rigid` is the first that may be there. */
+/* six-DOF nodes from `node` on and before `end`, up to the next free rigid body, whose block is done but for its
+ * inertia; `rigid` is the first that may be there. */
 static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t rigid)
 {
     const uint32_t count = dmb_six_dof_nodes_before(scene, node, end);

@@ -51,10 +51,8 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 void dmb_system_move(dmb_sim *sim);
 /* Those from `first` to before `end` alone. */
 void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end);
-/* [m, rad] about which a component of a FULL node moves in the step, its spin included, in its axes. */
-double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component);
 /* Sets what contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only
- * the rows that are held are set, to held. Not of PATH nodes nor callers' forces. */
+ * the rows that are held are set, to held. Not of axial-torsional nodes nor callers' forces. */
 void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);

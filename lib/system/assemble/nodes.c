@@ -11,9 +11,10 @@
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
 
-/* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
+/* ---- six-DOF nodes, by the kernels ----------------------------------------------------------------------------------
+ */
 
-/* Inputs and outputs of the kernels for `count` FULL nodes from `node` on; `rigid_mass` is the first that may be on
+/* Inputs and outputs of the kernels for `count` six-DOF nodes from `node` on; `rigid_mass` is the first that may be on
  * them. */
 static dmb_node_force_args args_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
@@ -46,7 +47,7 @@ static dmb_node_force_args args_of(const dmb_evaluation *evaluation, uint32_t no
     return args;
 }
 
-/* A run of FULL nodes that is made in pieces. */
+/* A run of six-DOF nodes that is made in pieces. */
 typedef struct node_chunks {
     const dmb_evaluation *evaluation;
     uint32_t node, count, rigid_mass, pieces;
@@ -111,7 +112,8 @@ static void assemble_six_dof(dmb_evaluation *evaluation, uint32_t node, uint32_t
     evaluation->power[DMB_POWER_DAMPING] = args.damping_power;
 }
 
-/* ---- PATH nodes: along the axis and about it -----------------------------------------------------------------------
+/* ---- axial-torsional nodes: along the axis and about it
+ * -----------------------------------------------------------------------
  */
 
 /* Only mass and the inertia about the axis are felt. */
@@ -200,7 +202,7 @@ static void assemble_added_mass(dmb_evaluation *evaluation, const dmb_added_mass
                                    dmb_inertia_of(sim, added->node));
 }
 
-/* A PATH node moves along its x axis. */
+/* An axial-torsional node moves along its x axis. */
 static void assemble_axial_torsional_added_mass(dmb_evaluation *evaluation, const dmb_added_mass *added)
 {
     dmb_sim *sim = evaluation->sim;

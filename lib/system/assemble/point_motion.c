@@ -139,7 +139,7 @@ void dmb_force_tangent_clear(dmb_force_tangent *tangent)
     memset(tangent->K, 0, bytes);
 }
 
-/* Column of component k (0 .. 11) of the point's nodes; DMB_NONE: a PATH node has none. */
+/* Column of component k (0 .. 11) of the point's nodes; DMB_NONE: an axial-torsional node has none. */
 static uint32_t column_of(const dmb_scene *scene, const dmb_force_tangent *tangent, const dmb_point_motion *motion,
                           uint32_t k)
 {
@@ -180,7 +180,7 @@ void dmb_force_tangent_block(const dmb_scene *scene, dmb_force_tangent *tangent,
                 tangent->K[(size_t)column[r] * tangent->columns + column[c]] += factor * A[12 * r + c];
 }
 
-/* K <- K T6 in the columns of FULL nodes: by pose parameters, as for the blocks of the nodes. */
+/* K <- K T6 in the columns of six-DOF nodes: by pose parameters, as for the blocks of the nodes. */
 static void to_parameters(const dmb_sim *sim, const dmb_force_tangent *tangent, uint32_t node, double *K)
 {
     const uint32_t at = tangent->node[node];

@@ -400,7 +400,7 @@ static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *
     }
 }
 
-/* K <- K T6 in the columns of FULL nodes, as for the blocks of the nodes. */
+/* K <- K T6 in the columns of six-DOF nodes, as for the blocks of the nodes. */
 static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint *constraint, double *K)
 {
     const dmb_sim *sim = evaluation->sim;

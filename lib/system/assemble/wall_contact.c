@@ -4,13 +4,11 @@
 
 #include <string.h>
 
-#include "element/beam.h"
+#include "element/beam_math.h"
 #include "force/contact_law.h"
 #include "kernel/kernels.h"
 #include "math/so3.h"
 #include "math/vec3.h"
-#include "sim/node.h"
-#include "system/assemble/bounces.h"
 #include "system/assemble/evaluation.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
@@ -95,7 +93,7 @@ int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t si
     return 1;
 }
 
-/* Rings of FULL nodes against the wall: force/contact_law by the kernels, and what the trial keeps of the sites. */
+/* Rings of six-DOF nodes against the wall: force/contact_law by the kernels, and what the trial keeps of the sites. */
 
 static dmb_site_fields fields_of(const dmb_configuration *configuration)
 {

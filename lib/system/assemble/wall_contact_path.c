@@ -1,5 +1,6 @@
-/* PATH nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force is what weight and tension in a curved
- * hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis. */
+/* axial-torsional nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force is what weight and tension in
+ * a curved hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis.
+ */
 #include <string.h>
 
 #include "element/beam.h"

@@ -1,10 +1,7 @@
 /* Friction laws at contact points of the wall: of the section of the hole, of sliding alone, at the end of a step. */
 #include "system/assemble/assemble.h"
 
-#include "kernel/kernels.h"
 #include "sim/node.h"
-#include "system/assemble/bounces.h"
-#include "system/assemble/evaluation.h"
 
 const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *c, uint32_t site,
                                                  dmb_friction_law *local)

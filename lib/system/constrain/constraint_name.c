@@ -1,9 +1,6 @@
 /* Names of constraints for messages, and the constraint that a row belongs to. */
 #include "system/constrain/constrain.h"
 
-#include "sim/node.h"
-#include "system/constrain/rotor.h"
-
 void dmb_constraint_text(const dmb_scene *scene, uint32_t constraint, dmb_message *text)
 {
     static const char *const kinds[] = {"joint", "coupling", "drive", "constraint", "spring", "force"};

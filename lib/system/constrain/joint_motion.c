@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "constraint/joint.h"
-#include "math/elementary.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "math/vec3.h"

@@ -8,7 +8,6 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "math/vec3.h"
-#include "sim/node.h"
 
 #define DMB_RIM_EDGE 1e-3
 

@@ -79,6 +79,15 @@ void dmb_rotor_add_travel(const dmb_sim *sim, uint32_t node, double z[6])
     for (int i = 0; i < 6; i++) z[i] += sim->rotor_step[rotor].length * sim->rotor_step[rotor].spin[i];
 }
 
+double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component)
+{
+    const dmb_sim *sim = evaluation->sim;
+    double z[6];
+    dmb_vec6_copy(sim->increment + sim->scene->layout.row[node], z);
+    if (evaluation->step > 0.0) dmb_rotor_add_travel(sim, node, z);
+    return z[component];
+}
+
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
 /* O, P(h) and the pose and the motion of the start in the axes that it leads to. */

@@ -50,5 +50,7 @@ void dmb_rotor_leave(const dmb_sim *sim, uint32_t rotor, double velocity[6], dou
                      double pseudo_acceleration[6]);
 /* Adds the travel h O of the step under way to the increment z of a node, if it is a rotor. */
 void dmb_rotor_add_travel(const dmb_sim *sim, uint32_t node, double z[6]);
+/* [m, rad] Travel of a component of a six-DOF node within the step, its spin included, in its axes. */
+double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t component);
 
 #endif

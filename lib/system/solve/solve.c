@@ -417,7 +417,7 @@ void dmb_forget_factors(dmb_sim *sim)
     if (sim->scene->site_count) memset(sim->reused_quaternion, 0, 4 * n * sizeof(double));
 }
 
-/* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
+/* Rows of six-DOF nodes from one set of their frames to another, by the twist between the two. */
 typedef struct twist_work {
     const dmb_scene *scene;
     const double *from, *to;
