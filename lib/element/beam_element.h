@@ -128,10 +128,10 @@ typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
     int32_t dynamic;                     /* 0: no inertia, damping, nor rates */
     int32_t tangent;                     /* 1: tangent blocks are computed */
-    int32_t
-        extrapolated; /* 1: geometric stiffness from the given stress, 0: from the actual stress, which is returned */
-    int32_t rates;    /* 1: strain rates are required, for the energy ledger or for damping */
-    int32_t damped;   /* 1: damping_time is not 0 for all elements */
+    /* 1: geometric stiffness from the given stress, 0: from the actual stress, which is returned */
+    int32_t extrapolated;
+    int32_t rates;         /* 1: strain rates are required, for the energy ledger or for damping */
+    int32_t damped;        /* 1: damping_time is not 0 for all elements */
     int32_t inertia_only;  /* 1: blocks without the stiffness */
     int32_t arms;          /* 1: some ends have arms to their nodes */
     int32_t curved;        /* 1: elements that are curved, with their own mass and weight (element/curved_mass.h) */

@@ -25,8 +25,8 @@ typedef struct dmb_curved_mass {
     double turn[2];   /* [1/m] Gamma: angular velocity of the mean axes per unit of d'_y about z, of d'_z about -y */
     double offset[2]; /* [-] k = q/60: first moment of the bending shapes, planes y and z, q = 1/(1 + P) */
     double tilt[2];   /* [1/m] q/L: mean rotation of the sections per unit of d_y, d_z */
-    double
-        cross[15]; /* [N/m, N, N m] K above its diagonal, row by row, if the unstressed shape is curved; otherwise 0 */
+    /* [N/m, N, N m] K above its diagonal, row by row, if the unstressed shape is curved; otherwise 0 */
+    double cross[15];
     dmb_beam_mass apart; /* lateral added mass of mud, constant in the frames of the ends */
 } dmb_curved_mass;
 

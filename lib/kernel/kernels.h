@@ -124,8 +124,8 @@ typedef struct dmb_wall_args {
     uint8_t *presses;             /* written there: 1: with a force > 0 */
     double slip[2];               /* [m/s, rad/s] in statics */
     double softer;                /* [-] stiffness of sections is divided by it */
-    double
-        yield; /* [m2/N] depth that rings go back by a mean force of 1 N/m, in the first evaluation of a step; else 0 */
+    /* [m2/N] depth that rings go back by a mean force of 1 N/m, in the first evaluation of a step; else 0 */
+    double yield;
     double slows;                             /* [m2/(N s)] speed that they lose by it there */
     double step, velocity_factor, own_factor; /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent;

@@ -60,10 +60,10 @@ typedef struct dmb_linear {
     double *constrained_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before,
                              the node and the node after, six each: what a drive that moves them exerts on the others;
                              shape (scene.constrained_count, 3, 18) */
-    double
-        *constrained_rows; /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
-    double *whole_joints;  /* the joints' parts of M, C and K, rows and columns that are held included, shape
-                              (3, scene.tangent_count) */
+    /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
+    double *constrained_rows;
+    double *whole_joints; /* the joints' parts of M, C and K, rows and columns that are held included, shape
+                             (3, scene.tangent_count) */
     void *block;
     size_t block_size;
 } dmb_linear;

@@ -1,11 +1,10 @@
 /* The values of a frequency response: storage by points, transfer functions, combined outputs. */
-#include <math.h>
+#include "analysis/response/response.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "analysis/linear/linear.h"
-#include "analysis/response/response.h"
 #include "base/failure.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"

@@ -1,10 +1,9 @@
 /* Spins that nothing resists: how they are found, and the check that the state found did not need them. */
-#include <math.h>
+#include "analysis/static/static.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "analysis/static/static.h"
 #include "system/solve/solve.h"
 
 /* [-] Rounding level of eq:static.spin, over the root of the product of the two diagonal entries. */

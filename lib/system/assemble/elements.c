@@ -242,8 +242,8 @@ static void assemble_axial_torsional_elements(dmb_evaluation *evaluation, const 
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
-    double
-        z[6]; /* increment of the step; 0 on the axial-torsional side, whose two columns are pose parameters already */
+    /* increment of the step; 0 on the axial-torsional side, whose two columns are pose parameters already */
+    double z[6];
     double J[36]; /* (6, rows) row-major with `rows` columns used */
     uint32_t rows;
 } mixed_side;

@@ -29,19 +29,18 @@ typedef struct dmb_evaluation {
     int32_t steady;         /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
     uint32_t drilling;      /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
     int32_t extrapolated;   /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
-    int32_t
-        predicted; /* 1: of a trial without the mean forces of contacts, which give their tangents (eq:contact.mean) */
-    int32_t given; /* 1: multipliers of the trial are taken as they are, else they balance the residual */
-    int32_t assembling;   /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
-    int32_t slipping;     /* statics: friction acts as at the speed slip[] */
-    double wall_softness; /* statics: rings press as on a wall this much softer; 0: as it is */
-    double frictionless;  /* [-] statics: this share of the friction of rings is left out; 0: none of it */
-    double slip[2];       /* [m/s, rad/s] along the hole, of rotation */
-    double rounding;      /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
-    double gravity[3];    /* [m/s2] times load_factor, on bent elements */
-    double power[8];      /* [W] of each class of force on the bodies, DMB_POWER_... */
-    int32_t status;       /* of this evaluation */
-    uint32_t element;     /* where status says DMB_ERR_ROTATION */
+    int32_t predicted;      /* 1: the trial lacks mean forces of contacts: their tangents act (eq:contact.mean) */
+    int32_t given;          /* 1: multipliers of the trial are taken as they are, else they balance the residual */
+    int32_t assembling;     /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
+    int32_t slipping;       /* statics: friction acts as at the speed slip[] */
+    double wall_softness;   /* statics: rings press as on a wall this much softer; 0: as it is */
+    double frictionless;    /* [-] statics: this share of the friction of rings is left out; 0: none of it */
+    double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
+    double rounding;   /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
+    double gravity[3]; /* [m/s2] times load_factor, on bent elements */
+    double power[8];   /* [W] of each class of force on the bodies, DMB_POWER_... */
+    int32_t status;    /* of this evaluation */
+    uint32_t element;  /* where status says DMB_ERR_ROTATION */
 } dmb_evaluation;
 
 /* Residual into sim->residual, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
