@@ -21,10 +21,10 @@ typedef struct lane_complex {
 
 /* A part of the frequencies of a job, as many as there are lanes. */
 typedef struct response_lanes {
-    const dmb_response_job *args;
     dmb_real omega, square; /* [rad/s], [rad2/s2] */
-    uint32_t lane;          /* of the job, that is the first here */
-    uint32_t bad;           /* one bit for each lane where a pivot is too small */
+    const dmb_response_job *args;
+    uint32_t lane; /* of the job, that is the first here */
+    uint32_t bad;  /* one bit for each lane where a pivot is too small */
 } response_lanes;
 
 /* Rows of block i: of D_i, of U_i, and of the right-hand sides, which stay where they are. */
@@ -235,7 +235,7 @@ DMB_BLOCK_KERNEL void solve_upper(const response_lanes *l, int n, int m, respons
         }
         for (int j = 0; j < m; j++) {
             r->U[m * k + j] = complex_times(r->D[n * k + k], row[j]);
-            store_number(r->U[m * k + j], (size_t)(m * k + j), W);
+            store_number(r->U[m * k + j], (size_t)m * (size_t)k + (size_t)j, W);
         }
         scale_sides(columns, r->D[n * k + k], r->sides + next * (size_t)k);
     }
@@ -289,7 +289,8 @@ DMB_BLOCK_KERNEL int backward_block(int n, int m, const response_lanes *l, uint3
         for (int j = 0; j < m; j++) found[j] = load_side(x + next * (size_t)j + at);
         for (int p = 0; p < n; p++) {
             lane_complex sum = load_side(b + next * (size_t)p + at);
-            for (int j = 0; j < m; j++) complex_subtract(load_number(W, (size_t)(m * p + j)), found[j], &sum);
+            for (int j = 0; j < m; j++)
+                complex_subtract(load_number(W, (size_t)m * (size_t)p + (size_t)j), found[j], &sum);
             store_side(sum, b + next * (size_t)p + at);
         }
     }

@@ -31,9 +31,9 @@ typedef struct wall_group {
     dmb_real kept[DMB_TOUCH_SIZE]; /* of rings that touch */
     dmb_real bristle[2];           /* [m] the same */
     dmb_contact_frame frame;
+    dmb_section_contact section;        /* of a hole of sections */
     const dmb_local_normal *normal_law; /* at the rings */
     const dmb_local_friction *friction_law;
-    dmb_section_contact section; /* of a hole of sections */
     lane_places node, row;
     uint32_t touching; /* one bit for each lane that touches and is not one again */
     uint32_t sticking; /* the same */
