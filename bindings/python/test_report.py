@@ -269,12 +269,12 @@ class HoleTest(unittest.TestCase):
 class VerdictTest(unittest.TestCase):
     """Each all-clear has an input for which it is not given."""
 
-    def speeds(self, bands=(), severity=0.5, rotation=10.0, silent=0):
+    def speeds(self, bands=(), severity=0.5, rotation=10.0, silent=0, unmoved=()):
         found = SpeedBands()
         for low, high in bands:
             found.append(SpeedBand(low=low, high=high))
         found.report.silent_orders = silent
-        made = report_linear.Speeds(found, [severity] * 3, [5.0, 15.0, 25.0])
+        made = report_linear.Speeds(found, [severity] * 3, [5.0, 15.0, 25.0], unmoved=unmoved)
         return made, report_linear.speeds_tile(made, Operating(rotation=rotation))
 
     def test_speeds(self):
@@ -283,6 +283,8 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(self.speeds(rotation=None)[1].verdict, "NOT ASSESSED")
         self.assertEqual(self.speeds(rotation=30.0)[1].verdict, "NOT ASSESSED")
         self.assertEqual(self.speeds(silent=1)[1].verdict, "NOT ASSESSED")
+        self.assertEqual(self.speeds(unmoved=["turn"])[1].verdict, "NOT ASSESSED")
+        self.assertIn("does not move turn", self.speeds(unmoved=["turn"])[1].text)
         self.assertEqual(self.speeds(bands=[(9.0, 11.0)])[1].verdict, "OVER")
         self.assertEqual(self.speeds(bands=[(10.5, 11.0)])[1].verdict, "NEAR LIMIT")
         self.assertEqual(self.speeds(bands=[(20.0, 22.0)])[1].verdict, "OK")

@@ -268,6 +268,24 @@ class NoResponseTest(FolderTest):
         scene = scenes.load(self.scene)
         self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
 
+    def test_a_silent_output_beside_one_that_moves(self):
+        """Torsion turns an upright string and does not move it across: the second output is named, and no speed is called free."""
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\ncomponent = "rz"\nlimit = "1e6 deg"\n')
+        self.scene = self.write("beside.toml", self.SCENE + turning)
+        out, summary = self.answer("speeds")
+        self.assertIn("middle [m]: not assessed, because the excitation moves the string, but not this output", out)
+        self.assertNotIn("turning [rad]: not assessed", out)
+        self.assertNotIn("no critical speed", out)
+        self.assertFalse(summary["speeds_assessed"])
+        scene = scenes.load(self.scene)
+        found = critical_speeds.analyse(scene, lambda sim, state: sim.static(**state.static), print)
+        self.assertEqual(found.unmoved, [0])
+        self.assertEqual(speed_check._linear(found, 10.0), "not assessed")
+        from drillmbd import report_linear
+        from drillmbd.operating import operating
+        tile = report_linear.speeds_tile(report_linear.speeds(scene, print), operating(scene))
+        self.assertEqual(tile.verdict, "NOT ASSESSED")
+
     def test_a_silent_order_is_no_all_clear(self):
         """One order that moves no output beside one that does: no speed is called free of critical ones, by the command and its check."""
         self.scene = self.write("two.toml", SCENE.replace("threshold = 100", "threshold = 1e6") + '[[speeds.order]]\norder = 2\nkind = "drive"\n'
@@ -278,8 +296,11 @@ class NoResponseTest(FolderTest):
         self.assertFalse(summary["speeds_assessed"])
         scene = scenes.load(self.scene)
         found = critical_speeds.analyse(scene, lambda sim, state: sim.static(**state.static), print)
-        for change, told in (({}, "free"), ({"silent": no_response.NOTHING_EXCITES}, "not assessed")):
-            self.assertEqual(speed_check._linear(dataclasses.replace(found, **change), 10.0), told)
+        for change in ({}, {"silent": no_response.NOTHING_EXCITES}):
+            self.assertEqual(speed_check._linear(dataclasses.replace(found, **change), 10.0), "not assessed")
+        whole = scenes.load(self.write("whole.toml", SCENE.replace("threshold = 100", "threshold = 1e6")))
+        found = critical_speeds.analyse(whole, lambda sim, state: sim.static(**state.static), print)
+        self.assertEqual(speed_check._linear(found, 10.0), "free")
         refused = dataclasses.replace(found, state=dataclasses.replace(found.state, refused=True))
         self.assertEqual(speed_check._linear(refused, 10.0), "not assessed")
 

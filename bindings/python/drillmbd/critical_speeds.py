@@ -1,7 +1,7 @@
 """Rotary speeds to avoid: bands of the linear analysis, over the range of diameters and friction of the scene, and speeds run in time."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from . import _structs, enums, no_response, rotating, speed_check, speed_range
@@ -25,6 +25,12 @@ class Found:
     threshold: float
     state: Linear
     silent: Phrase | None = None   #: why nothing moves the outputs
+    unmoved: list[int] = field(default_factory=list)   #: numbers of outputs that nothing moves, where another moves
+
+    @property
+    def partial(self) -> bool:
+        """True if an order or an output has no response: no speed is free of critical ones then."""
+        return bool(self.unmoved or self.bands.report.silent_orders)
 
 
 def analyse(scene: Scene, settle: Any, note: Any) -> Found:
@@ -35,11 +41,13 @@ def analyse(scene: Scene, settle: Any, note: Any) -> Found:
 
     def ask(sim: Sim, state: Linear) -> Any:
         bands, severity = sim.speeds(state.scene.orders(), state.scene.response_outputs("speeds"), limits, **state.options)
-        return bands, severity, no_response.of_speeds(sim, state.scene, max(severity), state.options)
+        return bands, severity, no_response.of_speeds(sim, state.scene, state.options)
 
-    state, (bands, severity, silent) = rotating.linear(scene, "speeds", settle, ask, note)
+    state, (bands, severity, reasons) = rotating.linear(scene, "speeds", settle, ask, note)
     grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
-    return Found(bands, severity, grid, used.threshold, state, silent)
+    silent = no_response.of_all(reasons)
+    unmoved = [] if silent else [number for number, reason in enumerate(reasons) if reason is not None]
+    return Found(bands, severity, grid, used.threshold, state, silent, unmoved)
 
 
 def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
@@ -65,12 +73,17 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
     elif not found.bands and found.bands.report.silent_orders:
         out.say(f"speeds: not assessed, because {int(found.bands.report.silent_orders)} of the {len(settings['order'])} orders move no output; the "
                    f"others have a severity of at most {max(found.severity):.3g} of the limit between {low:.0f} and {high:.0f} rpm")
+    elif not found.bands and found.unmoved:
+        out.say(f"speeds: not assessed for all outputs; of the others the severity is at most {max(found.severity):.3g} of the limit between "
+                   f"{low:.0f} and {high:.0f} rpm")
     elif not found.bands:
         out.say(f"no critical speed between {low:.0f} and {high:.0f} rpm: the severity is at most {max(found.severity):.3g} of the limit")
+    for number in found.unmoved:
+        out.say(f"{out.units.head(names[number])}: not assessed, because {no_response.NO_RESPONSE}")
     out.say(LINEAR)
     for note in left_out(found.bands.report) if excited else []:
         out.note_text(note)
-    out.summary["speeds_assessed"] = excited and not found.state.refused and not found.bands.report.silent_orders
+    out.summary["speeds_assessed"] = excited and not found.state.refused and not found.partial
     out.summary["linear_state"] = found.state.numbers()
     out.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]

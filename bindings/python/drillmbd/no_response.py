@@ -68,18 +68,27 @@ def of_response(sim: Sim, scene: Scene, inputs: Sequence[Excitation], out: Respo
     return _judged(sizes[0], out, list(zip(listed[1:], sizes[1:])))
 
 
-def of_speeds(sim: Sim, scene: Scene, severity: float, options: dict[str, Any]) -> Phrase | None:
-    """Why the orders of [speeds] move none of the outputs; None where they move one. severity: the largest, in limits."""
-    if severity > SURE:
-        return None
+def of_speeds(sim: Sim, scene: Scene, options: dict[str, Any]) -> list[Phrase | None]:
+    """Why the orders of [speeds] do not move an output, for each of its outputs; None where they do."""
 
-    def largest(listed: list[ResponseOutput]) -> float:
-        return max(sim.speeds(scene.orders(), listed, [1.0 / _weight(one) for one in listed], **with_grid(options))[1])
+    def largest(listed: list[ResponseOutput], limits: list[float]) -> float:
+        return max(sim.speeds(scene.orders(), listed, limits, **with_grid(options))[1])
 
-    reasons = []
-    for out in scene.response_outputs("speeds"):
+    def amplitude(listed: list[ResponseOutput]) -> float:
+        return largest(listed, [1.0 / _weight(one) for one in listed])
+
+    reasons: list[Phrase | None] = []
+    for out, limit in zip(scene.response_outputs("speeds"), [one["limit"] for one in scene.analyses["speeds"]["output"]]):
+        if largest([out], [limit]) > SURE:
+            reasons.append(None)
+            continue
         around = _probes(scene, out)
-        reasons.append(_judged(largest([out]), out, [(around[-1], largest([one for one in around if one.kind == around[-1].kind]))]))
+        reasons.append(_judged(amplitude([out]), out, [(around[-1], amplitude([one for one in around if one.kind == around[-1].kind]))]))
+    return reasons
+
+
+def of_all(reasons: Sequence[Phrase | None]) -> Phrase | None:
+    """Why no output is moved; None where one is."""
     if None in reasons:
         return None
     return UNREACHED if NO_RESPONSE in reasons else NOTHING_EXCITES

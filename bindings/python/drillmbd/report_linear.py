@@ -29,6 +29,7 @@ class Speeds:
     grid: list[float]
     refused: bool = False  #: the sliding state has no solution, that at rest takes its place
     silent: Phrase | None = None  #: why nothing moves the outputs
+    unmoved: Sequence[str] = ()   #: names of outputs that nothing moves, where another moves
 
     @property
     def assessed(self) -> bool:
@@ -69,12 +70,13 @@ class Speeds:
 def speeds(scene: Scene, note: Callable[[str], object]) -> Speeds:
     """The speeds of [speeds], about the string that slides at the rotation of the scene."""
     found = analyse(scene, lambda sim, state: sim.static(**state.static), note)
-    return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent)
+    names = [one["name"] for one in scene.analyses["speeds"]["output"]]
+    return Speeds(found.bands, found.severity, found.grid, found.state.refused, found.silent, [names[number] for number in found.unmoved])
 
 
 def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     """The verdict on the rotation of the scene. Never OK without excitation, for a rotation outside the range, or with orders that excite
-    nothing."""
+    nothing or outputs that nothing moves."""
     title = phrase("Critical speeds")
     if not found.assessed:
         return Tile(title, phrase("not assessed"), found.silent or NOTHING_EXCITES, NOT_ASSESSED)
@@ -94,9 +96,11 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
     silent = int(found.bands.report.silent_orders)
     if silent:
         remarks = phrase("{silent} of the orders excite nothing; {text}", silent=silent, text=remarks)
+    if found.unmoved:
+        remarks = phrase("the excitation does not move {outputs}; {text}", outputs=joined(", ", found.unmoved), text=remarks)
     if found.refused:
         remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=remarks)
-    return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.refused else OK)
+    return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.unmoved or found.refused else OK)
 
 
 def speeds_figure(found: Speeds) -> Figure:

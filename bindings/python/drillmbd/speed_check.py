@@ -187,7 +187,7 @@ def _linear(found: Found, speed: float) -> str:
         return "not assessed"
     if any(band.low <= speed <= band.high for band in found.bands):
         return "avoid"
-    return "not assessed" if found.state.refused else "free"
+    return "not assessed" if found.state.refused or found.partial else "free"
 
 
 def _line(one: Result, linear: str, out: CommandOutput) -> str:
