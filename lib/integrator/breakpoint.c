@@ -1,7 +1,14 @@
-/* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at 1000
- * s, and sums that reach a breakpoint reach that breakpoint. A step that no breakpoint cuts has the length that was
- * asked for, to the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time
- * excite what a change of step excites. */
+/* Length and end of steps at breakpoints of time functions.
+ *
+ * The clock is a double and the rounding error of its sums (two-sum), so that n steps of h end at the double next to
+ * n h: 1000 s of 1 ms end at 1000 s, and sums that reach a breakpoint reach it exactly. A step that no breakpoint cuts
+ * keeps the requested length to the last bit instead of the difference of two rounded times, because lengths that
+ * differ by an ulp of the time excite the same vibration as a change of step (eq:integration.energy-left).
+ *
+ * Next breakpoint at distance d, length left l, sliver s = 1e-6 min(l, h):
+ *     d > l + s                                    the step ends at the goal
+ *     |d - l| <= s, no second breakpoint near      the step ends at the goal and counts as at the breakpoint
+ *     d <= l otherwise                             the step ends at the breakpoint */
 #include "integrator/breakpoint.h"
 
 #include <float.h>
@@ -9,10 +16,10 @@
 
 #include "system/assemble/actuators.h"
 
-#define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
-#define DMB_DELAYED_SLIVER 1e-9 /* [-] the same where commands are delayed */
+#define DMB_SLIVER 1e-6         /* [-] fraction of a step below which no separate step is taken */
+#define DMB_DELAYED_SLIVER 1e-9 /* [-] the same if commands are delayed */
 #define DMB_BREAKPOINT_ROUNDING \
-    4.0 /* [ulp] between the sum of steps as the caller rounds them and the breakpoint it means */
+    4.0 /* [ulp] permitted difference between the caller's sum of steps and the breakpoint */
 
 /* [s] Smallest breakpoint later than t of a time function; INFINITY if none. */
 static double breakpoint_of(const dmb_scene *scene, uint32_t time_function, double t)
@@ -38,32 +45,32 @@ static double next_breakpoint(const dmb_sim *sim, double t)
     return next;
 }
 
-/* [s] The first breakpoint that no step has met. */
+/* [s] First breakpoint at which no step has ended yet. */
 static double breakpoint_ahead(const dmb_sim *sim)
 {
     return next_breakpoint(sim, fmax(sim->clock->time, sim->clock->breakpoint));
 }
 
-/* True where only the rounding of sums of steps lies between them. */
+/* True if the two times differ only by the rounding of sums of steps. */
 static int is_same_time(double a, double b)
 {
     return fabs(a - b) <= DMB_BREAKPOINT_ROUNDING * DBL_EPSILON * fabs(b);
 }
 
-/* [s] from the present time */
+/* [s] Length of a step from the present time to `time`. */
 static double length_to(const dmb_sim *sim, double time)
 {
     return time - sim->clock->time;
 }
 
-/* [-] Part of a step that is not worth a step of its own. A delayed command keeps its edges, however steep: they are
- * read from the ends of steps. */
+/* [-] Fraction of a step below which no separate step is taken. Delayed commands keep their edges at any steepness,
+ * because they are read at the ends of steps: the fraction is smaller there. */
 static double sliver_of(const dmb_sim *sim)
 {
     return sim->scene->delay_count > 0 ? DMB_DELAYED_SLIVER : DMB_SLIVER;
 }
 
-/* [s] To the goal from the present time; as it was asked for where no part of it is done. */
+/* [s] Length from the present time to the goal; exactly the requested length if no part of it is done. */
 static double length_left(const dmb_sim *sim, const dmb_step_end *goal)
 {
     return goal->begin == sim->clock->time ? goal->step : length_to(sim, goal->time);
@@ -73,7 +80,8 @@ dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step)
 {
     dmb_step_end end = {.step = step, .begin = sim->clock->time};
     const double t = sim->clock->time, sum = t + step, part = sum - t;
-    const double error = ((t - (sum - part)) + (step - part)) + sim->clock->rest; /* of sum; Moller, Knuth */
+    const double error =
+        ((t - (sum - part)) + (step - part)) + sim->clock->rest; /* rounding error of sum (two-sum: Moller, Knuth) */
     end.time = sum + error;
     end.rest = (sum - end.time) + error;
     return end;

@@ -1,3 +1,14 @@
+/* Companion steps: one step of a perturbed simulation beside the accepted step of the nominal one.
+ *
+ *     nominal step                          factors                                     corrections
+ *     -----------------------------------   -----------------------------------------   ---------------------------
+ *     no contact opened, matrix exact       one matrix, shared by all followers         one, refined (correct_once)
+ *     no contact opened, matrix inexact     the same                                    up to 12 (correct_often)
+ *     contacts opened, no joints and no     shared: before opening, mass, after         up to 12 before, then as above
+ *       free rigid bodies
+ *     contacts opened otherwise             the follower's own, twice                   as above, on its own factors
+ *
+ * A follower tests no convergence: it uses the contact modes and the sequence of stages of the leader. */
 #include "integrator/companion.h"
 
 #include <math.h>
@@ -10,7 +21,7 @@
 #include "system/solve/solve.h"
 #include "system/system.h"
 
-/* The follower's own trial step at the leader's step. */
+/* A follower during the leader's step, with its own trial step. */
 typedef struct companion {
     dmb_sim *sim;
     const dmb_nominal_step *nominal;
@@ -38,7 +49,7 @@ static int32_t evaluate(companion *of, int32_t tangent)
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
 
-/* Prediction from the follower's own state. */
+/* Prediction from the follower's accepted state (eq:integration.prediction with slope 0). */
 static int32_t predict(companion *of)
 {
     dmb_trial_step_set_up(of->sim, &of->trial_step.end, &of->trial_step.evaluation);
@@ -59,7 +70,7 @@ static void keep_matrix(const dmb_sim *sim, dmb_block_matrix *to)
     memcpy(to->upper, sim->stiffness_upper, layout->link[n - 1] * sizeof(double));
 }
 
-/* Residual, tangent and factors at the trial. */
+/* Residual, tangent and factors of the iteration matrix at the trial. */
 static int32_t factor(companion *of)
 {
     const int32_t status = evaluate(of, 1);
@@ -69,9 +80,10 @@ static int32_t factor(companion *of)
     return dmb_factor_matrix(of->sim, of->sim->options.constraint_method) >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
-/* ---- Factors of the leader that all followers share -------------------------------------------------------------- */
+/* ---- Factors at the nominal step, shared by all followers -------------------------------------------------------- */
 
-/* Joints and free rigid bodies have more than these, so that each follower makes its own where contacts open. */
+/* Joints and free rigid bodies need further factors (partition, centre of mass): each follower then makes its own if
+ * contacts open. */
 static int shares(const dmb_scene *scene)
 {
     return scene->cluster_count == 0 && scene->free_rigid_count == 0;
@@ -109,7 +121,7 @@ void dmb_companion_workspace_allocate(dmb_arena *arena, const dmb_scene *scene, 
     take_factors(arena, scene, &workspace->mass);
 }
 
-/* A ring that meets the wall in the step: its tangent leaves out how the speed at first touch changes. */
+/* 1: a contact point touches the wall in this step. Its tangent neglects the change of the speed at first touch. */
 static int meets(const dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
@@ -117,9 +129,9 @@ static int meets(const dmb_sim *sim)
     return 0;
 }
 
-/* Tangents of bits, of axial-torsional nodes (by the tension of their elements), of actuators, of callers and of mean
- * forces are not exact, nor is the iteration matrix of joints, which neglects the rotation of the projection with the
- * pose. */
+/* The tangents of bits, of axial-torsional contact points (through the tension of their elements), of actuators, of
+ * caller's forces and of mean forces are not exact; nor is the iteration matrix of joints, which neglects the rotation
+ * of the projection with the pose. */
 static int32_t is_exact(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -137,13 +149,13 @@ static double size_of_correction(const dmb_sim *sim)
     return size;
 }
 
-/* A correction that is this part of the first, or this many metres or radians, need not be felt in the forces. */
+/* Corrections end below this fraction of the first correction, or below this size [m, rad], which no force resolves. */
 #define DMB_SETTLED_PART 1e-8
 #define DMB_SETTLED_SIZE 1e-15
 enum { DMB_CORRECTIONS_MAX = 12 };
 
-/* One correction, and the memory that follows from it; the residual of rows that are held by their rows of the matrix.
- */
+/* One correction and the memory fields linear in it; the residual of constrained rows is updated with their rows of the
+ * matrix. */
 static int32_t correct_once(companion *of)
 {
     dmb_sim *sim = of->sim;
@@ -158,11 +170,12 @@ static int32_t correct_once(companion *of)
     return DMB_OK;
 }
 
-/* Corrections by the factors at hand, until one is small. Tangents of contacts that close and of bits that meet the
- * rock are off by some 1e-5, and the iteration matrix of joints by some 1e-2. */
+/* Repeats corrections with the present factors until one is small. Tangents of contacts that close and of bits that
+ * reach the rock have relative errors of about 1e-5, and the iteration matrix of joints of about 1e-2, so that a few
+ * corrections are enough. */
 static int32_t correct_often(companion *of)
 {
-    const int jointed = of->sim->scene->cluster_count > 0; /* what moves is put on the joints by the evaluation */
+    const int jointed = of->sim->scene->cluster_count > 0; /* the evaluation projects the trial onto the constraints */
     double first = 0.0;
     for (uint32_t k = 0; k < DMB_CORRECTIONS_MAX; k++) {
         dmb_solve_correction(of->sim);
@@ -182,7 +195,7 @@ static int32_t correct(companion *of)
     return of->nominal->workspace->exact ? correct_once(of) : correct_often(of);
 }
 
-/* Contacts, stops and springs are treated as the leader treats them. */
+/* Copies the leader's treatment (law, mean force, opening) of contact points, stops and springs. */
 static void take_modes(companion *of)
 {
     *of->sim->sites_bounce = *of->nominal->sim->sites_bounce;
@@ -191,8 +204,9 @@ static void take_modes(companion *of)
     memcpy(of->sim->bounce_mode, of->nominal->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));
 }
 
-/* Corrected to where contacts open, and the accelerations that these forces had there. The matrix of the room is that
- * of the step once more, where a contact may be closed again: it does not belong to these factors. */
+/* Corrects the follower to its state before contacts opened, and computes the accelerations of the opening forces from
+ * there with the shared factors. The matrix of the workspace is that of the repeated step, in which a contact may be
+ * closed again, and does not belong to these factors. */
 static int32_t open_beside(companion *of)
 {
     dmb_sim *sim = of->sim;
@@ -219,7 +233,7 @@ static int32_t open_alone(companion *of)
     return dmb_released_acceleration(&of->trial_step.evaluation, of->sim->correction, of->sim->released_part);
 }
 
-/* The step once more, from the leader's increments. */
+/* Repeats the step without the forces of opening contacts, from the leader's final increments (eq:contact.release). */
 static void go_again(companion *of)
 {
     dmb_step_motion_take(of->sim, of->nominal->sim->increment);
@@ -228,7 +242,8 @@ static void go_again(companion *of)
     dmb_trial_step_set_up(of->sim, &of->trial_step.end, &of->trial_step.evaluation);
 }
 
-/* Contacts that open are treated as in integrator/trial_step, from the leader's increments before and after. */
+/* A step in which contacts open, in the two stages of integrator/trial_step: the leader's increments before the
+ * opening, then those after it. */
 static int32_t follow_release(companion *of)
 {
     dmb_sim *sim = of->sim;
@@ -242,7 +257,7 @@ static int32_t follow_release(companion *of)
     return status;
 }
 
-/* Accelerations that mean forces leave behind; the factors that followers share stay. */
+/* Accelerations after mean forces (dmb_bounces_end); the factors shared by the followers are preserved. */
 static int32_t end_bounces(companion *of)
 {
     const int shared = shares(of->sim->scene);
@@ -267,7 +282,8 @@ static int32_t follow(companion *of)
     return status < 0 ? status : correct(of);
 }
 
-/* The leader's factors where contacts opened, the accelerations there, and its factors of the step taken again. */
+/* Shared factors of a step in which contacts opened: iteration matrix before the opening, mass matrix there, and
+ * iteration matrix of the repeated step. */
 static int32_t prepare_release(companion *of)
 {
     dmb_sim *sim = of->sim;

@@ -1,3 +1,18 @@
+/* Newton iteration of a step and reuse of its factors.
+ *
+ * One iteration (iterate):
+ *     evaluate     residual at the trial; tangent only if no factors are at hand
+ *     judge        residual against its bound -> done | work limit | failed | correction due
+ *     factors      reused while two corrections reach the bound, otherwise factorised at the trial
+ *     correct      z += dz; half of dz if the correction before overshot steep friction
+ *
+ * The iteration is done at the first of:
+ *     1. norm and error below the bound (eq:integration.stop) and power below its bound (eq:integration.stop-power)
+ *     2. residual at the rounding of the forces at the start (is_rounding)
+ *     3. residual that stagnates at the accuracy of a nearly singular partition (is_unsharp)
+ *     4. with reused factors, bound reached but not their lower aim, when they converge no more (is_met)
+ * It fails with DMB_ERR_NO_CONVERGENCE if residuals alternate, grow by 1e6 or overflow, or at max_iterations; with
+ * `bounded_work` the last case is accepted with DMB_NOTE_WORK_LIMITED. */
 #include "integrator/newton.h"
 
 #include <float.h>
@@ -13,17 +28,17 @@
 #include "system/solve/solve.h"
 #include "system/system.h"
 
-/* Newton gives up when the residual has grown this much over its start. */
+/* [-] Growth of the residual over its start at which the iteration fails. */
 #define DMB_NEWTON_GROWTH 1e6
 
-/* newton_tolerance = 0 */
+/* 1: the bound follows the local error of the step (newton_tolerance = 0). */
 static int32_t follows_error(const dmb_sim *sim)
 {
     return !(sim->options.newton_tolerance > 0.0);
 }
 
-/* True if what is left is the rounding of the forces at the start: in free flight after a contact nothing else is there
- * to compare it with. */
+/* True if the residual is at the rounding level of the initial forces. In free flight after a contact no other force
+ * remains for comparison. */
 static int32_t is_rounding(const dmb_trial_step *trial_step, double balance, dmb_convergence_history *history)
 {
     if (history->balance > 0.0) return trial_step->residual * balance <= 4.0 * DBL_EPSILON * history->balance;
@@ -31,9 +46,9 @@ static int32_t is_rounding(const dmb_trial_step *trial_step, double balance, dmb
     return 0;
 }
 
-/* Near a singular place of the joints: poses settled to 2e-15 leave the null space unsharp by as much over the quality
- * of the partition squared (measured: up to 4e-14/quality^2 of the forces). A residual that no longer falls is as good
- * as it gets there. */
+/* Near a singular configuration of joints, poses projected to 2e-15 leave the null space of the partition inaccurate by
+ * that over the squared quality of the partition (measured: up to 4e-14/quality^2 of the forces). A residual that
+ * stagnates below this level cannot be reduced further and is accepted. */
 static int32_t is_unsharp(const dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_convergence_history *history)
 {
     double quality = 1.0;
@@ -42,11 +57,13 @@ static int32_t is_unsharp(const dmb_sim *sim, const dmb_trial_step *trial_step, 
     return trial_step->residual <= fmin(1e-4, 4e-14 / (quality * quality));
 }
 
-/* [-] to which residuals are alike that come back every second time, over how they differ from those between. */
+/* [-] Difference of residuals two iterations apart over that of neighbouring ones, below which they count as
+ * alternating. */
 #define DMB_NEWTON_ALIKE 0.1
 
-/* A contact that opens when it is taken for closed, and closes when it is taken for open, has no solution at this end
- * of the step (the damping of a wall jumps at contact): the iteration goes to and fro between the two to its last. */
+/* A contact that opens if treated as closed and closes if treated as open has no solution at this end of the step,
+ * because the damping of the wall jumps at contact: the iteration alternates between the two. Detecting it saves
+ * iterations to the limit. */
 static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
     const double now = trial_step->residual;
@@ -56,18 +73,18 @@ static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_trial_step *trial_s
     return found && sim->scene->site_count > 0 && follows_error(sim) && !sim->options.bounded_work;
 }
 
-/* 1: as it should be. */
+/* 1: the iteration may continue; DMB_NOTE_WORK_LIMITED: accepted at the limit; < 0: failed. */
 static int32_t check_convergence(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
     if (goes_to_and_fro(sim, trial_step, history)) return DMB_ERR_NO_CONVERGENCE;
     if (history->first == 0.0) history->first = history->last = trial_step->residual;
-    if (!(trial_step->residual <= DMB_NEWTON_GROWTH * history->first)) return DMB_ERR_NO_CONVERGENCE; /* NaN, too */
+    if (!(trial_step->residual <= DMB_NEWTON_GROWTH * history->first)) return DMB_ERR_NO_CONVERGENCE; /* also NaN */
     if (trial_step->residual > DBL_MAX) return DMB_ERR_NO_CONVERGENCE;
     if (trial_step->iterations < sim->options.max_iterations) return 1;
     return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
 }
 
-/* Fresh factors at the present trial. */
+/* Factorises the iteration matrix at the present trial. DMB_ERR_SINGULAR with trial_step->block. */
 static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     if (!trial_step->evaluation.tangent) {
@@ -83,31 +100,31 @@ static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
     return DMB_ERR_SINGULAR;
 }
 
-/* ---- Where the iteration stops -----------------------------------------------------------------------------------
+/* ---- Stopping rule -----------------------------------------------------------------------------------------------
  *
- * With newton_tolerance = 0 it follows the error of the step, which corrector less predictor shows
- * (eq:integration.milne). The part of z left after the last correction adds up in the speeds, so the bound falls with
- * the frequency of the motion (eq:integration.stop). */
+ * With newton_tolerance = 0 the bound follows the local error of the step, given by corrector minus predictor
+ * (eq:integration.milne). The error of z after the last correction accumulates in the velocities, so the bound falls
+ * with the frequency of the motion (eq:integration.stop). Derivation: theory/integration.md, "Where Newton stops". */
 
 #define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
-#define DMB_NEWTON_LINEAR 0.7 /* [-] of that after a linear prediction: small corrections are seldom too good */
-#define DMB_NEWTON_PACE 0.05  /* [-] h w from which on it is that part */
-#define DMB_NEWTON_MOST 1e-3  /* [-] relative residual that is never exceeded */
-#define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */
-#define DMB_NEWTON_WORK 1e-7  /* [-] of the power that the forces exchange, that of the residual */
+#define DMB_NEWTON_LINEAR 0.7 /* [-] factor on that after a linear prediction (small corrections) */
+#define DMB_NEWTON_PACE 0.05  /* [-] h w above which DMB_NEWTON_PART applies */
+#define DMB_NEWTON_MOST 1e-3  /* [-] largest permitted relative residual */
+#define DMB_NEWTON_LEAST 1e-8 /* [-] relative residual that always suffices */
+#define DMB_NEWTON_WORK 1e-7  /* [-] power of the residual over the power exchanged by the forces */
 
-/* [-] Part of the predictor's error that may be left where motion is fast (eq:integration.milne). */
+/* [-] Permitted error over the error of the predictor for fast motion (eq:integration.milne). */
 static double share_of(const dmb_sim *sim)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     return DMB_NEWTON_PART * fabs(c.error) * (1.0 - c.am) / (c.beta * (1.0 - c.af));
 }
 
-/* A linear prediction may be below the tolerance in step after step, and what it leaves would add up: without a
- * correction it aims at this part of it. */
+/* [-] A linear prediction may satisfy the bound in step after step, and the errors left would accumulate: without a
+ * correction, the bound is reduced by this factor. */
 #define DMB_LINEAR_AIM 0.01
 
-/* The bound of the residual; reused factors and linear predictions aim below the tolerance. */
+/* Bound of the residual, times `aim`: below 1 for reused factors and linear predictions. */
 static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_convergence_history *history, double aim)
 {
     if (history->linear && history->corrections == 0) aim *= DMB_LINEAR_AIM;
@@ -117,13 +134,13 @@ static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_convergence_his
     return follows_error(sim) ? following : given;
 }
 
-/* [J] |z . residual| of the correction z at hand. */
+/* [J] |z . residual| of the present correction z. */
 static double work_of(const dmb_sim *sim)
 {
     return fabs(sim->scene->kernels->product(sim->scene->row_count, sim->correction, sim->residual));
 }
 
-/* [W] of the residual, and of the forces without regard to sign. */
+/* [W] Power of the residual, and sum of the magnitudes of the powers of all forces. */
 typedef struct powers {
     double left, exchanged;
 } powers;
@@ -141,7 +158,7 @@ static powers powers_of(const dmb_sim *sim)
     return p;
 }
 
-/* [-] h times a frequency of the motion (eq:integration.pace) over DMB_NEWTON_PACE, at most 1. */
+/* [-] h times the frequency of the motion (eq:integration.pace) over DMB_NEWTON_PACE, at most 1. */
 static double pace_of(const dmb_trial_step *trial_step, const dmb_convergence_history *history, double exchanged)
 {
     const double way = trial_step->end.step * exchanged * history->first;
@@ -149,23 +166,23 @@ static double pace_of(const dmb_trial_step *trial_step, const dmb_convergence_hi
     return way > squared ? sqrt(squared / way) : 1.0;
 }
 
-/* [-] Error left (eq:integration.contraction) over what is allowed of it (eq:integration.stop), the pace apart. */
+/* [-] Error left (eq:integration.contraction) over the permitted one (eq:integration.stop) at pace 1. */
 static double excess_of_error(const dmb_sim *sim, double residual, const dmb_convergence_history *history)
 {
-    if (!(history->work > 0.0)) return (double)INFINITY; /* it tells nothing; fmax would pass over a NaN */
+    if (!(history->work > 0.0)) return (double)INFINITY; /* no rate is known; fmax would ignore a NaN */
     const double rate = fmax(residual / history->last, work_of(sim) / history->work);
     if (!(rate < 1.0)) return (double)INFINITY;
     return rate * sqrt(history->work / history->most_work) / (share_of(sim) * (1.0 - rate));
 }
 
-/* [-] Power of the residual over what is allowed (eq:integration.stop-power). */
+/* [-] Power of the residual over the permitted one (eq:integration.stop-power). */
 static double excess_of_power(const powers *p)
 {
     return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;
 }
 
-/* A linear prediction begins with the residual that it has saved. Where it leaves more than that, the motion is stiffer
- * than its inertia, and the residual at hand is the start. */
+/* The residual of the constant prediction, which the linear one has reduced, is the start of the iteration. If the
+ * linear prediction has increased it, the motion is stiffer than its inertia, and the present residual is the start. */
 static void note_start(const dmb_evaluation *evaluation, dmb_convergence_history *history, dmb_residual_norm *norm,
                        const dmb_residual_bound *bound)
 {
@@ -180,7 +197,8 @@ static void note_start(const dmb_evaluation *evaluation, dmb_convergence_history
     *norm = dmb_residual_norm_within(evaluation, &at_hand);
 }
 
-/* Compares the residual with its bound. */
+/* Compares the residual with its bound: by its norm first, then by the estimated error and the power
+ * (eq:integration.stop). */
 static dmb_residual_norm compare(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history,
                                  double aim)
 {
@@ -199,13 +217,13 @@ static dmb_residual_norm compare(const dmb_sim *sim, const dmb_trial_step *trial
     return norm;
 }
 
-/* The bound asked for is reached: reused factors only aimed lower. */
+/* 1: the requested bound is reached, although reused factors aim lower. */
 static int32_t is_met(const dmb_sim *sim, const dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
     return trial_step->factored == DMB_FACTORS_REUSED && compare(sim, trial_step, history, 1.0).converged != 0;
 }
 
-/* Residual, and the tangent where it will be needed at once, on the constraints. */
+/* Projects the trial onto the constraints and computes the residual, with the tangent if factors are needed next. */
 static int32_t evaluate(dmb_sim *sim, dmb_trial_step *trial_step, const dmb_convergence_history *history)
 {
     dmb_evaluation *evaluation = &trial_step->evaluation;
@@ -215,13 +233,14 @@ static int32_t evaluate(dmb_sim *sim, dmb_trial_step *trial_step, const dmb_conv
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
 
-/* 1: the residual is that of tangents to the mean forces of contacts, which no solution has to be near. */
+/* 1: the residual contains tangents to mean contact forces instead of the forces, so that a small residual does not
+ * indicate a solution. */
 static int32_t from_tangent(const dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     return trial_step->evaluation.predicted && dmb_sites_have_mean(sim);
 }
 
-/* Verdict of the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
+/* Decides on the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: failed. */
 static int32_t judge(dmb_sim *sim, dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
     const double aim = trial_step->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE : 1.0;
@@ -235,19 +254,19 @@ static int32_t judge(dmb_sim *sim, dmb_trial_step *trial_step, dmb_convergence_h
     return status != 1 && is_met(sim, trial_step, history) ? 0 : status;
 }
 
-/* [-] Work of the residual over the last correction, relative to that before it, below which the correction went too
- * far. */
+/* [-] Ratio of the work of the residual along the last correction, after to before it, below which the correction
+ * overshot. */
 #define DMB_NEWTON_BEYOND -0.5
 
-/* [J] of the residual over the correction at hand, where contacts have mean forces. */
+/* [J] Work of the residual along the present correction, if contacts have mean forces; otherwise 0. */
 static double work_along(const dmb_sim *sim)
 {
     if (!dmb_sites_have_mean(sim)) return 0.0;
     return sim->scene->kernels->product(sim->scene->row_count, sim->correction, sim->residual);
 }
 
-/* Friction of contacts with mean forces is steep in their slip: from one side of that, Newton comes as far beyond it on
- * the other, again and again. 1: the last correction went too far, so that half of the next one comes between. */
+/* 1: the last correction overshot, and the next one is halved. Friction of contacts with mean forces is steep in their
+ * slip, so that full corrections alternate between its two sides. */
 static int32_t went_beyond(const dmb_sim *sim, const dmb_convergence_history *history)
 {
     const double before = history->along;
@@ -259,7 +278,7 @@ static void halve(dmb_sim *sim)
     for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->correction[i] *= 0.5;
 }
 
-/* Moves the trial by the correction that the factors at hand give. */
+/* Solves for a correction with the present factors and moves the trial by it. */
 static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step,
                     dmb_convergence_history *history)
 {
@@ -272,14 +291,14 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step
         history->most_work = fmax(history->most_work, history->work);
     }
     trial_step->iterations++;
-    if (trial_step->factored == DMB_FACTORS_FRESH) { /* kept ones give way to a tangent at the true stress */
+    if (trial_step->factored == DMB_FACTORS_FRESH) { /* reused factors are replaced by a tangent at the true stress */
         dmb_system_extrapolate_stress(sim, sim->correction);
         trial_step->evaluation.extrapolated = 1;
     }
     dmb_step_motion_correct(sim, c, trial_step->end.step);
 }
 
-/* One Newton iteration; 1: go on, otherwise as dmb_newton. */
+/* One Newton iteration. 1: continue, otherwise the result of dmb_newton. */
 static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step,
                        dmb_convergence_history *history)
 {
@@ -298,7 +317,7 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_s
     return 1;
 }
 
-/* The change that a linear prediction makes counts as a first correction; where there is none, as after a jump, it is
+/* The change by a linear prediction counts as a first correction; if there is none, as after a jump, the prediction is
  * the constant one. */
 static void begin_linear(dmb_sim *sim, dmb_trial_step *trial_step, dmb_convergence_history *history)
 {
@@ -318,15 +337,15 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step 
     return status;
 }
 
-/* Steps count as equally long that differ by this part: by the rounding of times, and what no rate of convergence
- * feels. */
+/* [-] Relative difference up to which steps count as equally long: the rounding of times, without effect on the rate of
+ * convergence. */
 #define DMB_REUSE_STEP 1e-6
-/* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
- * reused factors would lead astray. */
+/* [-] Initial residual above which reused factors make no correction: bodies touch in this step, and such a correction
+ * would diverge. */
 #define DMB_REUSE_START 0.1
-/* [-] of the damping at touch that factors may have in them. */
+/* [-] Largest weight of the damping at touch (eq:touch.weights) in factors that are kept. */
 #define DMB_REUSE_WEIGHT 1e-3
-/* New factors cost about as much as this many corrections with old ones. */
+/* Number of corrections that cost as much as new factors. */
 #define DMB_EXCESS_MAX 2
 
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_trial_step *trial_step)
@@ -357,7 +376,7 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_trial_step *trial
     return rate * rate * trial_step->residual <= trial_step->bound;
 }
 
-/* Kept factors have done for a whole step. */
+/* Reused factors were sufficient for a whole step. */
 static void count_success(dmb_factor_reuse *reuse, uint32_t corrections)
 {
     if (reuse->corrections == 0 || corrections < reuse->corrections) reuse->corrections = corrections;
@@ -369,7 +388,7 @@ static void count_success(dmb_factor_reuse *reuse, uint32_t corrections)
     if (reuse->excess >= DMB_EXCESS_MAX) reuse->step = 0.0;
 }
 
-/* Fresh factors were needed, after kept ones had been tried or without a try. */
+/* Fresh factors were needed; `tried`: after reused ones had failed, which doubles the back-off. */
 static void count_pause(dmb_factor_reuse *reuse, int32_t tried)
 {
     if (tried) {
@@ -380,7 +399,7 @@ static void count_pause(dmb_factor_reuse *reuse, int32_t tried)
     }
 }
 
-/* Factors of a step near touch have its weight of the damping in them: they are good for no other step. */
+/* 1: a contact point is near touch. The factors contain the weight of its damping and fit no other step. */
 static int32_t is_near_touch(const dmb_sim *sim, const dmb_configuration *reached)
 {
     for (uint32_t s = 0; dmb_scene_has_touch(sim->scene) && s < sim->scene->site_count; s++)

@@ -4,14 +4,14 @@
 #include "system/assemble/assemble.h"
 #include "system/solve/solve.h"
 
-/* [-] Smallest part of its change over a step by which a0 is apart from v0': near spectral radius 1 it is next to
- * nothing, and the slope would be that of what Newton has left. */
+/* [-] Smallest |a0 - v0'| over the change of acceleration in a step. Near spectral radius 1 it vanishes, and the
+ * extrapolated slope would be dominated by the error of the Newton iteration. */
 #define DMB_APART_MIN 0.02
-/* [-] Most iterations of a step, from accelerations that stay, behind which they may go on: more tell of contacts. */
+/* [-] Most iterations of a constant prediction after which the linear one is tried: more indicate contacts. */
 #define DMB_SMOOTH_MOST 3
 
-/* Joints move their trial, and free rigid bodies their centres of mass, by rules of their own; and a tolerance that is
- * given leaves what it always left. */
+/* Linear prediction requires the error-based bound of Newton, no joints and no free rigid bodies (which move their
+ * trial by projection or about their centre of mass), and no failed or contact-changing try in this step. */
 static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_trial_step *trial_step)
 {
     const dmb_scene *scene = sim->scene;

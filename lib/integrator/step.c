@@ -1,3 +1,20 @@
+/* Steps of fixed length (dmb_sim_step, dmb_sim_steps) and steps with error control (dmb_sim_advance). Both try trial
+ * steps (integrator/trial_step) and accept or reject them here.
+ *
+ *     trial step            fixed length                             error control
+ *     -------------------   --------------------------------------   -----------------------------------------------
+ *     succeeds              accept; after cuts double the length     error <= 1, or h = step_min: accept, h from the
+ *                                                                    error ahead; otherwise repeat with <= 0.8 h
+ *     work limit reached    accept with DMB_NOTE_WORK_LIMITED        counts as no convergence
+ *     does not converge     repeat with h/2, at most max_cuts times  repeat with h/4, not below step_min
+ *                           and not below step_min
+ *     cancelled, callback   return the status                        return the status
+ *       or memory failed
+ *     stuck place releases  shorten the step to the release, accept  the same
+ *
+ * A failing dmb_sim_step restores the state before the call; dmb_sim_advance keeps the steps accepted so far. With
+ * bounded_work, a fixed step is neither divided nor repeated. After acceptance (accept): release of stuck places,
+ * widening of the hole, jumps of commands and of prescribed rates; any of them restarts the accelerations. */
 #include "integrator/step.h"
 
 #include <float.h>
@@ -25,7 +42,7 @@ int32_t dmb_stepping_begin(dmb_sim *sim, const dmb_step_report *report, dmb_step
     memset(stepping, 0, sizeof *stepping);
     (void)dmb_step_report_init(&stepping->report, (uint32_t)sizeof stepping->report);
     stepping->counters = *sim->counters;
-    dmb_step_report unused; /* only its size matters: what the caller's report holds is from an earlier call */
+    dmb_step_report unused; /* only the size is checked: the contents of the report are those of an earlier call */
     return report == NULL ? DMB_OK : dmb_step_report_read(&unused, report);
 }
 
@@ -43,8 +60,8 @@ int32_t dmb_stepping_check_at_most(dmb_sim *sim, const char *field, double value
     return check.status;
 }
 
-/* 1 if forces, or the rate of a time function, may jump behind the step, so that accelerations may be made anew.
- * *turns: the rate does. DMB_ERR_CALLBACK. */
+/* 1 if forces or the rate of a time function may jump at the end of the step, so that accelerations may have to be
+ * recomputed. *turns: the rate jumps. DMB_ERR_CALLBACK. */
 static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t *turns)
 {
     const dmb_scene *scene = sim->scene;
@@ -54,7 +71,7 @@ static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t 
            dmb_actuators_may_jump(scene);
 }
 
-/* Accelerations anew where forces, or the rate of a time function, jump at the time reached; *jumped: they do. */
+/* Recomputes the accelerations if forces or the rate of a time function jump at the time reached; *jumped: they do. */
 static int32_t stepping_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
@@ -68,9 +85,9 @@ static int32_t stepping_breakpoint(dmb_sim *sim, int32_t turns, int *jumped)
     return status;
 }
 
-/* The state that a failure brings back is set aside unless the call has done that. Where a function of the caller's may
- * fail, factors are kept only when none can come any more, and are lost where the accelerations were made anew from
- * others; elsewhere those that a step made are lost with it. */
+/* Accepts the step. The state is backed up first unless the call has done so. If a callback may still fail, factors are
+ * kept only after the last callback, and are discarded if the accelerations were recomputed with others; after a
+ * failure, the factors made by this step are discarded. */
 static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     const dmb_factor_reuse kept = *sim->reuse;
@@ -139,16 +156,15 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
                          const dmb_stepping *stepping)
 {
     dmb_step_report out = stepping->report;
-    if (status ==
-        DMB_ERR_CANCELLED) { /* tried again by the call that goes on from here, whose bits are then the same */
+    if (status == DMB_ERR_CANCELLED) { /* the next call repeats this work and obtains the same bits */
         out.rejected = stepping->rejected;
         out.iterations = stepping->iterations;
     }
-    if (status < 0 && restore) { /* counters too: a failing call changes nothing */
+    if (status < 0 && restore) { /* counters are restored too: a failing call changes nothing */
         if (stepping->set_aside) dmb_state_restore(sim);
         *sim->counters = stepping->counters;
         out.steps = 0;
-    } else { /* work spent in vain on the way counts */
+    } else { /* rejected work counts */
         sim->counters->rejected = stepping->counters.rejected + out.rejected;
         sim->counters->iterations = stepping->counters.iterations + out.iterations;
     }
@@ -160,7 +176,7 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
         return DMB_NOTE_CANCELLED;
     }
     if (status < 0) return status;
-    /* Before the others, which tell how good the steps were: the time that was asked for was not reached. */
+    /* Before the notes on accuracy: the requested time was not reached. */
     if (stepping->stopped) {
         dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
                         sim->options.max_steps);
@@ -183,15 +199,15 @@ int32_t dmb_stepping_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step
     return DMB_NOTE_STEP_CUT;
 }
 
-/* dmb_sim_step: one step of the asked length, divided at time function breakpoints and where Newton does not converge.
- */
+/* dmb_sim_step: one step of the requested length, divided at breakpoints of time functions and if Newton does not
+ * converge. */
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 
-/* [s] Longer steps are mistakes; halved on the way to each breakpoint, they would not end either. */
+/* [s] Longer steps are mistakes; their division at breakpoints by halving would not end. */
 #define DMB_DURATION_MAX 1e18
 
-/* The next substep: not over a breakpoint, nor leaving a sliver before the end. */
+/* End of the next substep: at most `cut` long, not beyond a breakpoint, and without a sliver before the end. */
 static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double cut)
 {
     if (sim->options.bounded_work) return dmb_step_end_on_breakpoint(dmb_step_end_over_breakpoints(sim, goal));
@@ -200,7 +216,7 @@ static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double
     return dmb_step_end_after(sim, cut);
 }
 
-/* One accepted step of at most `cut`, halving on failure. */
+/* Takes one accepted substep of at most `cut`, halved after each failure. */
 static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts, dmb_stepping *stepping)
 {
     dmb_trial_step trial_step;
@@ -224,8 +240,7 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
             const int32_t refused = dmb_stepping_commit(sim, &trial_step, stepping);
             if (refused < 0) return refused;
             stepping->arrived = trial_step.end.arrives;
-            *cut =
-                *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a breakpoint nearby does not shorten what follows */
+            *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a breakpoint does not shorten later substeps */
             if (*cuts > 0) --*cuts;
             return status;
         }
@@ -267,7 +282,7 @@ int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
 
 /* ---- Equal steps in one call ------------------------------------------------------------------------------------- */
 
-/* The work of one step added to that of all; a failing step adds what it tried. */
+/* Adds the work of one step to the total; a failing step adds its rejected trial steps. */
 static void add_report(dmb_step_report *sum, const dmb_step_report *one)
 {
     sum->steps += one->steps;
@@ -279,8 +294,7 @@ static void add_report(dmb_step_report *sum, const dmb_step_report *one)
     sum->last_step = one->last_step;
 }
 
-/* The status of a step that says most about the call: a failure, then the larger of the notes 0 < 1 < 2 of a step. Its
- * message is kept. */
+/* Keeps the most important status with its message: a failure, otherwise the largest of the notes 0 < 1 < 2. */
 static void note_step(const dmb_sim *sim, int32_t status, int32_t *worst, dmb_message *message)
 {
     if (status > 0 && status < *worst) return;
@@ -289,7 +303,7 @@ static void note_step(const dmb_sim *sim, int32_t status, int32_t *worst, dmb_me
     *message = sim->message;
 }
 
-/* Refuses what a step would refuse, before the first. */
+/* Checks the arguments as dmb_sim_step does, before the first step. */
 static int32_t check_steps(dmb_sim *sim, double duration, const dmb_step_report *report)
 {
     dmb_stepping unused;
@@ -326,17 +340,17 @@ int32_t dmb_sim_steps(dmb_sim *sim, double duration, uint32_t count, uint32_t *d
     return status < 0 ? status : dmb_sim_leave(sim, steps(sim, duration, count, done, report));
 }
 
-/* dmb_sim_advance: steps whose local error holds the tolerances. The estimate is of third order, so
- *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2)
- * with the error ahead of the step, not its own (dmb_step_error): steps that follow the error through the zeros of an
- * oscillation change four times a period, and each change leaves a part of h_1^2 - h_2^2 of what equal steps take back
- * (eq:integration.energy-left). */
+/* dmb_sim_advance: steps whose local error satisfies the tolerances. The estimate is of third order, therefore
+ *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2)                                              (eq:integration.local-error)
+ * with the error ahead of the step instead of its own (eq:integration.error-ahead): steps that follow the error through
+ * the zeros of an oscillation change four times a period, and each change leaves a part of h_1^2 - h_2^2 of the energy
+ * that equal steps return (eq:integration.energy-left). */
 
 /* ---- Error-controlled steps -------------------------------------------------------------------------------------- */
 
-/* Step length that the control chooses after an error of `error` tolerances. Without clusters the factors of a step of
- * the same length may serve (factor reuse), so a length is held while the ratio lies in 0.9 .. 1.2; with them every
- * step makes its own. */
+/* Step length after an error of `error` tolerances. Without constraint components, factors of a step of the same length
+ * can be reused, so the length is kept while the ratio lies in 0.9 .. 1.2; with them, each step makes its own factors.
+ */
 static double next_step(const dmb_sim *sim, double h, double error)
 {
     double ratio = error > 0.0 ? 0.9 * dmb_pow(error, -1.0 / 3.0) : 2.0;
@@ -345,7 +359,7 @@ static double next_step(const dmb_sim *sim, double h, double error)
     return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);
 }
 
-/* After a step whose error was too large: always shorter, or the same step would be tried for ever. */
+/* Step length after a rejected step: always shorter, because the same length would be rejected again. */
 static double retry_step(const dmb_sim *sim, double h, double error)
 {
     return fmax(fmin(next_step(sim, h, error), 0.8 * h), sim->options.step_min);
@@ -357,7 +371,7 @@ double dmb_advance_first(const dmb_sim *sim)
     return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
 }
 
-/* A step of about h that ends neither beyond `time` nor a breakpoint; without leaving a sliver. */
+/* A step of about h that ends neither beyond `time` nor beyond a breakpoint, and leaves no sliver. */
 static dmb_step_end fit(const dmb_sim *sim, double h, double time)
 {
     const dmb_step_end goal = dmb_step_end_at(sim, time);
@@ -366,11 +380,12 @@ static dmb_step_end fit(const dmb_sim *sim, double h, double time)
     return dmb_step_end_after(sim, h > 0.5 * end.step ? 0.5 * end.step : h);
 }
 
-/* The step wanted after one of length h; of one that was cut short only when it tells more. */
+/* Proposed length after a step of length h. A step cut short at a breakpoint changes the proposal only downwards or
+ * beyond it. */
 static double wanted_after(const dmb_sim *sim, double h, double wanted, double error, int retried)
 {
     const double next = next_step(sim, h, error);
-    if (next > wanted && retried) return wanted; /* it has just failed at more */
+    if (next > wanted && retried) return wanted; /* a longer step has just failed */
     return next > wanted || h >= wanted * 0.999 || next < h ? next : wanted;
 }
 
@@ -388,7 +403,7 @@ int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_stepping
         if (!(end.time > sim->clock->time)) return dmb_stepping_stuck(sim, "length", h);
         int32_t status = dmb_trial_step_run(sim, &end, 1, &trial_step);
         if (status == DMB_NOTE_WORK_LIMITED)
-            status = trial_step.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
+            status = trial_step.status = DMB_ERR_NO_CONVERGENCE; /* steps are not accepted at the work limit here */
         if (status >= 0 && sim->scene->stuck_count > 0) status = dmb_trial_step_to_release(sim, &trial_step);
         const double taken = trial_step.end.step;
         const int smallest = !(h > sim->options.step_min * 1.0001);

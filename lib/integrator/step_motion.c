@@ -1,3 +1,7 @@
+/* Formulas of generalized-alpha by rows (eq:integration.recursion, eq:integration.newmark), in chunks of nodes:
+ *     predict   v1' from the history, a1, then v1 and z = h Dq
+ *     correct   v += gamma' dz, v' += beta' dz, a += dz/(h^2 beta), z += dz (eq:integration.factors)
+ * Free rigid bodies use them at their centres of mass, rotors in axes that do not spin with them. */
 #include "integrator/step_motion.h"
 
 #include "kernel/kernels.h"
@@ -6,7 +10,7 @@
 #include "system/assemble/evaluation.h"
 #include "system/constrain/rotor.h"
 
-/* Rows that a part takes at least. */
+/* Smallest number of rows of a work chunk. */
 enum { ROWS = 6 * DMB_GRAIN };
 
 typedef struct predict_rows {
@@ -14,7 +18,7 @@ typedef struct predict_rows {
     const dmb_predict_args *args;
 } predict_rows;
 
-/* place: the poses of the nodes follow their rows. */
+/* place: 1, the poses of the nodes are updated with their rows. */
 typedef struct correct_nodes {
     dmb_sim *sim;
     const dmb_correct_args *args;

@@ -6,10 +6,11 @@
 
 typedef struct dmb_generalized_alpha {
     double am, af, gamma, beta;
-    double error; /* local error of the pose is error h^2 (a1 - a0), eq:integration.local-error */
+    double error; /* local error of the pose is error h^2 (a1 - a0) (eq:integration.local-error) */
 } dmb_generalized_alpha;
 
-/* r: spectral radius at infinite frequency, 0 .. 1 (eq:integration.parameters, eq:integration.modified) */
+/* Parameters for the spectral radius r at infinite frequency, 0 .. 1 (eq:integration.parameters,
+ * eq:integration.modified). */
 static inline dmb_generalized_alpha dmb_generalized_alpha_of(double r)
 {
     dmb_generalized_alpha c;
@@ -21,12 +22,13 @@ static inline dmb_generalized_alpha dmb_generalized_alpha_of(double r)
     return c;
 }
 
-/* The motion that a step iterates on: predicted from the accepted state, then corrected by Newton. */
+/* Motion of the trial: predicted from the accepted state, then corrected by Newton. */
 
-/* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
+/* [-] Largest ratio of a step to the one before for which the pseudo-acceleration is carried. */
 #define DMB_STEP_RATIO_MAX 1e3
 
-/* The trial itself, or what is projected onto the constraints to become it. Increments h Dq: sim->increment. */
+/* The trial itself or, in scenes with joints, the motion before its projection onto the constraints. Increments h Dq:
+ * sim->increment. */
 typedef struct dmb_step_motion {
     double *velocity, *acceleration, *pseudo_acceleration;
 } dmb_step_motion;
@@ -38,8 +40,8 @@ static inline dmb_step_motion dmb_step_motion_of(const dmb_sim *sim)
     return sim->scene->cluster_count ? raw : trial;
 }
 
-/* After a sliver of a step a0 - v0' is lost in what Newton left over, and the ratio would blow that up: a0 starts anew
- * from the acceleration. */
+/* [-] Ratio of this step to the one before. After a very short step a0 - v0' is lost in the error of Newton, which a
+ * large ratio would amplify: ratio 0 then restarts a0 from the acceleration. */
 static inline double dmb_step_motion_ratio(const dmb_sim *sim, double step)
 {
     if (!(sim->clock->step > 0.0)) return 1.0;
@@ -54,18 +56,19 @@ static inline double dmb_step_motion_carried(const dmb_sim *sim, double ratio, u
     return a + ratio * (sim->now.pseudo_acceleration[i] - a);
 }
 
-/* Start of a step of length h [s]: v1' = v0' + slope (a0 - v0'). Where slope [-] is not 0, sim->correction becomes what
- * the increments are more by than with 0; then without joints and free rigid bodies. */
+/* Prediction of a step of length h [s]: v1' = v0' + slope (a0 - v0') (eq:integration.prediction). With slope [-] != 0,
+ * sim->correction becomes the increments less those for slope 0; requires a scene without joints and free rigid bodies.
+ */
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h, double slope);
-/* Takes over what motion drives of nodes have written into the trial. */
+/* Copies the motion prescribed by drives of nodes from the trial. */
 void dmb_step_motion_keep_prescribed(dmb_sim *sim);
-/* Pose of the trial: that of now moved by the increments. */
+/* Pose of the trial: the accepted pose moved by the increments. */
 void dmb_step_motion_place(dmb_sim *sim);
-/* Moves motion and trial until the increments are these, where they are not prescribed. */
+/* Moves motion and trial to the given increments, except in prescribed rows. */
 void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double h, const double *increment);
-/* The increments alone. */
+/* Sets the increments alone. */
 void dmb_step_motion_take(dmb_sim *sim, const double *increment);
-/* Moves motion and trial by sim->correction, that of h Dq. */
+/* Moves motion and trial by sim->correction, a change of h Dq (eq:integration.factors). */
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 
 #endif

@@ -1,3 +1,20 @@
+/* A trial step and its fallbacks. Each row is tried only if the one above it ends as the last column says:
+ *
+ *     stage                          start                                           next stage if
+ *     ----------------------------   ---------------------------------------------   ----------------------------------
+ *     1 solve                        linear prediction if allowed, else constant;    contacts change    -> 2
+ *                                    reused factors if they fit                      does not converge  -> 3
+ *     2 solve, constant prediction   accelerations at the start                      does not converge  -> 3
+ *     3 solve, no reuse              constant prediction, factors of its own         does not converge  -> step fails
+ *
+ *     solve = predict -> Newton -> contacts open? -> repeat without their force (at most 4 times)
+ *
+ * Stage 2 follows a linear prediction only; stage 3 only if reused factors or a linear prediction were tried. The
+ * release (eq:contact.release) follows each successful solve: contacts that open, and mean forces by which the step
+ * gains energy (eq:contact.gain), leave the history of the step, which is then repeated from the increments found.
+ * Final checks, each of which fails the step: an equation dropped as redundant is violated, a joint is near its gimbal
+ * singularity, the mass matrix for the accelerations after mean forces is singular, an element has rotated too far. A
+ * failed step is divided by the caller (integrator/step). */
 #include "integrator/trial_step.h"
 
 #include <string.h>
@@ -17,7 +34,7 @@
 #include "system/constrain/rotor.h"
 #include "system/system.h"
 
-/* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */
+/* [-] Violation, over the length of the parts, at which an equation dropped as redundant has become independent. */
 #define DMB_DROPPED_VIOLATION 1e-7
 
 static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)
@@ -37,7 +54,7 @@ static void add_row(motion_norms *most, double tolerance, double jump, double ac
     most->speed = fmax(most->speed, fabs(speed) / tolerance);
 }
 
-/* A free rigid body, at its centre of mass. */
+/* Adds the rows of a free rigid body, at its centre of mass. */
 static void add_rigid(const dmb_sim *sim, double ratio, uint32_t rigid, motion_norms *most)
 {
     const double *motion = dmb_free_rigid_motion(sim, rigid);
@@ -49,7 +66,7 @@ static void add_rigid(const dmb_sim *sim, double ratio, uint32_t rigid, motion_n
     }
 }
 
-/* A rotor, in axes that do not spin with it. */
+/* Adds the rows of a rotor, in axes that do not spin with it. */
 static void add_rotor(const dmb_sim *sim, double ratio, uint32_t rotor, motion_norms *most)
 {
     const dmb_rotor_step *step = sim->rotor_step + rotor;
@@ -95,12 +112,13 @@ static motion_norms norms_of(const dmb_sim *sim, double h)
     return most;
 }
 
-/* [-] Most that the error ahead is over the error here: what is left of Newton and rounding tells no frequency. */
+/* [-] Largest ratio of the error ahead to the present error: below it, the error of Newton and rounding define no
+ * frequency. */
 #define DMB_AHEAD_MAX 64.0
 
-/* Local error (eq:integration.local-error), and what it may become within a quarter of a period
- * (eq:integration.error-ahead). Where steps do not resolve the motion, h w > 1, the acceleration does not change by
- * more than itself. */
+/* Local error (eq:integration.local-error), and its largest value within a quarter of a period
+ * (eq:integration.error-ahead). If steps do not resolve the motion, h w > 1, the change of the acceleration is bounded
+ * by the acceleration itself. */
 dmb_step_error dmb_trial_step_error(const dmb_sim *sim, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
@@ -132,8 +150,9 @@ void dmb_trial_step_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation
     evaluation->given = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
 }
 
-/* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and
- * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
+/* Repeats the step from the increments found so far with the effect of opening contacts removed from its history: v0'
+ * and a0 less M^-1 times their forces, and a0 - v0' = 0 at their nodes from then on, because it would oscillate in free
+ * flight (eq:contact.release). */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     if (sim->follower != NULL) sim->follower->open(sim->follower->context);
@@ -146,8 +165,8 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_t
     return dmb_newton(sim, c, trial_step);
 }
 
-/* A row that was found redundant has to hold with the others; where it does not, the constraints have become singular.
- */
+/* An equation dropped as redundant must be satisfied by the others; if it is violated, the constraints have become
+ * singular. */
 static int32_t check_dropped(dmb_sim *sim)
 {
     uint32_t row;
@@ -158,19 +177,19 @@ static int32_t check_dropped(dmb_sim *sim)
     return DMB_ERR_SINGULAR;
 }
 
-/* Contacts close or open in a step that began with a linear prediction. Such a step may have more than one solution,
- * and the one is taken that accelerations that stay lead to. */
+/* Internal status: contacts close or open in a step with linear prediction. Such a step may have more than one
+ * solution; the one reached from the constant prediction is used. */
 enum { DMB_CHANGES = 1000 };
 
-/* Most times that a step is taken again since taking it without the forces that open lets others open. */
+/* Largest number of repetitions without opening forces, each of which may open further contacts. */
 enum { DMB_RELEASES_MAX = 4 };
 
-/* [-] Energy gained over the energy exchanged with the wall: from the first on the step is taken again with the mean
- * forces in its history, from the second on it is divided where no iteration is left for that. */
+/* [-] Energy gained over the energy exchanged with the wall (eq:contact.gain): above the first, the step is repeated
+ * with the mean forces in its history; above the second, it is divided if no iteration is left for that. */
 #define DMB_GAIN_CARRIED 0.002
 #define DMB_GAIN_DIVIDED 0.1
 
-/* A step that gains energy at the wall. 1: it is to be taken again, < 0: divided. */
+/* Checks the energy gained at the wall. 1: the step is to be repeated with mean forces in its history, < 0: divided. */
 static int32_t carry(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     const double gain = dmb_bounces_gain(&trial_step->evaluation);
@@ -181,7 +200,7 @@ static int32_t carry(dmb_sim *sim, const dmb_trial_step *trial_step)
     return 1;
 }
 
-/* Contacts that open, and those that open when it is taken again without their forces. */
+/* Repeats the step without the forces of contacts that open, and again for those that open by that. */
 static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     int32_t status = DMB_OK, opens = dmb_contact_opens(sim);
@@ -196,7 +215,7 @@ static int32_t release(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_s
     return status;
 }
 
-/* From the prediction to the end of the iteration, and over again where contacts open. */
+/* Stages of one solve: prescribe, predict, Newton, release. DMB_CHANGES: to be repeated with constant prediction. */
 static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
 {
     dmb_trial_step_set_up(sim, &trial_step->end, &trial_step->evaluation);
@@ -228,7 +247,7 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
         status = solve_step(sim, &c, trial_step);
     }
     if ((trial_step->tried || trial_step->linear) && status < 0 && !dmb_is_final(status)) {
-        /* once more, with factors of its own, from accelerations that stay */
+        /* stage 3: factors of its own, constant prediction */
         trial_step->diverged = 1;
         trial_step->iterations = 0;
         status = solve_step(sim, &c, trial_step);
@@ -254,7 +273,7 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
     return trial_step->status;
 }
 
-/* With the threads of the caller's, whose failure is that of the step whatever else came of it. */
+/* Runs the step with the caller's threads; their failure fails the step, whatever its result. */
 int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
 {
     dmb_chunks_open(sim);
@@ -263,18 +282,20 @@ int32_t dmb_trial_step_run(dmb_sim *sim, const dmb_step_end *end, int32_t whole,
     return failed < 0 ? failed : status;
 }
 
-/* ---- To the time at which a stuck place lets go ------------------------------------------------------------------ */
+/* ---- Step to the release of a stuck place -------------------------------------------------------------------------
+ */
 
-#define DMB_RELEASE_TOLERANCE 1e-11 /* [-] of the force beyond that at which it lets go */
+#define DMB_RELEASE_TOLERANCE 1e-11 /* [-] excess of the force over the release force */
 enum { DMB_RELEASE_TRIALS = 60 };
 
-/* The force less what it lets go at, over that. */
+/* [-] Force over its release force, less 1; the largest of all stuck places. */
 static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
 {
     return dmb_stuck_largest_share(sim, configuration, 1) - 1.0;
 }
 
-/* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) over the length of the step, by steps really taken. */
+/* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) for the length of the step at which the largest force
+ * equals its release force. Each evaluation is a trial step, so that the result does not depend on interpolation. */
 int32_t dmb_trial_step_to_release(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     double low = 0.0, high = trial_step->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
@@ -332,14 +353,14 @@ void dmb_trial_step_commit(dmb_sim *sim, dmb_trial_step *trial_step)
 
 #define DMB_TURNING_MAX (2.0 * (DMB_PI - 2.5)) /* [rad] */
 
-/* [rad2] square of what a node turned about its own axes in the step. */
+/* [rad2] Squared rotation of a node about its own axes in the step. */
 static double turned_squared(const dmb_sim *sim, uint32_t node)
 {
     const double *z = sim->increment + sim->scene->layout.row[node];
     return sim->scene->layout.size[node] == DMB_NODE_SIX_DOF ? dmb_vec3_norm_squared(z + 3) : z[1] * z[1];
 }
 
-/* z_B - R^T z_A, R the orientation of B seen from A */
+/* [rad] Norm of z_B - R^T z_A (rotations), R the orientation of B seen from A. */
 static double turned_apart(const dmb_sim *sim, uint32_t a)
 {
     double Ra[9], Rb[9], u[3], za[6], zb[6], world[3], apart[3];
@@ -372,7 +393,7 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
 
 /* Message of a failed trial step: which part, at what time. */
 
-/* Tells what to do about a step that does not converge, where that is known. */
+/* Appends advice on a step that does not converge, if a cause is known. */
 static void advise(const dmb_sim *sim, dmb_message *text)
 {
     double spin = 0.0;
@@ -403,7 +424,7 @@ void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
         dmb_message_set(&sim->message, "%s: iteration matrix singular at time %g, step %g", owner.text.text,
                         trial_step->evaluation.time, trial_step->end.step);
         break;
-    case DMB_ERR_GEOMETRY: /* said where it was found */ break;
+    case DMB_ERR_GEOMETRY: /* reported where it was detected */ break;
     case DMB_ERR_NOT_FINITE:
         dmb_message_set(&sim->message, "step to time %g of length %g: forces not finite", trial_step->end.time,
                         trial_step->end.step);

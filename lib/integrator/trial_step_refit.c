@@ -1,17 +1,18 @@
-/* The motion at the end of a step once more, from the increments found so far and a history that contacts which open
- * have been taken off (eq:contact.release). */
+/* Motion at the end of a repeated step, from the increments found so far and a history without the contacts that open
+ * (eq:contact.release): a1 from eq:integration.newmark solved for it, v1' from eq:integration.recursion, v1 from both.
+ */
 #include "integrator/step_motion.h"
 #include "integrator/trial_step.h"
 #include "sim/chunks.h"
 #include "system/assemble/assemble.h"
 #include "system/constrain/rotor.h"
 
-/* Increment z over a step, and speed v, acceleration dv and pseudo-acceleration a0 that it starts from. */
+/* Increment z over a step, and velocity v, acceleration dv and pseudo-acceleration a0 at its start. */
 typedef struct start {
     double z, v, dv, a0;
 } start;
 
-/* Row i of the motion at the end of the step. */
+/* Motion of row i at the end of the step. */
 static void refit(const dmb_generalized_alpha *c, double h, const start *s, const dmb_step_motion *to, uint32_t i)
 {
     const double z = s->z, v = s->v, dv = s->dv, a0 = s->a0;
@@ -21,7 +22,7 @@ static void refit(const dmb_generalized_alpha *c, double h, const start *s, cons
     to->velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
 }
 
-/* A free rigid body in the step once more: as below, at its centre of mass. */
+/* A free rigid body, at its centre of mass. */
 static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t rigid)
 {
     const uint32_t node = sim->scene->free_rigids[rigid].node, row = sim->scene->layout.row[node];
@@ -46,7 +47,7 @@ static void refit_rotor(const dmb_sim *sim, const dmb_generalized_alpha *c, doub
     const double ratio = dmb_step_motion_ratio(sim, h), kept = 1.0 - sim->released_part[node];
     const double *from = sim->rotor_step[rotor].start;
     dmb_step_motion to = dmb_step_motion_of(sim);
-    const double *gone = sim->correction + row; /* in axes of the end of the step already */
+    const double *gone = sim->correction + row; /* already in axes at the end of the step */
     to.velocity += row, to.acceleration += row, to.pseudo_acceleration += row;
     for (uint32_t k = 0; k < 6; k++) {
         const double dv = from[6 + k] - gone[k], a0 = dv + kept * ratio * (from[12 + k] - from[6 + k]);
