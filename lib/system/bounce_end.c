@@ -1,5 +1,15 @@
-/* Accelerations behind a step in which contacts, stops or springs touch or open: without the mean forces that the step
- * had (eq:unilateral.mean, eq:unilateral.resolved, eq:contact.mean). */
+/* Accelerations at the end of a step in which contacts, stops or springs had mean forces (eq:unilateral.mean,
+ * eq:unilateral.resolved, eq:contact.mean). The mean force belongs to the step, not to its end, so the accelerations
+ * are corrected before the next step starts from them: v1' += M^-1 J^T (own - law),   own: force of the step's own
+ * integration,   law: force of the law at the end
+ *
+ *     state of the contact at the end of the step             treatment in the next step
+ *     -----------------------------------------------------   ------------------------------------------------------
+ *     open                                                    by its law, force 0
+ *     touched in this step, (k h + c) h J M^-1 J^T <= 1/4     by its law (the step resolves the contact)
+ *     touched in this step, stiffer                           by its mean force (law = 0 above)
+ *     closed, younger than 10 steps                           as in the step before
+ *     closed for 10 steps (contact points: damper settled)    by its law (lasting contact) */
 #include "system/system.h"
 
 #include <math.h>
@@ -11,12 +21,12 @@
 #include "system/assemble/ledger.h"
 #include "system/solve/solve.h"
 
-/* [-] (k h^2 + c h)/m of a contact up to which steps resolve it. */
+/* [-] Largest (k h^2 + c h)/m of a contact that steps resolve (eq:unilateral.resolved). */
 #define DMB_BOUNCE_RESOLVED 0.25
 
-/* Accelerations [m/s2, rad/s2], shape (row): M^-1 of the forces of the step's own integration, which go, and of those
- * of the laws that are followed from here on, which come. Without stops and springs in arrays that nobody needs behind
- * a trial. */
+/* Accelerations [m/s2, rad/s2], shape (row): M^-1 times the removed forces of the step's own integration, and M^-1
+ * times the added forces of the laws that act from here on. Without stops and springs, in work arrays that are unused
+ * after a trial step. */
 static double *taken_of(const dmb_sim *sim)
 {
     return sim->scene->unilateral_count > 0 ? sim->bounce_taken : sim->scale_row;
@@ -26,7 +36,7 @@ static double *given_of(const dmb_sim *sim)
     return sim->scene->unilateral_count > 0 ? sim->bounce_given : sim->correction;
 }
 
-/* sim->correction = M^-1 J^T, by the factors at hand; returns J M^-1 J^T [1/kg, 1/(kg m2)]. */
+/* sim->correction = M^-1 J^T with the present factors; returns the mobility J M^-1 J^T [1/kg, 1/(kg m2)]. */
 static double mobility(dmb_evaluation *evaluation, uint32_t u)
 {
     dmb_sim *sim = evaluation->sim;
@@ -38,7 +48,7 @@ static double mobility(dmb_evaluation *evaluation, uint32_t u)
     return sum;
 }
 
-/* 1: the law is stiff for the step, and has not been closed for long. */
+/* 1: the law keeps its mean force in the next step (table at the head of this file). */
 static uint8_t stays(const dmb_evaluation *evaluation, uint32_t u, double inverse_mass, const dmb_unilateral_end *a,
                      const dmb_unilateral_end *b)
 {
@@ -49,7 +59,7 @@ static uint8_t stays(const dmb_evaluation *evaluation, uint32_t u, double invers
     return (b->slope * h + dmb_bounce_damping(sim->scene, u)) * h * inverse_mass > DMB_BOUNCE_RESOLVED;
 }
 
-/* The step's own force goes, that of the law comes where the law is followed from here on. */
+/* Removes the step's own force of law u, and adds the force of the law if it acts from here on. */
 static void exchange(dmb_evaluation *evaluation, uint32_t u, const dmb_unilateral_end *a, const dmb_unilateral_end *b)
 {
     dmb_sim *sim = evaluation->sim;
@@ -79,8 +89,8 @@ static int site_stays(const dmb_sim *sim, uint32_t s)
     return (sim->site_mode[s] & DMB_SITE_STAYS) != 0;
 }
 
-/* Force of a site at the end of a step by the law, and the one that stands for the mean force there; mean force [N],
- * and [J] that the wall takes. */
+/* Force of a contact point at the end of a step by its law, and the equivalent of its mean force there; mean force [N],
+ * and energy [J] dissipated in the wall. */
 typedef struct site_step {
     dmb_site_force law, own;
     double mean, taken;
@@ -103,7 +113,7 @@ static void site_step_of(const dmb_evaluation *evaluation, uint32_t s, site_step
     to->taken = length * mean.taken;
 }
 
-/* [kg] (k h + c) h of a site that touches, k and c of the law as deep as a step takes it. */
+/* [kg] (k h + c) h of a contact point that touches, with k and c of the law at the penetration reached in a step. */
 static double resistance(const dmb_sim *sim, uint32_t s, double h)
 {
     const dmb_scene *scene = sim->scene;
@@ -115,7 +125,7 @@ static double resistance(const dmb_sim *sim, uint32_t s, double h)
     return scene->sites[s].length * (by_depth * h + by_rate) * h;
 }
 
-/* A unit of normal force. */
+/* Unit normal force of a contact point. */
 static dmb_site_force unit_force(const dmb_sim *sim, uint32_t s)
 {
     dmb_site_force f;
@@ -125,7 +135,7 @@ static dmb_site_force unit_force(const dmb_sim *sim, uint32_t s)
     return f;
 }
 
-/* Part of y (row) along a unit of normal force of the site; room (row) is 0 before and after. */
+/* y . J^T e of a unit normal force e at the contact point; room (row) is 0 before and after. */
 static double along_site(const dmb_sim *sim, uint32_t s, const double *y, double *room)
 {
     const dmb_scene *scene = sim->scene;
@@ -140,11 +150,11 @@ static double along_site(const dmb_sim *sim, uint32_t s, const double *y, double
     return sum;
 }
 
-/* [-] of the mean force, up to which a damper has settled in a contact that steps do not resolve. */
+/* [-] Largest force of the damper over the mean force in a contact that counts as settled. */
 #define DMB_BOUNCE_SETTLED 0.1
 
-/* By its age, unless the damper still acts: its force at the end of the step would throw the bodies when the law is
- * followed. */
+/* 1: the contact is old enough and its damper has settled. Otherwise the damper force at the end of the step would
+ * throw the body off when the law takes over. */
 static int is_lasting(const dmb_evaluation *evaluation, uint32_t s)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -166,7 +176,8 @@ static void mark_stay(dmb_sim *sim, uint32_t s, int stays)
         (uint8_t)((sim->site_mode[s] & (DMB_SITE_MODE | DMB_SITE_CARRIED)) | (stays ? DMB_SITE_STAYS : 0));
 }
 
-/* Sites that touch: all at once, J M^-1 sum of J^T (k h + c) h in place of each by itself. */
+/* Chooses the treatment of contact points in the next step. All touching points act together: J M^-1 sum of J^T (k h +
+ * c) h replaces the value of each alone. */
 static void choose_sites(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -187,7 +198,7 @@ static void choose_sites(const dmb_evaluation *evaluation)
     memset(y, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* As of stops and springs. */
+/* Exchanges the forces of contact points as `exchange` does for stops and springs. */
 static void exchange_sites(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -220,7 +231,7 @@ static int laws_bounce(const dmb_sim *sim)
     return 0;
 }
 
-/* The residual is room. */
+/* Exchanges the forces of stops and springs; the residual serves as workspace and is restored. */
 static void exchange_laws(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -271,8 +282,8 @@ static int kind_of(const dmb_sim *sim, uint32_t u)
     return u < sim->scene->law_count ? DMB_POWER_IMPACT : DMB_POWER_DAMPING;
 }
 
-/* A damper c takes c h ((s0 + s1)/2)^2 in a step in which its law is followed, the trapezoidal rule c h (s0^2 +
- * s1^2)/2: from touch on, where its power jumps, the difference would not come back. */
+/* Energy of a damper c in a step by its law: c h ((s0 + s1)/2)^2, whereas the trapezoidal rule of the ledger gives c h
+ * (s0^2 + s1^2)/2. At touch, where the power jumps, the difference would stay in the balance, so it is moved. */
 static void take_mean_speed(const dmb_evaluation *evaluation, uint32_t u)
 {
     dmb_sim *sim = evaluation->sim;
@@ -282,8 +293,8 @@ static void take_mean_speed(const dmb_evaluation *evaluation, uint32_t u)
     dmb_ledger_move(sim, kind_of(sim, u), -0.25 * c * evaluation->step * change * change);
 }
 
-/* From here on the powers are those of the laws that are followed: what the dampers took over the step is in the
- * ledger. */
+/* Replaces the powers of the step's own force by those of the law that acts from here on; the energy dissipated in the
+ * step is already in the ledger. */
 static void exchange_power(dmb_sim *sim, uint32_t u)
 {
     const double law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
@@ -294,7 +305,7 @@ static void exchange_power(dmb_sim *sim, uint32_t u)
     sim->clock->power[DMB_POWER_INERTIA] -= all;
 }
 
-/* Age after a step; a contact that opens having been closed for a few steps counts. */
+/* Age after a step; counts a bounce if a contact opens after a few steps. */
 static double aged(dmb_sim *sim, double age, int touches, int closed)
 {
     const int ends = touches || !closed;
@@ -303,7 +314,7 @@ static double aged(dmb_sim *sim, double age, int touches, int closed)
     return touches ? 1.0 : fmin(age + 1.0, DMB_BOUNCE_STEPS);
 }
 
-/* [W] into the wall by the law in a configuration, <= 0. */
+/* [W] Power of the wall's damping in a configuration, <= 0. */
 static double wall_heat(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, const dmb_site_force *f)
 {
     return -(f->normal_force - dmb_site_elastic_force(sim->scene, c, s, f)) * f->rate;
@@ -314,7 +325,8 @@ static double rubbed(const dmb_site_force *f)
     return f->friction[0] * f->slip[0] + f->friction[1] * f->slip[1];
 }
 
-/* The heat of the law that opens, at the start of the step, is part of that of the mean force. */
+/* The dissipation of an opening law at the start of the step is contained in that of its mean force: removes it from
+ * the trapezoidal rule. */
 static void forget_heat(const dmb_evaluation *evaluation, uint32_t s)
 {
     dmb_sim *sim = evaluation->sim;
@@ -323,8 +335,7 @@ static void forget_heat(const dmb_evaluation *evaluation, uint32_t s)
     dmb_ledger_move(sim, DMB_POWER_IMPACT, 0.5 * evaluation->step * wall_heat(sim, &sim->now, s, &f));
 }
 
-/* Powers of the law in the trial where it is followed from here on, less those of the step's own force as the kernel
- * counts them. */
+/* Adds the powers of the law if it acts from here on, less those of the step's own force as counted by the kernel. */
 static void exchange_site_power(const dmb_evaluation *evaluation, uint32_t s)
 {
     dmb_sim *sim = evaluation->sim;
@@ -344,8 +355,8 @@ static void exchange_site_power(const dmb_evaluation *evaluation, uint32_t s)
     if ((sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS) forget_heat(evaluation, s);
 }
 
-/* The memory a - v' = O(h) of a generalized acceleration would ring on, more so in steps of another length; without it
- * places are off by O(h^3) once. */
+/* Sets a = v'. The memory a - v' = O(h) of generalized-alpha would oscillate after the jump, more so in steps of
+ * another length; without it positions have one additional error of O(h^3). */
 static void forget_memory(dmb_sim *sim)
 {
     memcpy(sim->trial.pseudo_acceleration, sim->trial.acceleration, sim->scene->row_count * sizeof(double));

@@ -1,4 +1,4 @@
-/* A copy of a sim for analyses to work on; the sim stays as it is. */
+/* Copy of a sim for analyses; the sim is unchanged. */
 #include "system/system.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "sim/own_scene.h"
 #include "system/constrain/constrain.h"
 
-/* Of a sparse cluster only rows are chosen. */
+/* Chooses the partition; of sparse constraint components only rows are chosen. */
 static int32_t choose(dmb_sim *copy)
 {
     dmb_evaluation evaluation;

@@ -1,4 +1,7 @@
-/* Jumps of the state at a step: contacts that open, stuck places that come free, joints that switch. */
+/* Jumps of the state between steps or inside one:
+ *     contacts that open          their force leaves the history of the step (eq:contact.release)
+ *     stuck places that release   their spring energy becomes loss, accelerations restart
+ *     joints that switch          speeds jump by the impulse of least kinetic energy (eq:joints.impulse) */
 #include "system/system.h"
 
 #include <string.h>
@@ -19,13 +22,13 @@
 
 /* ---- Contacts that open ------------------------------------------------------------------------------------------ */
 
-/* [N/m] Force of a contact whose law jumps at touch, < 0 where it would pull. */
+/* [N/m] Force of a contact whose law jumps at touch; < 0 if it would pull. */
 static double force_of(const dmb_configuration *configuration, uint32_t s)
 {
     return configuration->site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_FORCE];
 }
 
-/* A wall with damping lets go where its force comes to 0, which is before the ring is off it. */
+/* 1: the contact opens. With damping, its force reaches 0 before the penetration does. */
 static int opens(const dmb_sim *sim, uint32_t s)
 {
     if (dmb_site_has_mean(sim, s) || sim->site_coarse[s]) return 0;
@@ -51,8 +54,8 @@ int32_t dmb_contact_opens(const dmb_sim *sim)
     return 0;
 }
 
-/* Part of the step after the opening, the penetration going straight from that of now to that of trial, or the force.
- */
+/* [-] Fraction of the step after the opening, if the penetration (or the force) is interpolated linearly between now
+ * and trial. */
 static double open_part(const dmb_sim *sim, uint32_t s)
 {
     const int touch = dmb_scene_has_touch(sim->scene);
@@ -61,8 +64,8 @@ static double open_part(const dmb_sim *sim, uint32_t s)
     return d1 / (d1 - d0);
 }
 
-/* Part of the force at the start of the step goes: after the opening where the step resolves the contact, which was
- * followed till then; else all of it. Returns that part. */
+/* Removes the force of a contact point at the start of the step from the history: the fraction after the opening if the
+ * step resolves the contact, whose law acted until then, otherwise all of it. Returns that fraction. */
 static double release(dmb_sim *sim, uint32_t s, double *rows)
 {
     const int whole = (sim->site_mode[s] & DMB_SITE_MODE) == DMB_BOUNCE_OPENS;
@@ -76,7 +79,7 @@ static double release(dmb_sim *sim, uint32_t s, double *rows)
     return part;
 }
 
-/* Less the forces that open; mean forces that the history is to have. */
+/* Forces removed from the history (opening contacts), and mean forces added to it. */
 static void gather_released(const dmb_evaluation *evaluation, double *rows, double *part)
 {
     dmb_sim *sim = evaluation->sim;
@@ -94,8 +97,8 @@ static void gather_released(const dmb_evaluation *evaluation, double *rows, doub
     dmb_bounces_add_carried(evaluation, rows);
 }
 
-/* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would
- * carry on as if the contact still pressed (eq:contact.release). */
+/* a = M^-1 sum of part times force over the opening contact points: the acceleration that the history of
+ * generalized-alpha would carry as if the contact still pressed (eq:contact.release). */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part)
 {
     dmb_sim *sim = evaluation->sim;
@@ -112,7 +115,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     return DMB_OK;
 }
 
-/* -M a in the independent rows: a difference of residuals. */
+/* -M a in the independent rows, from a difference of residuals. */
 static int32_t minus_mass_times(dmb_evaluation *evaluation, const double *a, double *product)
 {
     dmb_sim *sim = evaluation->sim;
@@ -127,7 +130,8 @@ static int32_t minus_mass_times(dmb_evaluation *evaluation, const double *a, dou
     return status;
 }
 
-/* a = near + M0^-1 (f - M near), M0 the mass matrix of `near`: M - M0 and a - near are small alike. */
+/* a = near + M0^-1 (f - M near), M0 the mass matrix of `near`: M - M0 and a - near are both of first order, so the
+ * error is of second order. */
 int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, double *acceleration, double *part,
                             double *product)
 {
@@ -168,7 +172,7 @@ uint32_t dmb_stuck_let_go(dmb_sim *sim)
 
 /* ---- Joints that lock, open and close ---------------------------------------------------------------------------- */
 
-/* [m, -] violation with which a joint may still close. */
+/* [m, -] largest violation at which a joint may still close */
 #define DMB_CLOSING_VIOLATION 1e-6
 
 static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
@@ -181,8 +185,8 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* Whether a constraint holds anew when joint j changes: the joint's own, and those of its coordinates if it was open.
- */
+/* 1: the constraint becomes active when joint j changes: that of the joint, and those of its coordinates if it was
+ * open. */
 static int holds_anew(const dmb_scene *scene, const dmb_constraint *c, uint32_t j, int32_t was)
 {
     if (c->kind == DMB_OF_JOINT) return c->index == j;
@@ -208,7 +212,7 @@ static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)
     return DMB_OK;
 }
 
-/* Rows at now; those that hold anew must nearly be satisfied, and not by frames that are turned over. */
+/* Evaluates the rows at now; equations that become active must be nearly satisfied, and frames must not be flipped. */
 static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
 {
     dmb_sim *sim = evaluation->sim;
@@ -220,8 +224,8 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
     return status < 0 ? status : dmb_joints_refuse_gimbal_singularity(sim, 0, evaluation->time);
 }
 
-/* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy
- * (eq:joints.impulse). */
+/* The velocity of the trial satisfies the constraints by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) turns it
+ * into the change of least kinetic energy (eq:joints.impulse). */
 static int32_t least_energy(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -248,7 +252,7 @@ static void largest_change(const dmb_sim *sim, double most[2])
         }
 }
 
-/* [J] stored in the pose of now. */
+/* [J] Energy stored in the pose of now. */
 static double potential(const dmb_sim *sim)
 {
     return dmb_strain_energy(sim->scene, &sim->now) + dmb_gravity_energy(sim->scene, &sim->now) +
@@ -256,8 +260,8 @@ static double potential(const dmb_sim *sim)
            dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
 }
 
-/* The energy that goes is impact: kinetic, and that of springs which no longer act; the works of inertia and potential
- * forces go with it. `stored` is what was stored before the joint changed. */
+/* The energy lost counts as impact: kinetic energy and that of springs which no longer act; the works of inertia and
+ * potential forces are reduced with it. `stored`: energy stored before the joint changed. */
 static void take_motion(dmb_sim *sim, double stored)
 {
     const double before = dmb_kinetic_energy(sim->scene, &sim->now);
@@ -270,7 +274,7 @@ static void take_motion(dmb_sim *sim, double stored)
     dmb_ledger_take_impact(sim, lost, let_go);
 }
 
-/* Forces that hold and drive the joints now, as the new accelerations have it. */
+/* Forces of joints and joint drives for the new accelerations. */
 static void take_forces(dmb_sim *sim)
 {
     dmb_clusters_take_multipliers(sim);

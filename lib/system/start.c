@@ -1,4 +1,11 @@
-/* The state at time 0, and accelerations that fit a given pose and speed. */
+/* State at time 0, and consistent accelerations for given poses and speeds.
+ *
+ *     dmb_system_start     close joints -> project speeds -> actuators, contacts, bits -> consistent accelerations
+ *     dmb_system_restart   consistent accelerations, forces and contact state for the present pose and speeds
+ *     dmb_system_jump      accelerations only, after a jump of a force or prescribed rate; contact memory is kept
+ *
+ * Consistent accelerations: M v' = forces on the constraints (eq:joints.accelerations), a0 = v' (eq:integration.carry).
+ */
 #include "system/system.h"
 
 #include <math.h>
@@ -27,7 +34,7 @@ static void described_pose(dmb_sim *sim)
     dmb_contacts_start(sim);
 }
 
-/* Rows that are held move as their drive says, or not at all; the largest correction is kept. */
+/* Constrained rows move as prescribed by their drive, or not at all; the largest correction is recorded. */
 static void project_speeds(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -41,7 +48,7 @@ static void project_speeds(dmb_sim *sim)
     }
 }
 
-/* Held speeds of the present time into trial.velocity, 0 where no drive moves them. */
+/* Prescribed speeds at the present time into trial.velocity, 0 in constrained rows without a drive. */
 static int32_t constrained_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = sim->scene;
@@ -66,7 +73,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* M v' = what is left of the forces (eq:joints.accelerations). */
+/* Solves M v' = sum of the other forces (eq:joints.accelerations). */
 static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     const int32_t status = dmb_factor_mass(evaluation);
@@ -108,7 +115,7 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
     }
 }
 
-/* Speeds and accelerations of trial on the constraints. */
+/* Projects speeds and accelerations of the trial onto the constraints. */
 static int32_t settle_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     if (sim->scene->cluster_count == 0) return DMB_OK;
@@ -116,7 +123,7 @@ static int32_t settle_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
     return status < 0 ? status : dmb_assembled_speeds(evaluation);
 }
 
-/* A partition for the pose of trial. */
+/* Chooses a partition for the pose of the trial. */
 static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     if (sim->scene->cluster_count == 0) return DMB_OK;
@@ -125,7 +132,8 @@ static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
     return status;
 }
 
-/* Accelerations of trial for its pose and speeds, forces of motion drives, powers of the evaluation. */
+/* Accelerations of the trial consistent with its pose and speeds, forces of motion drives, and powers of the
+ * evaluation. */
 static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     int32_t status = settle_speeds(sim, evaluation);
@@ -168,8 +176,8 @@ int32_t dmb_system_restart(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Only accelerations and what follows from them change; contacts keep what they remember. The partition is the one the
- * last step ended with; a failure changes nothing. */
+/* Changes only accelerations and quantities that depend on them; contacts keep their memory. Uses the partition at the
+ * end of the last step. A failure changes nothing. */
 int32_t dmb_system_jump(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
@@ -191,7 +199,7 @@ int32_t dmb_system_jump(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Joints close without a strain of elements that rounding does not explain, unless the caller allows it. */
+/* Closes the joints; fails if that strains elements beyond rounding, unless the caller permits it. */
 static int32_t close_joints(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

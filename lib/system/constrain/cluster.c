@@ -1,4 +1,15 @@
-/* The matrices of clusters, and their factors. */
+/* Partition and multipliers of constraint components. The only way for small mechanisms, and the one to read first;
+ * large components (lib/model/mesh_constraint chooses) use sparse_cluster with the same calls.
+ *
+ *     call                      when                                                  result
+ *     -----------------------   ---------------------------------------------------   -------------------------------
+ *     dmb_clusters_prepare      once per sim                                          units of columns, no choice yet
+ *     dmb_clusters_assemble     at each trial                                         rows, matrix B
+ *     dmb_clusters_choose       at the start, after switches                          dependent columns
+ * (eq:joints.partition) dmb_clusters_watch        after each accepted step: quality below 0.1 of its    a new choice,
+ * counted best, or the number of active rows has changed dmb_clusters_factor       at each trial, after projection
+ * factors of B_d, G dmb_clusters_balance      at each residual                                      multipliers
+ * (eq:joints.multipliers) dmb_clusters_least_norm   once per accepted state with redundant rows eq:joints.least-norm */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -34,7 +45,7 @@ uint32_t dmb_cluster_active_rows(const dmb_sim *sim, const dmb_cluster *cluster)
     return count;
 }
 
-/* B of a cluster from the blocks of its constraints. */
+/* B of a component from the blocks of its constraints. */
 static void gather_matrix(dmb_sim *sim, const dmb_cluster *cluster)
 {
     const dmb_scene *scene = sim->scene;
@@ -68,7 +79,7 @@ int32_t dmb_clusters_factor(dmb_sim *sim)
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
         if (cluster->sparse) continue;
-        dmb_cluster_note_places(sim, k); /* the choice may have come back with an older state */
+        dmb_cluster_note_places(sim, k); /* the choice may be one restored with an older state */
         sim->cluster_quality[k] = dmb_partition_factor(
             dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column, &partition,
             sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row);
@@ -77,18 +88,19 @@ int32_t dmb_clusters_factor(dmb_sim *sim)
     return sim->scene->sparse_count ? dmb_sparse_refresh(sim) : DMB_OK;
 }
 
-/* The choice of dependent coordinates, and when it is made anew. */
+/* Choice of dependent coordinates, and its renewal. */
 
-/* The choice is made anew when its quality falls below this part of what it was. */
+/* [-] Ratio of the quality of a choice to its best value, below which the choice is renewed. */
 #define DMB_QUALITY_FALL 0.1
 
-/* Rotations of a body go with its whole extent, about twice its longest arm, in the choice of the partition. In
- * projections they weigh more: a step of rotation is more exact than that of the points it carries round, so those
- * should move rather (a disc that rolls: 7.1, 3.6, 1.2 in 1e-6 for a factor of 1, 2, 4). */
+/* Length that scales rotations of a body: its whole extent in the choice of the partition, about twice its longest arm.
+ * In projections it is larger: a step computes rotations more accurately than the displacements of the points they
+ * carry, so displacements should absorb the projection (rolling disc: errors of 7.1, 3.6, 1.2 in 1e-6 for a factor of
+ * 1, 2, 4). */
 #define DMB_BODY_EXTENT 2.0
 #define DMB_BODY_METRIC 10.0
 
-/* Metres for translations, metres at the length of its chain for rotations; 0 for rows that are not solved. */
+/* Weights of columns: 1 for translations, 1/length of the chain for rotations; 0 in rows that are not solved. */
 void dmb_clusters_weigh(dmb_sim *sim, int bodies_only)
 {
     const dmb_scene *scene = sim->scene;
@@ -126,7 +138,7 @@ void dmb_clusters_choose(dmb_sim *sim)
     dmb_sparse_choose(sim);
 }
 
-/* A number that tells sets apart, in whatever order. */
+/* Hash of a set, independent of the order of its items. */
 static uint64_t mark_of(uint32_t count, const uint32_t *items)
 {
     uint64_t sum = count;
@@ -137,7 +149,7 @@ static uint64_t mark_of(uint32_t count, const uint32_t *items)
     return sum;
 }
 
-/* Of dependent columns; of the rows that are chosen. */
+/* Hashes of the set of dependent columns, and of chosen rows. */
 static uint64_t mark_of_dependent(const dmb_sim *sim, uint32_t k)
 {
     return mark_of(sim->partition_rank[k], sim->partition_column + sim->scene->clusters[k].column);
@@ -148,7 +160,7 @@ static uint64_t mark_of_rows(const dmb_sim *sim, uint32_t k)
     return mark_of(sim->partition_rank[k], sim->partition_row + sim->scene->clusters[k].row);
 }
 
-/* Whether the choice of a cluster is to be made anew. */
+/* 1: the choice of component k is to be renewed. */
 static int is_due(dmb_sim *sim, uint32_t k)
 {
     const int fallen = sim->cluster_quality[k] < DMB_QUALITY_FALL * sim->partition_quality[k];
@@ -156,7 +168,7 @@ static int is_due(dmb_sim *sim, uint32_t k)
     return fallen || sim->partition_rank[k] != dmb_cluster_active_rows(sim, sim->scene->clusters + k);
 }
 
-/* Sparse clusters choose together. */
+/* Renews the choice of all sparse components together. */
 static void watch_sparse(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -218,7 +230,7 @@ void dmb_clusters_prepare(dmb_sim *sim)
     }
 }
 
-/* Multipliers of the constraints: forces that balance the dependent rows. */
+/* Multipliers of the constraints: the forces that balance the dependent rows. */
 
 /* C_d^T f = -residual in the dependent columns (eq:joints.multipliers). */
 static void solve_multipliers(dmb_sim *sim, uint32_t k)
@@ -248,7 +260,7 @@ static void add_multipliers(dmb_sim *sim, uint32_t k)
     }
 }
 
-/* Dependent rows balance by construction; what is left there is rounding. */
+/* Clears the residual of dependent rows, which balance by construction; the remainder is rounding. */
 static void clear_dependent(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -257,7 +269,7 @@ static void clear_dependent(dmb_sim *sim, uint32_t k)
         sim->residual[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
 }
 
-/* Multipliers of least norm that do the same (eq:joints.least-norm): no change where no row is dropped. */
+/* Multipliers of least norm with the same forces (eq:joints.least-norm); unchanged if no row is dropped. */
 static void least_norm(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -305,8 +317,7 @@ void dmb_clusters_take_multipliers(dmb_sim *sim)
 
 /* The constraint violation of a trial, in metres. */
 
-/* [m] least move that satisfies a row of a cluster alone: its violation over the length of its row in weighted
- * columns. */
+/* [m] Shortest move that satisfies one row alone: its violation over the length of the row in weighted columns. */
 static double way_of(const dmb_sim *sim, uint32_t k, uint32_t row)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -319,7 +330,7 @@ static double way_of(const dmb_sim *sim, uint32_t k, uint32_t row)
     return sum > 0.0 ? value / sqrt(sum) : value;
 }
 
-/* Largest violation of the pivot rows, or of the dropped ones. */
+/* Largest violation of the pivot rows, or of the dropped rows. */
 static double violation_of(const dmb_sim *sim, uint32_t k, int32_t dropped, uint32_t *row)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -368,12 +379,12 @@ double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row
     return most;
 }
 
-/* Text of a message on a row that could not be satisfied. */
+/* Message on a row that could not be satisfied. */
 
-/* Drives that a message names. */
+/* Largest number of drives named in a message. */
 enum { DMB_NAMED_DRIVES = 4 };
 
-/* "; drive 0, drive 2 move it": the motion drives that a constraint hangs together with, but for itself. */
+/* "; drive 0, drive 2 move it": the motion drives in the component of a constraint, other than itself. */
 static void name_drives(const dmb_scene *scene, uint32_t constraint, dmb_message *text)
 {
     const dmb_cluster *cluster = scene->clusters + scene->constraints[constraint].cluster;

@@ -1,9 +1,18 @@
-/* Joints closed at the start (lib/theory/joints.md). Rigid bodies move and strings do not; strings move, too, but as
- * rigid bodies within what their supports leave free; any node moves, which strains elements. Each begins with Newton's
- * iteration in the coordinates of a partition; where redundant equations make that change its choice for ever,
- * Levenberg and Marquardt's goes on, which takes all equations at once. Before any element is strained, the same is
- * tried from where joints place the parts one after the other (cluster_placement), which closes chains and trees over
- * any distance and rotation. */
+/* Assembly: joints closed at the start (lib/theory/joints.md). The first row of the table that closes all joints
+ * without a flipped joint is the result; if none does, the assembly fails with DMB_ERR_GEOMETRY.
+ *
+ *     start of the moves                          movable, in this order
+ *     -----------------------------------------   ---------------------------------------------------------------------
+ *     1 poses as described                        bodies; strings as rigid bodies within their supports
+ *     2 poses placed by joints one after the      the same; closes chains and trees over any distance and rotation
+ *       other (cluster_placement)
+ *     3 poses as described                        the same, then all nodes, which strains elements
+ *
+ * Scenes without elements move all nodes in each row. Sparse components move all nodes at once; in scenes with
+ * elements, in row 3 only, unless nothing is left to close. Bodies and nodes move by Newton's iteration in the
+ * coordinates of a partition (Wehage, Haug 1982); if redundant equations change its choice without end, and for
+ * strings as rigid bodies, by the iteration of Levenberg and Marquardt, which uses all equations at once
+ * (eq:joints.levenberg). */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -14,8 +23,8 @@
 #include "system/constrain/constrain.h"
 
 enum { DMB_ASSEMBLY_MAX = 200, DMB_ASSEMBLY_STALLED = 30 };
-#define DMB_ASSEMBLY_CLOSED 1e-13 /* [-] of the length of the parts */
-/* [m, -] what may be left of an equation that is not needed, or at the end. */
+#define DMB_ASSEMBLY_CLOSED 1e-13 /* [-] violation of closed joints over the length of the parts */
+/* [m, -] Largest violation of a redundant equation, or at the end. */
 #define DMB_ASSEMBLY_VIOLATION 1e-8
 
 static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
@@ -26,7 +35,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->load_factor = evaluation->pseudo_factor = 1.0;
 }
 
-/* States as described; a joint locked from the start is locked where it is described. */
+/* Joint states as described; a joint locked from the start is locked in its described pose. */
 static void described_states(dmb_sim *sim)
 {
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
@@ -63,10 +72,10 @@ static int is_closed(dmb_sim *sim, uint32_t *row)
 
 /* ---- Levenberg and Marquardt ------------------------------------------------------------------------------------- */
 
-#define DMB_DAMPING_MOST 1e-2 /* [-] of the diagonal */
+#define DMB_DAMPING_MOST 1e-2 /* [-] damping over the diagonal */
 #define DMB_DAMPING_LEAST 1e-13
 
-/* G = B W^2 B^T, its diagonal times 1 + damping; rows without entries have 1 there. */
+/* G = B W^2 B^T, its diagonal times 1 + damping (eq:joints.levenberg); 1 in rows without entries. */
 static void fill_gram(dmb_sim *sim, const dmb_cluster *cluster, double damping, double *G)
 {
     const double *B = dmb_cluster_matrix(sim, cluster), *metric = sim->cluster_metric + cluster->column;
@@ -81,8 +90,8 @@ static void fill_gram(dmb_sim *sim, const dmb_cluster *cluster, double damping, 
     }
 }
 
-/* x of A x = b in its place by Cholesky factors L of A, of which the lower triangle is given; pivots that rounding
- * leaves are those of the damping. */
+/* Solves A x = b in place by Cholesky factors of A, given by its lower triangle; pivots of rounding size become those
+ * of the damping. */
 static void solve_symmetric(size_t n, double *A, double *b)
 {
     for (size_t k = 0; k < n; k++) {
@@ -118,8 +127,8 @@ static void damped_move(dmb_sim *sim, uint32_t k, double damping)
     }
 }
 
-/* Part of a move of a cluster that turns no node by more than DMB_TURN_MOST and brings none further than parts are
- * apart. */
+/* Factor on a move of a component that rotates no node by more than DMB_TURN_MOST and moves none further than the
+ * distance of the parts. */
 #define DMB_TURN_MOST 0.5 /* [rad] */
 static double part_of_move(const dmb_sim *sim, const dmb_cluster *cluster, double apart)
 {
@@ -153,7 +162,7 @@ static void column_of(const dmb_sim *sim, uint32_t base, uint32_t i, uint32_t c,
     dmb_adjoint_inverse_apply(turn, arm, unit, column);
 }
 
-/* Least squares for the base's twist z from the wanted twists x of the nodes of the chain that joints move. */
+/* Least-squares twist z of the base from the required twists x of the jointed nodes of the chain. */
 static void fit_twist(const dmb_sim *sim, const dmb_chain *chain, uint32_t base, const double open[6], const double *x,
                       double z[6])
 {
@@ -174,7 +183,7 @@ static void fit_twist(const dmb_sim *sim, const dmb_chain *chain, uint32_t base,
     solve_symmetric(6, A, z);
 }
 
-/* The whole chain as the base moves by the twist z. */
+/* Moves the whole chain with the twist z of its base. */
 static void move_chain(dmb_sim *sim, const dmb_chain *chain, uint32_t base, const double z[6])
 {
     const dmb_scene *scene = sim->scene;
@@ -187,7 +196,7 @@ static void move_chain(dmb_sim *sim, const dmb_chain *chain, uint32_t base, cons
     dmb_chain_follow(sim, chain, &motion);
 }
 
-/* Moves by row into `increment`; the largest violation is brought down by them. */
+/* Moves of all components, by row into `increment`, limited for the largest violation `apart`. */
 static void assemble_moves(dmb_sim *sim, double damping, double apart)
 {
     const dmb_scene *scene = sim->scene;
@@ -219,7 +228,7 @@ static void take_moves(dmb_sim *sim, int rigid)
     }
 }
 
-/* Until all is closed, or the violation does not fall any more. */
+/* Levenberg-Marquardt iteration until all joints are closed or the violation stagnates. */
 static int32_t iterate_damped(dmb_evaluation *evaluation, int rigid)
 {
     dmb_sim *sim = evaluation->sim;
@@ -242,7 +251,7 @@ static int32_t iterate_damped(dmb_evaluation *evaluation, int rigid)
 
 /* ---- The three attempts ------------------------------------------------------------------------------------------ */
 
-/* By Newton with a choice of its own each time: the rank may change on the way. */
+/* Newton iteration with a new choice of partition each time, because the rank may change. */
 static int32_t iterate_newton(dmb_evaluation *evaluation)
 {
     int32_t status = DMB_OK;
@@ -250,7 +259,7 @@ static int32_t iterate_newton(dmb_evaluation *evaluation)
         uint32_t row;
         status = dmb_clusters_correct(evaluation);
         (void)dmb_clusters_violation(evaluation->sim, 0, &row);
-        if (status == DMB_NOTE_STOPPED) return DMB_OK; /* nothing moves any more */
+        if (status == DMB_NOTE_STOPPED) return DMB_OK; /* no node moves any more */
     }
     return status;
 }
@@ -273,7 +282,7 @@ static int has_elements(const dmb_scene *scene)
     return scene->element_count > 0;
 }
 
-/* [rad] of dmb_joint_flip for the trial, 0 where nothing points against what it is kept parallel to. */
+/* [rad] dmb_joint_flip of the trial: angle between axes that the joint keeps parallel; 0 if they do not oppose. */
 static double flip_of(const dmb_sim *sim, uint32_t joint)
 {
     const int locked = sim->joint_state[joint] == DMB_JOINT_LOCKED;
@@ -304,11 +313,10 @@ int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint)
     return DMB_ERR_GEOMETRY;
 }
 
-/* Where the moves start: the poses as described, those to which joints place rigid parts, or described ones once more,
- * of which elements may be strained, too. */
+/* Starts of the moves (table at the head of this file). */
 enum { FROM_DESCRIBED, FROM_PLACED, FROM_DESCRIBED_STRAINING, STARTS };
 
-/* In sparse clusters all nodes move at once, which strains elements unless nothing is left to close. */
+/* Scenes with sparse components: all nodes move at once, which strains elements unless nothing is left to close. */
 static int32_t close_sparse(dmb_evaluation *evaluation, int start, int *closed)
 {
     dmb_sim *sim = evaluation->sim;
@@ -347,7 +355,7 @@ static int32_t close_from(dmb_evaluation *evaluation, int start, int *closed)
     return sim->scene->sparse_count ? close_sparse(evaluation, start, closed) : close_dense(evaluation, start, closed);
 }
 
-/* From the most free to the least. A closed joint that stands turned over is none, if another start closes it. */
+/* Tries the starts in order. A closed but flipped joint counts as open while another start remains. */
 static int32_t close_positions(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -359,7 +367,7 @@ static int32_t close_positions(dmb_evaluation *evaluation)
     }
     dmb_clusters_weigh(sim, 0);
     if (closed) {
-        dmb_clusters_choose(sim); /* among the coordinates of all parts */
+        dmb_clusters_choose(sim); /* choice among the coordinates of all parts */
         return DMB_OK;
     }
     if (status == DMB_ERR_CALLBACK) {
@@ -384,7 +392,7 @@ static int32_t refuse_flips(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* B v + rate of the rows that were dropped must vanish with the others. */
+/* Checks B v + rate = 0 in all rows, including dropped ones. */
 int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -398,7 +406,7 @@ int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
                 for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++) {
                     const double part = B[c->column[n] + s] * sim->trial.velocity[scene->layout.row[c->node[n]] + s];
                     sum += part;
-                    size += fabs(part); /* rounding goes with it, whatever the unit of the row */
+                    size += fabs(part); /* size of rounding, in the unit of the row */
                 }
             if (fabs(sum) > DMB_ASSEMBLY_VIOLATION * size)
                 return refuse(sim, c->row + k, sum, "its speed cannot be had");
@@ -441,7 +449,8 @@ static double coordinate_of(dmb_sim *sim, uint32_t j, int32_t component)
     return c.value[component];
 }
 
-/* Turns of the coordinates, what couplings keep and where drives begin, for the closed scene. */
+/* Stores the turns of coordinates, the constants of couplings and the initial coordinates of drives of the closed
+ * scene. */
 static void keep_coordinates(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

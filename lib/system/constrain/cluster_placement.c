@@ -1,15 +1,17 @@
 /* Chains (strings and bodies) moved as rigid bodies to close joints at the start; no element is strained by it.
  *
- * Placement by joints: let H = (R, p) be frame b of a joint seen from frame a as described, with coordinates c
- * (eq:joints.coordinates, eq:joints.placement). The joint holds at H* with c* = c in the free coordinates, the given
- * value in those that the caller gives, and 0 in the others, so that frames never stand turned over. If the chain of a
- * is placed, that of b follows by the world motion that turns by Q about the origin x_b of frame b and shifts by d,
+ * Placement by joints (dmb_place_by_joints): let H = (R, p) be frame b of a joint seen from frame a as described, with
+ * coordinates c (eq:joints.coordinates, eq:joints.placement). The joint holds at H* with c* = c in the free
+ * coordinates, the given value in those that the caller gives, and 0 in the others, so that frames are never flipped.
+ * If the chain of a is placed, that of b follows by the world motion that rotates by Q about the origin x_b of frame b
+ * and translates by d,
  *
  *     Q = R_a R* R^T R_a^T        d = R_a (p* - p)
  *
- * and the chain of a, if that of b is placed, by Q = R_b R*^T R R_b^T, d = R_b R*^T (p - p*). Starting from the ground
- * and from what several supports hold, then from what one support holds, this closes every tree of joints over any
- * distance and rotation; joints that close loops remain. */
+ * and the chain of a, if that of b is placed, by Q = R_b R*^T R R_b^T, d = R_b R*^T (p - p*). Chains placed first: the
+ * ground and chains constrained at several nodes; then chains constrained at one node; then free ones. From each of
+ * them, joints are passed in both orders of the list until no further chain can be placed. This closes every tree of
+ * joints over any distance and rotation; joints that close loops remain open. */
 #include <math.h>
 #include <string.h>
 
@@ -61,7 +63,7 @@ void dmb_chain_follow(dmb_sim *sim, const dmb_chain *chain, const dmb_rigid_moti
 
 /* ---- Where a joint holds ----------------------------------------------------------------------------------------- */
 
-/* Coordinates that the joint leaves as they are; of a kind without such a form DMB_NO_FORM. */
+/* Coordinates that remain unchanged, by kind of joint; DMB_NO_FORM for kinds without such a form. */
 #define DMB_NO_FORM 0xFFu
 static uint32_t free_coordinates(const dmb_scene_joint *joint)
 {
@@ -89,7 +91,7 @@ static void rotation_of(const double angle[3], double R[9])
     dmb_mat3_mul(yz, turn[0], R);
 }
 
-/* p at the joint's distance, along the x axis of frame a if the two points coincide. */
+/* Scales p to the distance of the joint; along the x axis of frame a if the two points coincide. */
 static void stretch_to(double length, double p[3])
 {
     const double now = dmb_vec3_norm(p);
@@ -99,7 +101,7 @@ static void stretch_to(double length, double p[3])
         dmb_vec3_set(length, 0.0, 0.0, p);
 }
 
-/* H* of joint j from H; 0: the joint does not say. */
+/* H* of joint j from H; 0: the joint does not determine it. */
 static int place_of_joint(const dmb_sim *sim, uint32_t j, const dmb_relative *now, double R[9], double p[3])
 {
     static const double none[2] = {0.0, 0.0};
@@ -126,7 +128,7 @@ static int place_of_joint(const dmb_sim *sim, uint32_t j, const dmb_relative *no
 
 /* ---- Placement --------------------------------------------------------------------------------------------------- */
 
-/* Chains are marked in the increments of their first row. */
+/* Mark of a placed chain, in the increment of its first row. */
 static double *mark_of_chain(dmb_sim *sim, uint32_t node)
 {
     const dmb_scene *scene = sim->scene;
@@ -138,7 +140,7 @@ static int is_placed(dmb_sim *sim, uint32_t node)
     return node == DMB_NONE || *mark_of_chain(sim, node) > 0.0;
 }
 
-/* The joint by which a chain is placed. */
+/* Joint that places a chain. */
 typedef struct placing {
     uint32_t joint;
     int of_b; /* 1: the chain of frame b moves, 0: that of frame a */
@@ -146,7 +148,7 @@ typedef struct placing {
     double R[9], p[3]; /* H* */
 } placing;
 
-/* Q and d of that chain, as the motion of the joint's node. */
+/* Motion of that chain by Q and d, given at the node of the joint. */
 static void motion_of(const dmb_sim *sim, const placing *by, dmb_rigid_motion *motion)
 {
     const dmb_scene *scene = sim->scene;
@@ -169,9 +171,10 @@ static void motion_of(const dmb_sim *sim, const placing *by, dmb_rigid_motion *m
     for (int i = 0; i < 3; i++) motion->after[i] += motion->before[i] - x[i] + d[i];
 }
 
-#define DMB_SUPPORT_ROUNDING 1e-9 /* [-] of the way, what of it counts as 0 */
+#define DMB_SUPPORT_ROUNDING 1e-9 /* [-] largest component of a motion, relative to its size, that counts as 0 */
 
-/* Whether supports of the chain's base allow the motion: the logarithm of the base's own is 0 where they hold. */
+/* 1: the supports of the chain's base permit the motion, i.e. constrained components of the logarithm of the base's
+ * motion are 0. */
 static int is_allowed(const dmb_sim *sim, const dmb_chain *chain, const dmb_rigid_motion *motion)
 {
     const dmb_scene *scene = sim->scene;
@@ -194,7 +197,7 @@ static int is_allowed(const dmb_sim *sim, const dmb_chain *chain, const dmb_rigi
     return 1;
 }
 
-/* The chain of frame b or a to where joint j holds; 0: it stays, because its supports do not allow that. */
+/* Moves the chain of frame b or a to close joint j; 0: its supports do not permit that and it stays. */
 static int place_by(dmb_sim *sim, uint32_t j, int of_b)
 {
     const dmb_scene *scene = sim->scene;
@@ -213,7 +216,7 @@ static int place_by(dmb_sim *sim, uint32_t j, int of_b)
     return 1;
 }
 
-/* One pass over the joints, up or down the list. The number of chains that were placed. */
+/* One pass over the joints, up or down the list; returns the number of chains placed. */
 static uint32_t place_neighbours(dmb_sim *sim, int down)
 {
     const dmb_scene *scene = sim->scene;
@@ -233,7 +236,8 @@ static void place_all_from_here(dmb_sim *sim)
     while (place_neighbours(sim, down) + place_neighbours(sim, !down) > 0) down = !down;
 }
 
-/* Chains that stay: held at several nodes or on the axis of the hole (rank 0), at one (1), free (2). */
+/* Rank of a chain: 0 constrained at several nodes or on the axis of the hole (it does not move), 1 at one node, 2 free.
+ */
 static int rank_of(const dmb_scene *scene, const dmb_chain *chain)
 {
     double open[6], sum = 0.0;

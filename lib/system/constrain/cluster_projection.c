@@ -1,4 +1,9 @@
-/* Projection of a trial onto its constraints, at all three levels (eq:joints.projection). */
+/* Projection of a trial onto its constraints, at all three levels in this order (eq:joints.projection):
+ *     poses           Newton on C = 0 by shortest moves, until rounding (2e-15 of the size) or stagnation below 2e-10
+ *     speeds          one shortest change with B v + rate = 0
+ *     accelerations   one shortest change with B v' + convective = 0, a by the same change times pseudo_factor
+ * It ends with the factors of the partition (dmb_clusters_factor). A projection that stagnates above 2e-10, or whose
+ * rows are dependent, fails: DMB_ERR_NO_CONVERGENCE, DMB_ERR_SINGULAR; the step is then divided. */
 #include <string.h>
 
 #include "math/se3.h"
@@ -8,12 +13,12 @@
 
 /* ---- The trial --------------------------------------------------------------------------------------------------- */
 
-/* Projections onto the constraints end at this violation times the size of the scene, or when they no longer help. */
+/* [-] Violation over the size of the scene at which projections end; they also end when stagnating. */
 #define DMB_SETTLED 2e-15
 #define DMB_SETTLE_MAX 30
-/* A projection that ends above this part of the size has failed. */
+/* [-] Violation over the size above which a stagnating projection has failed. */
 #define DMB_UNSETTLED 2e-10
-/* Longest step of putting a scene together, in lengths of its parts, unless parts are further apart. */
+/* [-] Longest move of one iteration of the assembly, in lengths of parts, unless parts are further apart. */
 #define DMB_CORRECTION_MOST 0.3
 
 static int32_t factor_gram(dmb_sim *sim)
@@ -30,8 +35,8 @@ static int32_t factor_gram(dmb_sim *sim)
     return sim->scene->sparse_count ? dmb_sparse_factor(sim, 0) : DMB_OK;
 }
 
-/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. That of sparse
- * clusters has been found before. */
+/* Shortest change x with B x = d, d by constraint row, into cluster_move. That of sparse components is already
+ * computed. */
 static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -47,7 +52,7 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
     return sim->cluster_move;
 }
 
-/* The part of the acceleration of a rotor that follows its speed. */
+/* Change of a rotor's acceleration with its speed. */
 static void turn_motion(const dmb_evaluation *step, uint32_t node, const double dz[6])
 {
     const dmb_sim *sim = step->sim;
@@ -61,9 +66,9 @@ static void turn_motion(const dmb_evaluation *step, uint32_t node, const double 
         for (uint32_t i = 0; i < 6; i++) to[k][row + i] -= step->velocity_factor * turning[i];
 }
 
-/* In a step speeds and accelerations follow the pose by Newmark's formulas, so they and the increment z follow its
- * projection too (eq:integration.projection). A part of z across the constraints would stay there, as
- * large as the way that Newton has come by, and be felt in the motion: it would depend on the choice of coordinates. */
+/* Changes increment, velocity and accelerations by the projection of the pose, as Newmark's formulas require
+ * (eq:integration.projection). Otherwise a component of z across the constraints would remain, as large as the distance
+ * covered by Newton, and the result would depend on the choice of coordinates. */
 static void move_motion(const dmb_evaluation *step, uint32_t node, const double *x)
 {
     dmb_sim *sim = step->sim;
@@ -104,7 +109,8 @@ static void move_by(dmb_sim *sim, const dmb_evaluation *step, uint32_t node, con
     if (step != NULL) move_motion(step, node, x);
 }
 
-/* [m] size that rounding of positions goes with: how far nodes are from where they are measured from. */
+/* [m] Size that scales the rounding of positions: lengths of the parts and distance of nodes from their reference
+ * positions. */
 static double scene_size(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -116,8 +122,8 @@ static double scene_size(const dmb_sim *sim)
     return sim->reduced_mode->size + far;
 }
 
-/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m], and with them the motion
- * of a step, NULL: none. Returns the largest. */
+/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m]; with `step` also the
+ * motion of the step. Returns the largest move [m]. */
 static double move_poses(dmb_sim *sim, double most, const dmb_evaluation *step)
 {
     const dmb_scene *scene = sim->scene;
@@ -152,7 +158,7 @@ int32_t dmb_clusters_correct(dmb_evaluation *evaluation)
                : DMB_OK;
 }
 
-/* Newton on C = 0 until rounding; `motion` 1: of a step. */
+/* Newton on C = 0 until rounding; motion 1: within a step. */
 static int32_t settle_poses(dmb_evaluation *evaluation, int32_t motion)
 {
     dmb_sim *sim = evaluation->sim;
@@ -177,7 +183,7 @@ static int32_t settle_poses(dmb_evaluation *evaluation, int32_t motion)
     }
 }
 
-/* v so that B v + rate = 0; `level` rows of what B v must cancel. */
+/* Changes v by the shortest change so that B v + level = 0; `also` changes by factor times that. */
 static void settle_rows(dmb_sim *sim, const double *level, double *v, double *also, double factor)
 {
     const dmb_scene *scene = sim->scene;
@@ -229,7 +235,9 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     dmb_sim *sim = evaluation->sim;
     int32_t status = DMB_OK;
     if (from_raw) take_raw(sim);
-    if (from_raw && !evaluation->extrapolated) /* the first iteration of a step, which may solve for them */
+    if (from_raw &&
+        !evaluation
+             ->extrapolated) /* first iteration of a step: initial values for methods that solve for multipliers */
         memcpy(sim->trial.multiplier, sim->now.multiplier, sim->scene->constraint_row_count * sizeof(double));
     if (levels & DMB_SETTLE_POSE)
         status = settle_poses(evaluation, from_raw);
@@ -242,7 +250,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
         if (from_raw && sim->scene->rotor_count) dmb_rotors_follow(sim, sim->raw_velocity);
         status = dmb_constraint_rows(evaluation);
     }
-    if (status >= 0 && levels & DMB_SETTLE_ACCELERATION) /* the recursion of a goes with that of v' */
+    if (status >= 0 && levels & DMB_SETTLE_ACCELERATION) /* a changes with v' by the recursion of the method */
         settle_rows(sim, sim->constraint_convective, sim->trial.acceleration, sim->trial.pseudo_acceleration,
                     evaluation->pseudo_factor);
     return status < 0 ? status : dmb_clusters_factor(sim);

@@ -6,10 +6,10 @@
 #include "math/bridge.h"
 #include "sim/access.h"
 
-/* Configuration that the rows are evaluated in, and LAPACK's memory. */
+/* Configuration at which the rows are evaluated, and memory for LAPACK. */
 typedef struct scratch {
-    dmb_sim sim;        /* that of the question, its arrays being read, but for those below */
-    uint8_t *redundant; /* of the answer */
+    dmb_sim sim;        /* copy of the caller's sim, whose arrays are only read, except for those below */
+    uint8_t *redundant; /* of the result */
     double *work;
     int32_t *order;
 } scratch;
@@ -34,7 +34,7 @@ static size_t largest_work(const dmb_scene *scene)
     return most;
 }
 
-/* All that dmb_clusters_assemble writes. Its pose and motion are those of the accepted state, read in place. */
+/* Arrays written by dmb_clusters_assemble. Pose and motion of the accepted state are read in place. */
 static void lay_out(dmb_arena *arena, scratch *s)
 {
     const dmb_scene *scene = s->sim.scene;
@@ -84,7 +84,7 @@ static int32_t evaluate_rows(scratch *s)
 
 /* ---- Rank -------------------------------------------------------------------------------------------------------- */
 
-/* Moves the rows that act to the front of the cluster's matrix. Returns how many. */
+/* Moves the active rows to the front of the matrix of a component. Returns their number. */
 static uint32_t pack_rows(scratch *s, const dmb_cluster *cluster)
 {
     const size_t n = cluster->columns;
@@ -98,7 +98,7 @@ static uint32_t pack_rows(scratch *s, const dmb_cluster *cluster)
     return count;
 }
 
-/* Row of the cluster that is number `count` of those that act. */
+/* Row of the component that is active row number `count`. */
 static uint32_t acting_row(const scratch *s, const dmb_cluster *cluster, uint32_t count)
 {
     uint32_t r = 0;
@@ -108,7 +108,7 @@ static uint32_t acting_row(const scratch *s, const dmb_cluster *cluster, uint32_
     }
 }
 
-/* Rows that the partition drops, or LAPACK's choice of them. */
+/* Marks the rows dropped by the partition, or those found redundant by LAPACK. */
 static void mark_redundant(scratch *s, uint32_t k, uint32_t rows, const dmb_rank *found)
 {
     const dmb_cluster *cluster = s->sim.scene->clusters + k;
@@ -124,7 +124,7 @@ static void mark_redundant(scratch *s, uint32_t k, uint32_t rows, const dmb_rank
     for (uint32_t i = found->rank; i < rows; i++) redundant[acting_row(s, cluster, (uint32_t)s->order[i])] = 1;
 }
 
-/* Of a cluster that is too large for LAPACK: what the choice of rows says. */
+/* Result for a component too large for LAPACK, from its choice of rows. */
 static void take_choice(scratch *s, uint32_t k, dmb_cluster_rank *rank)
 {
     const dmb_rank found = {.rank = s->sim.partition_rank[k]};

@@ -2,7 +2,7 @@
  *
  *     C(q, t) = 0,   B v + rate = 0,   B v' + convective = 0,   B = dC by body-frame motion of the nodes
  *
- * into the constraint_ fields of the sim. Rows that do not act are of type DMB_ROW_IDLE and zero. */
+ * into the constraint_ fields of the sim. Inactive rows are zero, of type DMB_ROW_IDLE. */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "sim/node.h"
 #include "system/constrain/rotor.h"
 
-/* [rad] in a step: gradients at one end of it tell the turn well enough. */
+/* [rad] largest rotation in a step for which the gradients at its end are accurate enough */
 #define DMB_SMALL_TURN 1.0
 
 static double *jacobian_row(const dmb_sim *sim, const dmb_constraint *constraint, uint32_t k)
@@ -49,7 +49,7 @@ static double convective_of(const double J[6], const double JV[6], const dmb_rel
     return dmb_vec6_dot(JV, relative->V) + dmb_vec6_dot(J, relative->convective);
 }
 
-/* Frame a rides along the hole with s' = t . v: n' . v = -s'^2 (n . dt/ds) more. */
+/* Additional convective term because frame a moves along the hole with s' = t . v: n' . v = -s'^2 (n . dt/ds). */
 static double bend_convective(const dmb_hole_bend *bend, const dmb_relative *relative, const double normal[3])
 {
     double v[3];
@@ -68,7 +68,7 @@ static void joint_row(dmb_sim *sim, const dmb_constraint *constraint, uint32_t k
     dmb_add_joint_row(sim->scene, constraint, constraint->index, relative, 1.0, J, jacobian_row(sim, constraint, k));
 }
 
-/* While a scene is put together, coordinates that were given for time 0 are equations too. */
+/* During assembly, given initial coordinates are equations too. */
 static void initial_rows(dmb_evaluation *evaluation, const dmb_constraint *constraint, const dmb_relative *relative,
                          uint32_t k)
 {
@@ -107,7 +107,7 @@ static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constra
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
 
-/* Motion of frame b by the increments of the step, seen from a, with the maps of one of its ends. */
+/* Motion of frame b relative to a by the increments of the step, with the maps at one end of the step. */
 static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j, const dmb_relative *relative,
                      double moved[6])
 {
@@ -123,7 +123,8 @@ static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j,
     for (int i = 0; i < 6; i++) moved[i] += a[i];
 }
 
-/* [rad] by which RX and RY turn in the step, by the gradients of its end; for large turns by those of its start too. */
+/* [rad] Change of RX and RY in the step, with the gradients at its end; for large rotations with those at its start
+ * too. */
 static void angle_increments(const dmb_sim *sim, uint32_t j, const dmb_relative *relative,
                              const dmb_joint_coordinates *c, double increment[2])
 {
@@ -140,7 +141,7 @@ static void angle_increments(const dmb_sim *sim, uint32_t j, const dmb_relative 
     for (int i = 0; i < 2; i++) increment[i] = 0.5 * (increment[i] + dmb_vec6_dot(first.J[3 + i], moved));
 }
 
-/* A coordinate that a motion drive moves stands near where the drive is. */
+/* Expected coordinate of a joint moved by a motion drive: that of the drive, to choose the revolution. */
 static void expect_driven(const dmb_sim *sim, uint32_t j, double expected[2])
 {
     const dmb_scene *scene = sim->scene;
@@ -161,7 +162,7 @@ void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, cons
     const double *last = sim->now.joint_turn + 2 * (size_t)j;
     double expected[2];
     if (!evaluation->dynamic || evaluation->steady)
-        last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
+        last = sim->trial.joint_turn + 2 * (size_t)j; /* in statics it is updated after every move */
     dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
     if (!(evaluation->step > 0.0)) return;
     angle_increments(sim, j, relative, coordinates, expected);
@@ -236,7 +237,7 @@ int32_t dmb_constraint_rows(dmb_evaluation *evaluation)
 
 /* ---- Curvature of the rows --------------------------------------------------------------------------------------- */
 
-/* Columns of a node that a 6-column block reaches: itself, or x and rx. */
+/* Columns of a node affected by a block of 6 columns: all, or x and rx of an axial-torsional node. */
 static void add_block(const dmb_scene *scene, const dmb_constraint *constraint, const double K[144], int i, int k,
                       const uint32_t node[2], double *out)
 {
@@ -270,7 +271,7 @@ static void wrench_of(uint32_t count, double J[][6], const double *f, double w[6
         for (int i = 0; i < 6; i++) w[i] += f[k] * J[k][i];
 }
 
-/* n_k turns with the depth of the point: M^T (frame_rate x n_k) (M^T t)^T */
+/* Rotation of n_k with the depth of the point: M^T (frame_rate x n_k) (M^T t)^T */
 static void add_bend(const dmb_hole_bend *bend, const double *f, double W[36])
 {
     double t[3];

@@ -20,7 +20,7 @@ static const double first_weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0
 static const double second_weight[4] = {-1.0 / 12.0, 16.0 / 12.0, 16.0 / 12.0, -1.0 / 12.0};
 static const double places_of_weight[4] = {-2.0, -1.0, 1.0, 2.0};
 
-/* Quaternions and positions of the places, what is asked for, and where to. */
+/* Quaternions and positions of the places, requested quantities, and destinations. */
 typedef struct question {
     const dmb_scene_callback *callback;
     double time;
@@ -71,7 +71,7 @@ static int32_t call(const question *ask, double value[ROWS], double jacobian[ROW
     return sum <= DMB_CALLBACK_MAX ? DMB_OK : DMB_ERR_CALLBACK; /* nor is a NaN */
 }
 
-/* The question a little further on: all places by s times their speeds and the time by s. */
+/* The arguments advanced along the motion: all places by s times their speeds, and the time by s. */
 static question along_motion(const question *ask, double s)
 {
     question moved = *ask;
@@ -117,7 +117,7 @@ static int32_t jacobian_of(const question *ask, double value[ROWS], double J[ROW
     return jacobian_by_differences(ask, J);
 }
 
-/* value_r = (J v)_r, and b_r besides if the constraint is one of speeds. */
+/* value_r = (J v)_r, plus b_r for a constraint of speeds. */
 static int32_t speed_value(const question *ask, double value[ROWS])
 {
     const uint32_t columns = 6 * ask->callback->count;
@@ -172,7 +172,7 @@ static int32_t add_second(const question *ask, path along, double h, double out[
     return status;
 }
 
-/* Step along the motion that travels no more than `most`, nor lasts longer. */
+/* Step along the motion that travels no more than `most`, and no longer in time. */
 static double motion_step(const question *ask, double most)
 {
     double fastest = 1.0;
@@ -200,7 +200,7 @@ static int32_t rate_of(const question *ask, const double value[ROWS], double rat
     return add_first(ask, at_time, value_of, DMB_TIME_STEP, rate);
 }
 
-/* A place's 6 columns as those of its node: v_place = v + w x x, so the moment gains x cross the force. */
+/* Columns of a place as columns of its node: v_place = v + w x x, so the moment gains x cross the force. */
 static void to_node(const dmb_scene *scene, const dmb_constraint *constraint, const dmb_scene_frame *frame,
                     const double J[6], double *row)
 {
@@ -238,8 +238,8 @@ int32_t dmb_callback_rows(dmb_evaluation *evaluation, uint32_t callback)
     return DMB_OK;
 }
 
-/* Derivative of J^T f by differences of a Jacobian that is given; one built by differences is too rough for it, and the
- * iteration does without. */
+/* Derivative of J^T f by differences of the given Jacobian. A Jacobian built by differences is not accurate enough for
+ * that, and the term is neglected in the tangent. */
 int32_t dmb_callback_curvature(dmb_evaluation *evaluation, uint32_t callback, double *K)
 {
     dmb_sim *sim = evaluation->sim;
@@ -272,8 +272,8 @@ int32_t dmb_callback_curvature(dmb_evaluation *evaluation, uint32_t callback, do
     return DMB_OK;
 }
 
-/* Sizes of the rows: their values, entries, and changes over a step per length of it, so that a row without a slope has
- * one that is not rounding error. */
+/* Sizes of the rows: values, entries, and changes over a step per length of it, so that the derivative of a constant
+ * row is not compared with rounding errors. */
 static int32_t row_sizes(const question *ask, const double value[ROWS], const double given[ROWS * COLUMNS],
                          const double found[ROWS * COLUMNS], double size[ROWS])
 {

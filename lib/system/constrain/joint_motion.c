@@ -1,4 +1,4 @@
-/* Frame b of a joint seen from frame a in a configuration, and how rows and wrenches there reach the rows of its
+/* Frame b of a joint relative to frame a in a configuration, and the mapping of rows and wrenches to the rows of its
  * nodes. */
 #include "system/constrain/constrain.h"
 
@@ -12,7 +12,8 @@
 
 /* ---- Motion ------------------------------------------------------------------------------------------------------ */
 
-/* World rotation of a frame and its origin less its node's place at time 0 (of the ground: less the world's origin). */
+/* World rotation of a frame, and its origin relative to the position of its node at time 0 (of the ground: to the
+ * world's origin). */
 static void frame_pose(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_frame *frame, double R[9],
                        double x[3])
 {
@@ -28,7 +29,7 @@ static void frame_pose(const dmb_scene *scene, const dmb_configuration *c, const
     dmb_vec3_add(x, u, x);
 }
 
-/* The hole's own frame where it is closest to x (world); of a joint that is held, at its depth. */
+/* Frame of the hole at the point closest to x (world); of a locked joint, at its depth. */
 static void hole_frame(const dmb_scene *scene, const double x[3], double *depth, uint32_t *segment, double R[9],
                        double point[3], dmb_hole_bend *bend)
 {
@@ -125,9 +126,8 @@ void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double ve
     for (int i = 0; i < 6; i++) columns[i] += vector[i];
 }
 
-/* A row that only moves a node across its axis leaves nothing but rounding along and about it: parts of the row, or
- * arms that are none. Scaled to unit length in the choice of the partition that would be an equation like any other, so
- * it has to be 0. */
+/* [-] Relative rounding of a row. A row that acts on a node only across its axis has entries of rounding size along and
+ * about it; scaled to unit length in the choice of the partition, these would be an equation, so they are set to 0. */
 #define DMB_ROW_ROUNDING 1e-14
 #define DMB_ARM_ROUNDING 1e-12 /* in length scales */
 

@@ -11,10 +11,10 @@
 
 #define DMB_RIM_EDGE 1e-3
 
-/* [rad] what the angle must stay away from a right angle; [-] sine of a rim's angle with its plane. */
+/* [rad] smallest permitted distance of the angle from a right angle; [-] of a rim, sine of the angle to its plane */
 #define DMB_RIGHT_ANGLE_EDGE 0.01
 
-/* [rad] A rotation in one step up to which a chord tells what its arc came by. */
+/* [rad] Largest rotation in one step for which the chord approximates the arc. */
 #define DMB_SHORT_TURN 1.0
 
 static int coupled(const dmb_scene *scene, uint32_t j)
@@ -33,7 +33,7 @@ static int forced(const dmb_scene *scene, uint32_t j)
     return 0;
 }
 
-/* Whether something acts on an angle of the joint. */
+/* 1: a spring, drive or coupling acts on an angle of the joint. */
 static int acts_on_angles(const dmb_scene *scene, uint32_t j)
 {
     const dmb_scene_joint *joint = scene->joints + j;
@@ -43,7 +43,7 @@ static int acts_on_angles(const dmb_scene *scene, uint32_t j)
     return coupled(scene, j) || forced(scene, j);
 }
 
-/* The same, or its kind is built on them. */
+/* 1: the same, or the equations of its kind use the angles. */
 static int needs_angles(const dmb_scene *scene, uint32_t j)
 {
     const int32_t kind = scene->joints[j].kind;
@@ -61,7 +61,7 @@ static double chord_distance(const double a[2], const double b[2])
     return sqrt(x * x + y * y);
 }
 
-/* s of the trial; the smallest on the way from now to it, as far as a step tells. */
+/* cos RZ of the trial, or its smallest value on the path from now, estimated from the ends of the step. */
 static double smallest_cosine(const dmb_sim *sim, uint32_t j, const double R[9], int moving)
 {
     const double here[2] = {R[4], R[5]};
@@ -116,8 +116,8 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
     return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
 }
 
-/* With RX = 0 of a universal joint n = (cos RZ, 0): its sign is the side. One that swings freely comes to the same
- * place round its other axis. */
+/* 1: the joint is beyond the singularity. With RX = 0 of a universal joint n = (cos RZ, 0), whose sign is the side. A
+ * joint with free angles reaches the same pose about its other axis. */
 static int is_beyond_gimbal_singularity(const dmb_sim *sim, uint32_t j)
 {
     dmb_relative before, here;
@@ -170,7 +170,7 @@ int32_t dmb_joints_refuse_gimbal_singularity(dmb_sim *sim, int moving, double ti
     return DMB_OK;
 }
 
-/* Unwrapped angles RX and RY, from which the next step counts its turns. */
+/* Stores the unwrapped angles RX and RY, from which the next step counts revolutions. */
 void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c)
 {
     sim->trial.joint_turn[2 * j] = c->value[3];
@@ -189,7 +189,7 @@ void dmb_joints_follow(dmb_evaluation *evaluation)
     }
 }
 
-/* -f . B v = f . rate is the power of what moves the callers' constraints. */
+/* Power of the callers' constraints: -f . B v = f . rate. */
 void dmb_joint_reactions(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -209,7 +209,7 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
     dmb_clusters_watch(sim);
 }
 
-/* A locked joint stays at R0, p0: those it has now (constraint/joint.h). */
+/* Stores the locked pose R0, p0 (constraint/joint.h). */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j)
 {
     dmb_relative relative;

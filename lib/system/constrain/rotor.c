@@ -37,7 +37,7 @@ void dmb_rotor_enter(const dmb_sim *sim, uint32_t rotor, const double v[6], doub
     for (int i = 0; i < 6; i++) acceleration[i] += turning[i];
 }
 
-/* A speed or acceleration at the start of the step, in the axes that P(h) leads to; out may be v. */
+/* Velocity or acceleration at the start of the step in the axes reached by P(h); out may be v. */
 static void carry(const dmb_sim *sim, uint32_t rotor, const double v[6], double out[6])
 {
     const dmb_rotor_step *step = sim->rotor_step + rotor;
@@ -90,7 +90,7 @@ double dmb_node_travel(const dmb_evaluation *evaluation, uint32_t node, uint32_t
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-/* O, P(h) and the pose and the motion of the start in the axes that it leads to. */
+/* Computes O, P(h), and pose and motion of the start in the axes reached by P(h). */
 static void begin(const dmb_sim *sim, uint32_t rotor, double h)
 {
     const dmb_scene_rotor *of = sim->scene->rotors + rotor;

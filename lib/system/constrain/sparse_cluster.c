@@ -1,13 +1,13 @@
-/* Sparse clusters: large ones, of which there are no dense matrices. Instead of dependent and independent coordinates
- * there is a choice of rows alone, and every question is a system over the nodes and the multipliers of those rows, in
- * the blocks of the scene's pattern (eq:joints.quasi-definite),
+/* Sparse constraint components: large ones without dense matrices. Instead of dependent and independent coordinates
+ * only rows are chosen, and every task is a linear system over the nodes and the multipliers of those rows, in the
+ * blocks of the scene's pattern (eq:joints.quasi-definite),
  *
  *     [I  (BW)^T] [ x ]   [ a ]
  *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns
  *
- * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The
- * corrections of Newton come from [S B^T; B 0] (system/solve/reduced_system_sparse). All of it is linear in the number
- * of bodies of chains and trees; a loop costs what its width in the order of elimination asks. */
+ * with a = 0 it gives the shortest move with B W x = d; with d = 0 the multipliers that minimise the remainder of a.
+ * The corrections of Newton come from [S B^T; B 0] (system/solve/reduced_system_sparse). The cost is linear in the
+ * number of bodies for chains and trees; for loops it depends on their width in the order of elimination. */
 #include "system/constrain/constrain.h"
 
 #include <string.h>
@@ -45,7 +45,7 @@ uint32_t dmb_sparse_number(dmb_sim *sim)
     return row;
 }
 
-/* Rows with a slot other than none get one after the other in their blocks. */
+/* Numbers the rows with a slot consecutively in their blocks. */
 static void place_rows(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -78,8 +78,8 @@ void dmb_sparse_note(dmb_sim *sim)
 
 /* ---- The matrix -------------------------------------------------------------------------------------------------- */
 
-/* Offsets of B^T of a row that has index i in its block: of a node's column c at to[step * c]. *before: the node is
- * eliminated with the row or before it. */
+/* Offsets of B^T of row i of a block, of a node's column c at to[step * c]. *before: the node is eliminated with the
+ * row or before it. */
 static double *place_of(const dmb_sim *sim, uint32_t block, uint32_t i, uint32_t node_block, size_t *step, int *before)
 {
     const dmb_block_pattern *pattern = &sim->scene->pattern;
@@ -91,7 +91,7 @@ static double *place_of(const dmb_sim *sim, uint32_t block, uint32_t i, uint32_t
     return sim->sparse_value + pattern->upper[e] + (p < q ? i : (size_t)i * sim->sparse_size[node_block]);
 }
 
-/* A row of B W; what of it is eliminated with it or before counts for the length that its pivot is judged by. */
+/* Adds a row of B W; its part eliminated with it or before defines the length that scales its pivot. */
 static void put_row(dmb_sim *sim, const dmb_constraint *c, uint32_t k, const double *weight)
 {
     const dmb_scene *scene = sim->scene;
@@ -130,7 +130,7 @@ static void put_matrix(dmb_sim *sim, const double *weight)
 
 /* ---- Choice ------------------------------------------------------------------------------------------------------ */
 
-/* Chosen rows of a cluster first, both ascending. Returns the quality: the smallest sine. */
+/* Orders the rows of a component: chosen ones first, both groups ascending. Returns the quality, the smallest sine. */
 static double order_rows(dmb_sim *sim, uint32_t k)
 {
     const dmb_scene *scene = sim->scene;
@@ -170,7 +170,7 @@ void dmb_sparse_choose(dmb_sim *sim)
 
 /* ---- Factors ----------------------------------------------------------------------------------------------------- */
 
-/* Smallest sine of each cluster; 1 if any row is weak. */
+/* Smallest sine of each component; 1 if any row is near-redundant. */
 static int note_quality(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -189,7 +189,7 @@ static int note_quality(dmb_sim *sim)
     return near_redundant;
 }
 
-/* First constraint row of a block's multipliers, for the message. */
+/* First constraint row of a block, for the message. */
 static uint32_t row_of_block(const dmb_scene *scene, uint32_t block)
 {
     for (uint32_t i = 0; i < scene->constraint_count; i++)
@@ -218,7 +218,7 @@ int32_t dmb_sparse_refresh(dmb_sim *sim)
 
 /* ---- Projection -------------------------------------------------------------------------------------------------- */
 
-/* d into the places of the rows, times factor. */
+/* Copies d into the rows of the multipliers. */
 static void put_rows(dmb_sim *sim, const double *d)
 {
     const dmb_scene *scene = sim->scene;
@@ -289,7 +289,7 @@ static void add_all_forces(const dmb_sim *sim, double *residual, double *scale)
         if (dmb_is_sparse(sim->scene, i)) add_forces(sim, sim->scene->constraints + i, residual, scale);
 }
 
-/* Rows that are not chosen begin at 0; so do all where an iteration went astray. */
+/* Initial multipliers: 0 in rows that are not chosen, and after a diverged iteration in all rows. */
 static void begin_multipliers(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -328,8 +328,8 @@ static void take_multipliers(dmb_sim *sim)
     }
 }
 
-/* The multipliers at hand are moved by those that make W (residual + B^T f) least. Rows that the factors leave out keep
- * what Newton found for them. */
+/* Changes the multipliers by those that minimise W (residual + B^T f). Rows left out of the factors keep their values
+ * from Newton. */
 void dmb_sparse_balance(dmb_sim *sim, int given)
 {
     const dmb_scene *scene = sim->scene;

@@ -1,15 +1,16 @@
-/* Multipliers of least norm (eq:joints.proximal) are B y: those that no combination of rows that does nothing can
- * shorten. With A = B W of all rows that act, redundant ones included, and g = A^T f,
+/* Multipliers of least norm (eq:joints.proximal) are B y, orthogonal to all combinations of rows without effect. With
+ * A = B W of all active rows, redundant ones included, and g = A^T f,
  *
  *     (A^T A + e I) y = g,   f := f + A y,   g := g - A^T A y,   over again
  *
- * from f = 0 (proximal points; Rockafellar 1976): each pass leaves e/(s^2 + e) of the part of g along a singular value
- * s, and no pass leaves the range of A. A^T A couples nodes as the joints do, so this is as sparse as the rest. */
+ * from f = 0 (proximal points; Rockafellar 1976): each pass multiplies the part of g along a singular value s by
+ * e/(s^2 + e), and every pass stays in the range of A. A^T A couples nodes as the joints do, so its pattern is that of
+ * the other systems. */
 #include <string.h>
 
 #include "system/constrain/constrain.h"
 
-/* e over the largest square of a row; passes, and what may be left of g. */
+/* e over the largest squared length of a row; number of passes; tolerance of g. */
 #define DMB_PROXIMAL 1e-11
 #define DMB_PROXIMAL_PASSES 8
 #define DMB_PROXIMAL_REST 1e-14
@@ -60,7 +61,7 @@ static void put_product(dmb_sim *sim, const dmb_constraint *c, const double *a)
         }
 }
 
-/* Calls for every row of the sparse clusters; idle ones are zero. */
+/* Calls `work` for every row of the sparse components; inactive rows are zero. */
 typedef void row_work(dmb_sim *sim, const dmb_constraint *c, uint32_t k, const double *a);
 
 static double for_rows(dmb_sim *sim, row_work *work)
@@ -119,7 +120,7 @@ static double square_of(uint32_t n, const double *x)
     return sum;
 }
 
-/* A^T A + e I, factored. False where it has no factors. */
+/* Factorises A^T A + e I. False if it is singular. */
 static int factor(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

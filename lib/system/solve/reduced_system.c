@@ -1,11 +1,13 @@
-/* The linear system of chains that joints connect. Its blocks are the clusters and the other nodes of those chains; a
- * cluster's block is reduced to its independent coordinates,
+/* Linear system of chains connected by joints. Its blocks are the constraint components and the other nodes of those
+ * chains; the block of a component is reduced to its independent coordinates,
  *
  *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]   (eq:static.newton)                (DMB_METHOD_INDEPENDENT)
  *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
  *
  * (eq:joints.reduced-system, eq:joints.saddle), with S the iteration matrix of the nodes (blocks of the
- * block-tridiagonal storage) and of the joints. */
+ * block-tridiagonal storage) and of the joints. Sequence: put_nodes, put_constraints, make_null_space, reduce_cluster
+ * or border_cluster for each dense component; assemble_off_diagonal between blocks; sparse components by
+ * reduced_system_sparse. */
 #include "system/solve/solve.h"
 
 #include <string.h>
@@ -20,21 +22,21 @@ static int is_six_dof(const dmb_sim *sim)
     return sim->reduced_mode->bordered;
 }
 
-/* The dense cluster of a node, or DMB_NONE: a block of its own. */
+/* Dense constraint component of a node, or DMB_NONE: the node is a block by itself. */
 static uint32_t cluster_of(const dmb_scene *scene, uint32_t node)
 {
     const uint32_t k = scene->node_cluster[node];
     return k != DMB_NONE && scene->clusters[k].sparse ? DMB_NONE : k;
 }
 
-/* Unknowns of a cluster's block. */
+/* Number of unknowns of the block of a component. */
 static uint32_t cluster_size(const dmb_sim *sim, uint32_t k)
 {
     const uint32_t columns = sim->scene->clusters[k].columns, rank = sim->partition_rank[k];
     return is_six_dof(sim) ? columns + rank : columns - rank;
 }
 
-/* Row of R that column c of cluster k has: G's, or a single 1. *one: place of the 1, or DMB_NONE. */
+/* Row of R for column c of component k: that of G, or a single 1. *one: column of the 1, or DMB_NONE. */
 static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -99,7 +101,7 @@ static void put(const double *from, uint32_t rows, uint32_t columns, double *to,
         for (uint32_t c = 0; c < columns; c++) to[r * stride + c] += from[r * columns + c];
 }
 
-/* Node blocks, and links between two nodes of the cluster. */
+/* Blocks of nodes, and off-diagonal blocks between two nodes of the component. */
 static void put_nodes(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
 {
     const dmb_scene *scene = sim->scene;
@@ -116,7 +118,7 @@ static void put_nodes(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
     }
 }
 
-/* Terms of joints between their nodes, but for rows that are not solved. */
+/* Terms of joints between their nodes, in solved rows. */
 static void put_constraints(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
 {
     const dmb_scene *scene = sim->scene;
@@ -146,7 +148,7 @@ static double *full_matrix(const dmb_sim *sim, const dmb_cluster *cluster)
     return D;
 }
 
-/* G of the matrix at hand; columns that are not solved do not move. */
+/* G of the present matrix (eq:joints.null-space); columns that are not solved do not move. */
 static void make_null_space(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -187,7 +189,7 @@ static void reduce_cluster(dmb_sim *sim, uint32_t k, const double *D, double *A)
     }
 }
 
-/* [D B^T; B 0] with the pivot rows of B; columns that are not solved stand apart. */
+/* [D B^T; B 0] with the pivot rows of B; columns that are not solved become identity. */
 static void border_cluster(const dmb_sim *sim, uint32_t k, const double *D, double *A)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -243,7 +245,7 @@ static void assemble_clusters(dmb_sim *sim, dmb_block_sparse *matrix)
     }
 }
 
-/* A_ij += R_i^T S_ij R_j; the work array is that of a cluster that one of the nodes belongs to. */
+/* A_ij += R_i^T S_ij R_j; the workspace is that of a component to which one of the nodes belongs. */
 static void assemble_off_diagonal(dmb_sim *sim, uint32_t i, uint32_t j, const double *S, size_t offset)
 {
     const dmb_scene *scene = sim->scene;
@@ -329,8 +331,8 @@ int64_t dmb_reduced_factor(dmb_sim *sim, int32_t method, dmb_block_weakest *weak
     return bad < 0 ? -1 : (int64_t)node_of_block(scene, (uint32_t)bad);
 }
 
-/* The room is that of the largest cluster, whose reduction is done with; equations that stand in the system have one
- * negative eigenvalue each. */
+/* Uses the workspace of the largest component, which is no longer needed; equations in the system have one negative
+ * eigenvalue each. */
 uint32_t dmb_reduced_negative(dmb_sim *sim)
 {
     const dmb_block_sparse factored = matrix_of(sim);
@@ -341,7 +343,7 @@ uint32_t dmb_reduced_negative(dmb_sim *sim)
 
 /* ---- Solution ---------------------------------------------------------------------------------------------------- */
 
-/* R^T of what the rows hold, into the block's part of the solution. */
+/* R^T times the rows of a node, into the node's part of the right-hand side. */
 static void assemble_node(const dmb_sim *sim, uint32_t node, const double *rows)
 {
     const dmb_scene *scene = sim->scene;

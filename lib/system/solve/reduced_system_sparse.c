@@ -24,7 +24,7 @@ uint32_t dmb_reduced_sparse_rows(const dmb_sim *sim)
 
 /* ---- Stiffness beside a row -------------------------------------------------------------------------------------- */
 
-/* [N/m] largest of a node in weighted columns. */
+/* [N/m] Largest diagonal entry of a node in weighted columns. */
 static double stiffness_of(const dmb_sim *sim, uint32_t node)
 {
     const double *weight = sim->cluster_weight + dmb_sparse_column(sim->scene, node), *S = dmb_stiffness_of(sim, node);
@@ -34,7 +34,7 @@ static double stiffness_of(const dmb_sim *sim, uint32_t node)
     return most;
 }
 
-/* [N/m] of all nodes of sparse clusters: for those that have none. */
+/* [N/m] Largest diagonal entry of all nodes of sparse components, for nodes without stiffness. */
 static double largest_stiffness(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -47,7 +47,7 @@ static double largest_stiffness(const dmb_sim *sim)
     return most > 0.0 ? most : 1.0;
 }
 
-/* That of the softer node: the other's would swamp it. */
+/* Stiffness of the softer node of a constraint: the stiffer one would dominate the pivot. */
 static double stiffness_beside(const dmb_sim *sim, const dmb_constraint *c, double largest)
 {
     double least = (double)INFINITY;
@@ -80,7 +80,7 @@ static void put_tangent(dmb_sim *sim, const dmb_constraint *c)
         }
 }
 
-/* Row i of the block of the constraint's multipliers, and its column. */
+/* Row i of the multipliers in the block of the constraint, and the corresponding column. */
 static void put_row(dmb_sim *sim, const dmb_constraint *c, const double *b, double factor, uint32_t i)
 {
     const dmb_scene *scene = sim->scene;

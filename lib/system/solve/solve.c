@@ -7,14 +7,14 @@
 #include "sim/chunks.h"
 #include "sim/node.h"
 
-/* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
+/* [-] Residual counted as zero, in units of the rounding of poses times EA/L of stiff elements. */
 #define DMB_ROUNDING_UNITS 4.0
 
 typedef struct norms {
-    double rest, all; /* squares of residual and of the terms that balance, [N2] */
+    double rest, all; /* squares of the residual and of its terms, [N2] */
 } norms;
 
-/* Closes the sums of nodes of one size: translations weigh 1, rotations `arm`. */
+/* Completes the sums of nodes of one size: translations have weight 1, rotations 1/`arm`. */
 static void add_components(uint32_t size, double arm, const double *rest, const double *all, norms *n)
 {
     for (uint32_t c = 0; c < DMB_SQUARES; c++) {
@@ -24,7 +24,7 @@ static void add_components(uint32_t size, double arm, const double *rest, const 
     }
 }
 
-/* Nodes from `first` on that have as many rows as it; 2 or 6. */
+/* Number of consecutive nodes from `first` on with the same number of rows, 2 or 6. */
 static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end)
 {
     const uint32_t rows = scene->layout.row[end] - scene->layout.row[first];
@@ -34,7 +34,7 @@ static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end
     return i - first;
 }
 
-/* Rows of nodes of one size that are summed in pieces. */
+/* Rows of nodes of one size, summed in chunks. */
 typedef struct square_chunks {
     const dmb_sim *sim;
     uint32_t row, count, size, pieces; /* first row, nodes, rows of each */
@@ -86,9 +86,8 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     return n;
 }
 
-/* Rounding of poses counts where there are elements, joints or, alone and at rest, a wall; overflow never converges:
- * anything is small beside infinity.
- */
+/* Compares a residual with its bound. The rounding of poses counts with elements, joints or, for a body at rest, a
+ * wall; overflow never converges, because everything is small relative to infinity. */
 static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, double part, norms n)
 {
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
@@ -100,7 +99,7 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     return n.rest <= part ? DMB_SMALL_PART : 0;
 }
 
-/* [N2] part of the residual at the start that a chain may keep. */
+/* [N2] Squared bound of a chain from its initial residual. */
 static double part_of(const dmb_sim *sim, uint32_t c, const dmb_residual_bound *bound, norms n)
 {
     if (!(bound->share > 0.0)) return 0.0;
@@ -113,7 +112,7 @@ static double relative_of(norms n)
     return n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0;
 }
 
-/* The worst of two verdicts. */
+/* The worse of two results of comparisons. */
 static int32_t worse(int32_t a, int32_t b)
 {
     if (a == 0 || b == 0) return 0;
@@ -166,7 +165,7 @@ static dmb_block_matrix matrix_of(const dmb_sim *sim)
 
 /* ---- Chains, both ends of each at once --------------------------------------------------------------------------- */
 
-/* Blocks of a chain from which on its ends are parts of their own. */
+/* Smallest number of blocks of a chain whose ends are factorised as separate chunks. */
 enum { DMB_ENDS_FROM = 64 };
 
 static int has_ends(const dmb_chain *chain)
@@ -174,7 +173,7 @@ static int has_ends(const dmb_chain *chain)
     return chain->count >= DMB_ENDS_FROM && !chain->jointed;
 }
 
-/* Part number 2 c + side is an end of chain c. */
+/* Chunk 2 c + side is an end of chain c. */
 typedef struct ends_work {
     const dmb_sim *sim;
     dmb_block_matrix matrix;
@@ -182,7 +181,7 @@ typedef struct ends_work {
     int32_t away, reserved;
 } ends_work;
 
-/* A chain's first singular block at one end is left in end_singular. */
+/* Factorises ends of chains; the first singular block of each end goes into end_singular. */
 static void factor_ends(void *work, uint32_t first, uint32_t end)
 {
     ends_work *in = work;
@@ -195,7 +194,7 @@ static void factor_ends(void *work, uint32_t first, uint32_t end)
     }
 }
 
-/* The one that factor_blocks meets first, going along both ends by turns. */
+/* The singular block that a serial factorisation would find first, alternating between both ends. */
 static int64_t first_singular(const dmb_chain *chain, const int64_t at[2])
 {
     const uint32_t last = chain->first + chain->count - 1, extra = chain->count % 2 == 0;
@@ -213,7 +212,7 @@ static int64_t factor_chain(const dmb_sim *sim, dmb_block_matrix *matrix, uint32
     return bad >= 0 ? bad : scene->kernels->factor_part(&scene->layout, matrix, chain->first, chain->count, 2);
 }
 
-/* Chains that no joints connect. */
+/* Factorises chains without joints. */
 static int64_t factor_chains(const dmb_sim *sim, dmb_block_matrix *matrix)
 {
     const int parts = dmb_chunks_are_open(sim);
@@ -295,7 +294,7 @@ static void clear_stiffness(void *work, uint32_t first, uint32_t end)
     memset(sim->stiffness_diagonal + diag[first], 0, (diag[end] - diag[first]) * sizeof(double));
 }
 
-/* The iteration matrix with the stiffness taken away. */
+/* Mass matrix: the iteration matrix without stiffness. */
 static int32_t make_mass_matrix(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -334,7 +333,7 @@ static void clear_constrained(const dmb_scene *scene, double *z)
         z[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]] = 0.0;
 }
 
-/* By LU factors, as dmb_factor_stiffness makes them. */
+/* Solves with the LU factors of dmb_factor_stiffness. */
 static void solve_stiffness(const dmb_scene *scene, const dmb_block_matrix *factors, double *z)
 {
     for (uint32_t c = 0; c < scene->chain_count; c++)
@@ -410,14 +409,14 @@ void dmb_forget_factors(dmb_sim *sim)
     const dmb_block_layout *layout = &sim->scene->layout;
     const uint32_t n = sim->scene->node_count;
     memset(sim->reuse, 0, sizeof *sim->reuse);
-    if (sim->scene->cluster_count) return; /* no room for any */
+    if (sim->scene->cluster_count) return; /* no memory for them */
     memset(sim->reused_diagonal, 0, layout->diag[n] * sizeof(double));
     memset(sim->reused_lower, 0, layout->link[n - 1] * sizeof(double));
     memset(sim->reused_upper, 0, layout->link[n - 1] * sizeof(double));
     if (sim->scene->site_count) memset(sim->reused_quaternion, 0, 4 * n * sizeof(double));
 }
 
-/* Rows of six-DOF nodes from one set of their frames to another, by the twist between the two. */
+/* Transforms rows of six-DOF nodes from one set of body frames to another. */
 typedef struct twist_work {
     const dmb_scene *scene;
     const double *from, *to;
