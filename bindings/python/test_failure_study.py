@@ -1,55 +1,66 @@
-"""Tests of the page of failure probabilities: its tiny form is made by one command, its figures are those of its study files, and called
-again it computes nothing anew."""
+"""Tests of examples/failure_probability: its README's command on a short form, whose figures are those of its study files, and that computes
+nothing twice."""
+import csv
 import json
-import os
 import pathlib
-import subprocess
-import sys
-import tempfile
+import re
+import shlex
 import unittest
 
-from shared_tests import needs
+from shared_tests import FolderTest, needs
 
-needs("h5py", "matplotlib", "numpy", "openturns")
-
-import numpy as np
+needs("h5py", "matplotlib", "numpy", "scipy")
 
 from drillmbd import scene
 from drillmbd.probability.study import read_rows
+from drillmbd.scene.fields import DEFINITIONS
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-STUDY = ROOT / "examples" / "failure_probability"
-sys.path.insert(0, str(STUDY))
-from study import compared
+STUDY = pathlib.Path(__file__).resolve().parents[2] / "examples" / "failure_probability"
+SHORT = ("--vary", "run.end=0.2 s", "--vary", "failure[5].from=0.1 s", "--samples", 4, "--engine", "serial")
 
 
-class StudyTest(unittest.TestCase):
-    def test_page(self):
-        with tempfile.TemporaryDirectory() as folder:
-            words = [sys.executable, "-W", "ignore", STUDY / "study.py", "--tiny", "-o", folder, "--workers", "2"]
-            environment = {**os.environ, "PYTHONPATH": str(ROOT / "bindings" / "python")}
-            done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=600)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            page = pathlib.Path(folder, "failure_probability.html").read_text(encoding="utf-8")
-            found = json.loads(pathlib.Path(folder, "failure_probability.json").read_text(encoding="utf-8"))
-            for model, speed, feed, told, *_ in found["cases"]:
-                rows, _ = read_rows(pathlib.Path(folder, f"{model.replace(' ', '-')}_{speed}rpm_{feed}mms.h5"))
-                self.assertEqual(len(rows), 4)
-                self.assertEqual(float(told.split()[0]), (rows["margin"].min(axis=1) <= 0.0).mean())
-            self.assertIn("Most important variables", page)
-            self.assertNotIn("src=\"http", page)
-            rows, _ = read_rows(pathlib.Path(folder, "indices.h5"))
-            subprocess.run(words, env=environment, check=True, capture_output=True, timeout=600)
-            again, _ = read_rows(pathlib.Path(folder, "indices.h5"))
-            self.assertEqual(rows["seconds"].tolist(), again["seconds"].tolist())  # they were not computed again
+class StudyTest(FolderTest):
+    def words(self):
+        """The options of the first command of README.md, without those of its size."""
+        text = (STUDY / "README.md").read_text(encoding="utf-8").replace("\\\n", " ")
+        command = next(line for line in text.splitlines() if line.startswith("    drillmbd probability"))
+        words = shlex.split(command)
+        self.assertEqual(words[2], "examples/failure_probability/rig.toml")
+        return [one for name, one in zip(words[3:], words[4:]) if name == "--vary"]
 
-    def test_pairs(self):
-        a, b = np.ones((20, 2)), np.ones((20, 2))
-        b[:8, 0] = -1.0
-        self.assertEqual(compared(a, b), (0.4, 8, 0, "raises"))
-        self.assertEqual(compared(b, a), (-0.4, 0, 8, "lowers"))
-        b[3:, 0] = 1.0
-        self.assertEqual(compared(a, b)[3], "not told apart")
+    def test_command(self):
+        out, vary = self.folder / "out", [word for one in self.words() for word in ("--vary", one)]
+        told = self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
+        summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+        self.assertEqual(len(summary["cells"]), 4)  # contact only, vibration, friction, both
+        failing = []
+        for number, cell in enumerate(summary["cells"], 1):
+            rows, _ = read_rows(out / f"{number:05d}" / "study.h5")
+            failing.append(dict(zip(rows["number"].tolist(), (rows["margin"].min(axis=1) <= 0.0).tolist())))
+            self.assertEqual(cell["estimates"]["any failure"]["failures"], sum(failing[-1].values()))
+        with open(out / "pairs.csv", encoding="utf-8", newline="") as file:
+            pairs = list(csv.DictReader(file))
+        for pair, (a, b) in zip(pairs, ((0, 2), (1, 3), (0, 1), (2, 3)), strict=True):
+            more = sum(failing[b][n] and not failing[a][n] for n in range(4))
+            self.assertEqual((int(pair["samples"]), int(pair["fail only after"])), (4, more))
+        self.assertIn("exact McNemar test", told)
+        self.assertTrue((out / "map.png").exists())  # keys with one value are no axes
+        before = [read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)]
+        self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
+        self.assertEqual([read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)], before)
+
+    def test_coupling_changes_the_scene(self):
+        """Each key that the command varies is one of the scene: friction is gone in the first value, vibration too."""
+        from drillmbd.sweep import settings_of, varied
+        first = settings_of({key: values[0] for key, values in map(varied, self.words())})
+        rig, bare = scene.load(STUDY / "rig.toml"), scene.load(STUDY / "rig.toml", first)
+
+        def of(made, name, key):
+            """A field; default values are left out of the description."""
+            return next(arguments[-1].get(key, getattr(DEFINITIONS["hole" if name == "wall" else name](), key)) for one, arguments in made.model.calls if one == "add_" + name)
+        self.assertEqual([of(bare, "wall", key) for key in ("mu_static", "mu_dynamic")] + [of(bare, "pipes", "eccentricity")], [0.0] * 3)
+        self.assertEqual([of(rig, "wall", key) for key in ("mu_static", "mu_dynamic")] + [of(rig, "pipes", "eccentricity")], [0.35, 0.3, 1e-3])
+        self.assertEqual(len([key for key in first if re.search("share|mu_|eccentricity", key)]), 4)
 
     def test_scene_is_itself(self):
         rig = scene.load(STUDY / "rig.toml")

@@ -1,40 +1,51 @@
 #!/usr/bin/env python3
-"""How many samples of a study does this machine compute in a second, by engine and number of workers? One case of study.py's short
-form, the ways in turn, the median of some rounds; for a machine with nothing else to do.
+"""How many samples of rig.toml does this machine compute in a second, by engine and number of workers? The engines in turn, the median of
+some rounds; for a machine with nothing else to do.
 
     python3 examples/failure_probability/scaling.py [--samples 24] [--rounds 3] [--workers 2]
-    python3 examples/failure_probability/scaling.py --cycle 200 --samples 3    # a sample of the whole cycle at 200 rpm"""
+    python3 examples/failure_probability/scaling.py --cycle 200 --samples 3    # a sample of the whole cycle of 100 pipes at 200 rpm"""
 import argparse
+import os
+import pathlib
 import resource
 import statistics
+import sys
 import tempfile
 import time
-from types import SimpleNamespace
 
-import study
-from drillmbd.probability.sampling import Points
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parents[1] / "bindings" / "python")] if not os.environ.get("PYTHONPATH") else []
+if "DRILLMBD_LIBRARY" not in os.environ and (HERE.parents[1] / "build/release/libdrillmbd.so").exists():
+    os.environ["DRILLMBD_LIBRARY"] = str(HERE.parents[1] / "build/release/libdrillmbd.so")
+
+from drillmbd.probability import engines  # noqa: E402
+from drillmbd.probability.sample import SceneSample  # noqa: E402
+from drillmbd.probability.sampling import Points  # noqa: E402
+from drillmbd.probability.study import Study, StudyFile  # noqa: E402
+
+
+def rig(changes):
+    """Samples of rig.toml with changes."""
+    return SceneSample((HERE / "rig.toml").read_text(encoding="utf-8"), "rig.toml", str(HERE), changes=changes)
+
+
+def results_of(sample, engine, samples):
+    """Computed by this engine, written to a file as a study does."""
+    with tempfile.TemporaryDirectory() as folder, StudyFile(pathlib.Path(folder, "study.h5"), sample, {"seed": 1}) as file:
+        return Study(sample, engine, file).run(range(samples), Points("monte-carlo", 1, sample.dimension, samples).z)
 
 
 def seconds(engine, workers, samples):
     """That the samples take by this engine, with the start of its workers."""
-    with tempfile.TemporaryDirectory() as folder:
-        work = study.Work(SimpleNamespace(form="short", output=folder, engine=engine, workers=workers, address=None))
-        sample = work.sample(study.ALL, 250, 5)
-        what, file = work.study("scaling", sample, {"seed": 1})
-        started = time.monotonic()
-        with file:
-            what.run(range(samples), Points("monte-carlo", 1, sample.dimension, samples).z)
-        return time.monotonic() - started
+    sample, started = rig({}), time.monotonic()
+    results_of(sample, engines.engine(engine, workers), samples)
+    return time.monotonic() - started
 
 
 def cycle(speed, samples):
-    """Prints seconds and memory of samples of the long form, one after the other."""
-    with tempfile.TemporaryDirectory() as folder:
-        work = study.Work(SimpleNamespace(form="long", output=folder, engine="serial", workers=1, address=None))
-        sample = work.sample(study.ALL, speed, 10)
-        what, file = work.study("cycle", sample, {"seed": 1})
-        with file:
-            results = what.run(range(samples), Points("monte-carlo", 1, sample.dimension, samples).z)
+    """Prints seconds and memory of samples of the whole cycle, one after the other."""
+    turns = {f"time_function[1].segment[{i}].h1": f"{sign * speed} rpm" for i, sign in enumerate((1, -1, -1))}
+    results = results_of(rig({"run.end": "40 s", "string[0].pipes[0].count": 100, **turns}), engines.engine("serial"), samples)
     took = [one.seconds for one in results]
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     print(f"{speed} rpm: {statistics.mean(took):.1f} s a sample ({min(took):.1f} .. {max(took):.1f}), {memory:.0f} MB")
@@ -42,7 +53,7 @@ def cycle(speed, samples):
 
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--samples", type=int, default=24, help="of each way in each round")
+    words.add_argument("--samples", type=int, default=24, help="of each engine in each round")
     words.add_argument("--rounds", type=int, default=3)
     words.add_argument("--workers", type=int, default=2)
     words.add_argument("--cycle", type=int, metavar="RPM", help="instead: cost of a sample of the whole cycle, from 1 to 1000 rpm")

@@ -149,7 +149,7 @@ def parser() -> argparse.ArgumentParser:
     sweep.add_argument("scene", help="a scene file (TOML)")
     sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "rod-by-rod", "stuck", "report", "probability"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
-                       "KEY=LOW:HIGH:COUNT; once for each key")
+                       "KEY=LOW:HIGH:COUNT; once for each key; keys between & change together: A & B=V1,V2 or A & B=V1 & W1,V2 & W2")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
     sweep.add_argument("--quiet", "-q", action="store_true")
     _add_probability(commands)
@@ -247,7 +247,8 @@ def _add_probability(commands: Any) -> None:
     asked.add_argument("--question", choices=["torque-drag", "static", "run", "auto"], help="analysis of each sample, instead of [variability] question: "
                        "soft string, static states, run in time; auto: runs only where torque and drag do not decide")
     asked.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES", help="a map of the probability over KEY=V1,V2,... or "
-                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key")
+                       "KEY=LOW:HIGH:COUNT, with the same random numbers everywhere; once for each key; keys between & change together: A & B=V1,V2 "
+                       "or A & B=V1 & W1,V2 & W2")
     asked.add_argument("--until", metavar="RULE", help='adds samples up to --samples until half of the interval is "30%%" of the probability, or it is '
                        '"below 1e-2" or above')
     asked.add_argument("--samples", type=int, metavar="N", help="instead of [variability] samples; of a subset simulation: in a level")

@@ -54,13 +54,38 @@ def _between(text: str) -> list[Any]:
 
 
 def varied(text: str) -> tuple[str, list[Any]]:
-    """KEY=V1,V2,... or KEY=LOW:HIGH:COUNT as the key and its values. Raises ValueError."""
+    """KEY=V1,V2,... or KEY=LOW:HIGH:COUNT as the key and its values; "A & B=V1 & W1,V2 & W2" of keys that change together, "A & B=V1,V2" where
+    they have the same values. Raises ValueError."""
     key, found, values = text.partition("=")
     if not found or not values.strip():
         raise ValueError(f"{text!r}: write KEY=V1,V2 or KEY=LOW:HIGH:COUNT")
-    path_of_key(key.strip())
+    keys = keys_of(key)
+    for one in keys:
+        path_of_key(one)
     listed = _between(values) if values.count(":") == 2 else [value_of(one) for one in values.split(",")]
-    return key.strip(), listed
+    for value in listed:
+        if len(keys) > 1 and len(_parts(value)) not in (1, len(keys)):
+            raise ValueError(f"{text!r}: {value!r} has {len(_parts(value))} values for {len(keys)} keys; write one for all of them, or one each between &")
+    return " & ".join(keys), listed
+
+
+def keys_of(text: str) -> list[str]:
+    """The keys of "A & B"."""
+    return [one.strip() for one in text.split("&")]
+
+
+def _parts(value: Any) -> list[Any]:
+    return [value_of(one) for one in value.split("&")] if isinstance(value, str) else [value]
+
+
+def settings_of(varied_values: dict[str, Any]) -> dict[str, Any]:
+    """Values by keys as they vary, "A & B" among them, as values by single keys."""
+    found: dict[str, Any] = {}
+    for text, value in varied_values.items():
+        keys = keys_of(text)
+        parts = _parts(value) if len(keys) > 1 else [value]
+        found.update(zip(keys, parts if len(parts) == len(keys) else parts * len(keys)))
+    return found
 
 
 # ---- Answers ---------------------------------------------------------------------------------------------------------
@@ -100,7 +125,7 @@ class Sweep:
         row: dict[str, Any] = {"case": number, **changes, "status": "ok", "message": ""}
         about = ""
         try:
-            scene = load(changes)
+            scene = load(settings_of(changes))
             summary = self._kept(number, scene)
             if summary is None:
                 summary = self._answer(number, scene, file, options)

@@ -12,11 +12,13 @@ from .._optional import need
 from ..results import CommandOutput
 from ..errors import Usage
 from . import engines
-from .demands import Demand, demand_of
+from ..scene.failure import KINDS
+from .demands import Demand, amount, demand_of
 from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, plan, sobol_indices
 from .sampling import Points
 from .sample import FAILED, Result, SceneSample
 from .study import Progress, Study, StudyFile, usable
+from .ticking import ticking
 from .until import MOST, Rule, following, rule
 
 ANY = "any failure"
@@ -75,13 +77,16 @@ class Answer:
         self.asked, self.sample, self.options, self.output = asked, asked.sample, asked.options, output
         if asked.sample.draw.scene.results.get("units"):
             output.note_text("[results] units is ignored: probability writes SI units")
+        for one in asked.failures:
+            if one.assumed:
+                output.note_text(f"{one.name}: limit {amount(one.limit, KINDS[one.kind].unit)} is assumed, because the scene gives none: {KINDS[one.kind].source}")
         self.question = self.sample.question
         self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
         self.scales = None if self.options.failure else asked.scales()
         self.started = self.told = clock.monotonic()
         self.estimates: dict[str, Estimate] = {}
         self.demands: dict[str, Demand] = {}
-        self.failing: dict[int, bool] = {}  # whether anything fails, by the number of a sample with all of its margins
+        self.failing: dict[int, bool] = {}  # whether any failure occurs, or that of --failure, by the number of a sample with all of its margins
 
     def answer(self) -> int:
         """Computes it; returns the exit status."""
@@ -171,9 +176,10 @@ class Answer:
     def say_demands(self, results: list[Result]) -> None:
         """Percentiles and rank correlations of the demands."""
         numpy = need("numpy")
-        demands, inputs = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs"))
+        demands, inputs, margins = (numpy.array([getattr(one, key) for one in results], dtype=float) for key in ("demands", "inputs", "margins"))
         for i, one in enumerate(self.asked.failures):
-            found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence)
+            found = demand_of(one, demands[:, i], inputs, self.sample.inputs, self.asked.confidence,
+                              margins[:, i] if one.name in self.sample.limits.names else None)
             if found is None:
                 continue
             self.demands[one.name] = found
@@ -198,7 +204,8 @@ class Answer:
         self.output.say(f"surrogate: polynomials up to degree {known.degree} of {z.shape[1]} numbers, chosen of {known.terms}, fitted to {len(z)} margins: "
                         f"about {known.seconds:.1g} s of a processor")
         try:
-            found = Surrogate(z, margins)
+            with ticking("surrogate", known.seconds, not self.options.quiet and sys.stderr.isatty()):
+                found = Surrogate(z, margins)
         except ValueError as error:
             self.output.note_text(f"surrogate: not assessed, because of {error}; compute more samples")
             return
@@ -230,7 +237,7 @@ class Answer:
     def table(self, results: list[Result]) -> None:
         """All samples."""
         sample = self.sample
-        self.failing = {one.number: min(one.margins) <= 0.0 for one in results if usable(one.margins)}
+        self.failing = {one.number: (min(one.margins) if self.scales else one.margins[self.limit]) <= 0.0 for one in results if usable(one.margins)}
         heads = ["number", "status", "seconds", *sample.inputs, *(f"margin of {name}" for name in sample.names),
                  *(f"demand of {name}" for name in sample.names), "message"]
         rows = ([one.number, "failed" if one.status == FAILED else "done", one.seconds, *one.inputs, *one.margins, *one.demands,

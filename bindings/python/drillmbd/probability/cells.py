@@ -24,6 +24,8 @@ from .sample import SceneSample
 from .study import StudyError
 
 MOST_CELLS = 400
+MOST_LINES = 12     #: pairs of neighbours that are stated on the terminal
+SIGNIFICANT = 0.05  #: chance below which a difference counts as shown
 
 
 @dataclass
@@ -33,7 +35,7 @@ class Cell:
     message: str = ""                                       #: why it has no answer
     estimates: dict[str, Estimate] = field(default_factory=dict)
     demands: dict[str, Demand] = field(default_factory=dict)
-    failing: dict[int, bool] = field(default_factory=dict)  #: samples with margins, by number: any failure
+    failing: dict[int, bool] = field(default_factory=dict)  #: samples with margins, by number: any failure, or that of --failure
     dimension: int = 0
 
     @property
@@ -43,12 +45,13 @@ class Cell:
 
 
 def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
-    from ..sweep import varied
+    from ..sweep import keys_of, varied
     try:
         found = [varied(text) for text in texts]
     except ValueError as error:
         raise Usage(f"--vary {error}") from None
-    if len({key for key, _ in found}) < len(found):
+    keys = [one for key, _ in found for one in keys_of(key)]
+    if len(set(keys)) < len(keys):
         raise Usage("--vary: each key once")
     count = math.prod(len(values) for _, values in found)
     if count > MOST_CELLS:
@@ -80,9 +83,10 @@ class Map:
         return self.output.finish(status)
 
     def _cell(self, number: int, values: dict[str, Any]) -> Cell:
+        from ..sweep import settings_of
         cell, file = Cell(values), self.options.scene
         whole, folder = self.sample, self.output.folder
-        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **values}, whole.asked)
+        sample = SceneSample(whole.text, whole.name, whole.folder, whole.own, {**whole.changes, **settings_of(values)}, whole.asked)
         try:
             asked = Asked(sample, self.options)
             output = CommandOutput(str(folder / f"{number:05d}") if folder else None, file, sample.draw.scene, "probability", True)
@@ -104,7 +108,8 @@ class Map:
     def _say(self, number: int, cell: Cell) -> None:
         one = cell.estimates.get(self.options.failure or ANY)
         told = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})" if one else "no estimate")
-        told += "".join(f", P95 of {name} {amount(demand.percentiles[-1].value, KINDS[demand.failure.kind].unit)}" for name, demand in cell.demands.items())
+        told += "".join(f", P{demand.worst.percent} of {name} {amount(demand.worst.value, KINDS[demand.failure.kind].unit)}"
+                        for name, demand in cell.demands.items())
         self.output.say(f"cell {number}: {cell.words}: {told}")
 
     # ---- The map -----------------------------------------------------------------------------------------------------
@@ -122,8 +127,10 @@ class Map:
         self.output.summary["cells"] = [{"values": {key: str(value) for key, value in one.values.items()}, "message": one.message,
                                          "estimates": {name: vars(estimate) for name, estimate in one.estimates.items()},
                                          "demands": {name: demand.record() for name, demand in one.demands.items()}} for one in self.cells]
-        if first and len(self.vary) <= 2:
-            self.output.picture("map.png", lambda plots: plots.probability_map(self.vary, self._grid(), self.options.failure or ANY))
+        self._pairs()
+        wide = [one for one in self.vary if len(one[1]) > 1] or self.vary[:1]
+        if first and len(wide) <= 2:
+            self.output.picture("map.png", lambda plots: plots.probability_map(wide, self._grid(), self.options.failure or ANY))
 
     def _grid(self) -> list[Any]:
         """Probability and interval of each cell in order; None where there is no answer."""
@@ -144,15 +151,64 @@ class Map:
 
     @staticmethod
     def _against(first: Cell | None, cell: Cell) -> list[Any]:
-        """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal counts if both were as likely
-        (McNemar 1947, exact)."""
-        if first is None or not cell.failing or first.dimension != cell.dimension:
-            return ["", "", ""]
-        both = first.failing.keys() & cell.failing.keys()
-        here = sum(cell.failing[n] and not first.failing[n] for n in both)
-        there = sum(first.failing[n] and not cell.failing[n] for n in both)
-        chance = float(need("scipy.stats").binomtest(here, here + there, 0.5).pvalue) if here + there else 1.0
-        return [here, there, chance]
+        """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal counts."""
+        found = paired(first, cell) if first is not None else None
+        return ["", "", ""] if found is None else [found.more, found.fewer, found.chance]
+
+    # ---- Neighbours --------------------------------------------------------------------------------------------------
+    def _pairs(self) -> None:
+        """Pairs of cells that differ by one step of one key, as a table and, where they are few, as lines."""
+        found = [(key, a, b, one) for key, a, b in self._neighbours() if (one := paired(a, b)) is not None]
+        rows = [[key, a.values[key], b.values[key], *(value for other, value in a.values.items() if other != key), one.samples, one.more, one.fewer,
+                 one.chance, one.word] for key, a, b, one in found]
+        if not rows:
+            return
+        self.output.table("pairs.csv", ["key", "from", "to", *(f"other value {i + 1}" for i in range(len(self.vary) - 1)), "samples", "fail only after",
+                                        "fail only before", "chance of so unequal counts", "probability"], rows)
+        self.output.summary["pairs"] = [{"key": key, "from": a.values, "to": b.values, **vars(one), "probability": one.word} for key, a, b, one in found]
+        for key, a, b, one in found if len(found) <= MOST_LINES else []:
+            others = ", ".join(f"{other} = {value}" for other, value in a.values.items() if other != key and len(dict(self.vary)[other]) > 1)
+            self.output.say(f"{key} from {a.values[key]} to {b.values[key]}" + (f", at {others}" if others else "") + f": {one.more} more fail and {one.fewer} "
+                            f"fewer of the same {one.samples} samples, {(one.more - one.fewer) / one.samples:+.3g}: {one.word} (exact McNemar test, "
+                            f"p = {one.chance:.2g})")
+
+    def _neighbours(self) -> list[tuple[str, Cell, Cell]]:
+        by_index = dict(zip(itertools.product(*(range(len(values)) for _, values in self.vary)), self.cells))
+        found = []
+        for d, (key, _) in enumerate(self.vary):
+            for index, cell in by_index.items():
+                other = by_index.get((*index[:d], index[d] + 1, *index[d + 1:]))
+                if other is not None:
+                    found.append((key, cell, other))
+        return found
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two cells with the same samples."""
+    samples: int    #: with all margins in both
+    more: int       #: fail in the second only
+    fewer: int      #: fail in the first only
+    chance: float   #: of so unequal counts if both were as likely (McNemar 1947, exact)
+
+    @property
+    def word(self) -> str:
+        """The effect on the probability."""
+        if self.more + self.fewer == 0:
+            return "no sample differs" if self.samples else "not assessed, because no sample has all margins in both"
+        if self.chance > SIGNIFICANT:
+            return "a difference is not shown"
+        return "the probability rises" if self.more > self.fewer else "the probability falls"
+
+
+def paired(a: Cell, b: Cell) -> Pair | None:
+    """Of two cells; None where their samples are not the same."""
+    if a.message or b.message or a.dimension != b.dimension:
+        return None
+    both = a.failing.keys() & b.failing.keys()
+    more, fewer = (sum(x.failing[n] and not y.failing[n] for n in both) for x, y in ((b, a), (a, b)))
+    chance = float(need("scipy.stats").binomtest(more, more + fewer, 0.5).pvalue) if more + fewer else 1.0
+    return Pair(len(both), more, fewer, chance)
 
 
 def answer(sample: SceneSample, options: argparse.Namespace) -> int:

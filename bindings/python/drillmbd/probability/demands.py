@@ -43,14 +43,21 @@ class Demand:
     counts: list[int]
     infinite: int           #: samples in which the string locks up
     matters: list[Matter]   #: the largest first
+    limit_varies: bool = False  #: the limit is that of the scene file, and samples have others
+
+    @property
+    def worst(self) -> Percentile:
+        """The percentile on the side of the limit: P95, or P5 where little is bad."""
+        return self.percentiles[0 if KINDS[self.failure.kind].low else -1]
 
     def sentence(self, confidence: float) -> str:
         """One line."""
-        unit, worst = KINDS[self.failure.kind].unit, self.percentiles[0 if KINDS[self.failure.kind].low else -1]
+        unit, worst = KINDS[self.failure.kind].unit, self.worst
         parts = [f"P{one.percent} {amount(one.value, unit)}" for one in self.percentiles]
         interval = f"{100 * confidence:g} % interval of P{worst.percent} {amount(worst.low, unit)} .. {amount(worst.high, unit)}"
-        share = f"{100.0 * worst.share:.3g} % of the limit {amount(self.failure.limit, unit)}" if math.isfinite(worst.share) else \
-            f"limit {amount(self.failure.limit, unit)}"
+        limit = "limit of the scene file," if self.limit_varies else "limit"
+        share = f"{100.0 * worst.share:.3g} % of the {limit} {amount(self.failure.limit, unit)}" if math.isfinite(worst.share) else \
+            f"{limit} {amount(self.failure.limit, unit)}"
         return f"{self.failure.name}: demand {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
 
     def record(self) -> dict[str, Any]:
@@ -100,8 +107,14 @@ def matters(demands: Any, inputs: Any, names: Sequence[str]) -> list[Matter]:
     return sorted(found, key=lambda one: -abs(one.rank))
 
 
-def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float) -> Demand | None:
-    """Of the samples of one failure in order, NaN where there is none; None where no sample has one."""
+def _excess(failure: Failure, margins: Any) -> Any:
+    """demand - limit."""
+    return margins if KINDS[failure.kind].low else -margins
+
+
+def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str], confidence: float, margins: Any = None) -> Demand | None:
+    """Of the samples of one failure in order, NaN where there is none; None where no sample has one. margins: where the limit varies too, so that
+    rank correlations are those of demand - limit."""
     numpy = need("numpy")
     good = ~numpy.isnan(demands)
     known = demands[good]
@@ -112,4 +125,4 @@ def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str],
     counts, edges = numpy.histogram(finite, BINS) if len(finite) else (numpy.zeros(0, int), numpy.zeros(0))
     points = [(percent, *percentile(ranked, percent, confidence)) for percent in PERCENTS]
     return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(), counts.tolist(),
-                  int(len(known) - len(finite)), matters(known, inputs[good], names))
+                  int(len(known) - len(finite)), matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names), margins is not None)

@@ -18,6 +18,7 @@ from ..scene import CannotSave, Scene, SceneError, loads
 from ..scene.failure import KINDS, Failure
 from . import statics
 from .draw import CannotDraw, Draw
+from .drawn_limits import DrawnLimits
 from .limits import BESIDE, Course, Watch, margin_of
 from .soft import SoftString
 
@@ -91,9 +92,10 @@ class SceneSample:
         self._draw: Draw | None = None
         self._soft = dict[int, SoftString]()
         self._course: Course | None = None
+        self._limits: DrawnLimits | None = None
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_draw": None, "_soft": {}, "_course": None}
+        return {**self.__dict__, "_draw": None, "_soft": {}, "_course": None, "_limits": None}
 
     @property
     def question(self) -> str:
@@ -132,6 +134,13 @@ class SceneSample:
             if missing:
                 raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own {missing[0]}=FILE.py:NAME)")
         return self._draw
+
+    @property
+    def limits(self) -> DrawnLimits:
+        """Limits that vary. Made once in each process."""
+        if self._limits is None:
+            self._limits = DrawnLimits(self.draw, lambda changes: loads(self.text, self.name, self.folder, {**self.changes, **changes, "variability": None}))
+        return self._limits
 
     def _refuse_others(self, failures: list[Failure]) -> None:
         """Failures that the question of the command line says nothing about."""
@@ -190,12 +199,13 @@ class SceneSample:
 
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
         if self.question == "torque-drag" and not any(one.kind in BESIDE for one in self.failures):
-            return self.soft.margins(values, self.failures)
+            return self.soft.margins(values, self.limits.of(self.failures, values))
         scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
         if self.question == "torque-drag":
-            quick = [one for one in self.failures if one.kind not in BESIDE]
+            failures = self.limits.of(self.failures, values)
+            quick = [one for one in failures if one.kind not in BESIDE]
             known = dict(zip((one.name for one in quick), self.soft.margins(values, quick)))
-            return [known[one.name] if one.name in known else self._beside(one, scene, None, values, None, None) for one in self.failures]
+            return [known[one.name] if one.name in known else self._beside(one, scene, None, values, None, None) for one in failures]
         if self.question == "static":
             return self._static(scene, values)
         end = scene.run.get("end", 0.0)

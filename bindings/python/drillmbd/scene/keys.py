@@ -19,7 +19,7 @@ TABLES: dict[str, tuple[str, str]] = {
     "bit": ("bit", "name load mass diameter rock_law"), "drive": ("drive", "name component time_function kind"),
     "time_function.segment": ("segment", "kind h0 h1 x0 x1 table"), "stabiliser": ("stabiliser", ""), "body": ("body", "name mass"),
     "joint": ("joint", "kind place_a place_b"), "coupling": ("coupling", ""), "load": ("load", "place force"), "spring": ("spring", ""),
-    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress"), "run": ("", "end step static"),
+    "stuck": ("stuck", ""), "input": ("input", ""), "limits": ("", "rig torque push pull yield_stress make_up_torque"), "run": ("", "end step static"),
     "results": ("", "interval units"), "static": ("static", "slip_axial slip_rotation"), "modes": ("modes", "count"), "response": ("response", ""),
     "speeds": ("speeds", ""), "buckling": ("buckling", ""), "fatigue": ("fatigue", ""), "compile": ("compile", ""), "sim": ("sim", "")}
 

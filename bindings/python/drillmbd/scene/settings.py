@@ -26,7 +26,8 @@ OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of 
 LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
           "push": Field("push", "quantity", "N", about="of the rig"),
           "pull": Field("pull", "quantity", "N", about="of the rig"),
-          "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes")}
+          "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes"),
+          "make_up_torque": Field("make_up_torque", "quantity", "N m", about="of the threads, limit of the failure connection-torque")}
 
 _above_zero: tuple[str, Callable[[float], bool]] = ("> 0", lambda value: 0.0 < value < math.inf)
 _from_zero: tuple[str, Callable[[float], bool]] = (">= 0", lambda value: 0.0 <= value < math.inf)

@@ -13,6 +13,7 @@ from .._optional import need
 from . import units
 from .overrides import path_of_key
 from .failure import QUESTIONS
+from .failure import unit_of as unit_of_failure
 from .fields import DEFINITIONS, Field, fields_of
 from .lines import Path
 from .problems import meant
@@ -150,6 +151,11 @@ def unit_of_key(loader: Loader, path: Path) -> str | None:
         number = path[1] if len(path) > 1 and isinstance(path[1], int) else 0
         found = loader.parts("time_function")
         return loader.units.get(loader.name("time_function", number, found[number][1])) if number < len(found) else None
+    if path[0] == "failure":
+        return unit_of_failure(loader, path)
+    if path[0] == "limits":
+        from .settings import LIMITS
+        return LIMITS[str(key)].unit if len(path) == 2 and key in LIMITS else None
     known = fields_of(DEFINITIONS[table]).get(str(key)) if table in DEFINITIONS else None
     if known is None or known.kind != "quantity" or known.count:
         return None

@@ -1,0 +1,155 @@
+"""Tests of limits of failures: those that vary, those that a scene does not give, keys that vary together, and pairs of cells."""
+import csv
+import json
+import math
+import unittest
+
+from shared_tests import FolderTest, needs
+
+needs("h5py", "matplotlib", "numpy", "scipy")
+
+import numpy as np
+from scipy import stats
+from test_questions import LEVEL, WEIGHT, failure
+
+from drillmbd import scene
+from drillmbd.probability.cells import Cell, paired
+from drillmbd.probability.sample import FAILED, SceneSample
+from drillmbd.scene.failure import KINDS
+from drillmbd.sweep import settings_of, varied
+
+RIG = """[limits]
+torque = "250 N m"
+[[variability.scatter]]
+name = "push of the rig"
+key = "failure[0].limit"
+distribution = "normal"
+mean = "9.7 kN"
+deviation = "0.1 kN"
+"""
+SHARE = """[[variability.scatter]]
+name = "torque of the rig"
+key = "limits.torque"
+relative = true
+distribution = "uniform"
+low = 0.5
+high = 1
+"""
+PUSH = failure("rig-push", limit="9.7 kN")
+
+
+class DrawnTest(FolderTest):
+    SCENE = LEVEL + RIG + PUSH
+
+    def test_every_question(self):
+        """margin = limit of the sample - demand, by a limit of the failure itself and by one of [limits] that it takes."""
+        for question in ("torque-drag", "static"):
+            sample = SceneSample(LEVEL + RIG + SHARE + PUSH + failure("rig-torque") + failure("rig-pull", limit="3 kN"), asked=question)
+            for number in range(3):
+                one = sample(number, np.random.default_rng(number).standard_normal(sample.dimension))
+                friction, push, torque = one.inputs
+                for margin, demand, limit in zip(one.margins, one.demands, (push, 250.0 * torque, 3000.0), strict=True):
+                    self.assertLess(abs(margin + demand - limit), 1e-9 * limit)
+
+    def test_keys_that_vary(self):
+        text = LEVEL + failure("jamming", limit="1 kN", pull="5 kN", torque="1 N m", diameter="73 mm") + """[[variability.scatter]]
+name = "pull"
+key = "failure.pull"
+distribution = "uniform"
+low = "4 kN"
+high = "6 kN"
+"""
+        sample = SceneSample(text)
+        for number in range(3):
+            one = sample(number, np.random.default_rng(number).standard_normal(2))
+            friction, pull = one.inputs
+            self.assertLess(abs(one.demands[0] - (pull - friction * WEIGHT)), 1e-6 * WEIGHT)
+
+    def test_limits_that_cannot_be(self):
+        """A sample with a limit that is not permitted is lost, with the parameter in its message."""
+        sample = SceneSample(LEVEL + RIG.replace('"0.1 kN"', '"9.7 kN"') + PUSH)
+        one = sample(0, np.array([0.0, -3.0]))
+        self.assertEqual(one.status, FAILED)
+        self.assertRegex(one.message, "limit = -19.4 kN of push of the rig, must be > 0|limit = -19400")
+
+    def test_probability(self):
+        """P(limit < demand) of two normal numbers; the limit is what to measure better."""
+        out = self.ask("probability", self.scene, "-o", self.folder / "out", "--samples", 2000, "--engine", "serial")
+        summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
+        mean, deviation = 8000.0 + 0.3 * WEIGHT - 9700.0, math.hypot(0.03 * WEIGHT, 100.0)
+        known, one = stats.norm.sf(-mean / deviation), summary["estimates"]["rig-push"]
+        self.assertTrue(one["low"] <= known <= one["high"], (known, one))
+        ranks = summary["demands"]["rig-push"]["rank_correlation"]
+        self.assertLess(ranks["push of the rig"]["value"], -5.0 * ranks["push of the rig"]["least_that_counts"])
+        self.assertIn("of the limit of the scene file", out)
+
+    def test_refused(self):
+        for key, told in (("failure[3].limit", "single number"), ("failure[0].pull", "single number"), ("limits.rig", "single number"),
+                          ("failure[0].from", "single number"), ("limits.torque.x", "single number")):
+            with self.assertRaisesRegex(scene.SceneError, told, msg=key):
+                scene.loads(LEVEL + RIG.replace("failure[0].limit", key) + PUSH)
+
+
+class DefaultTest(FolderTest):
+    SCENE = LEVEL + failure("wall-pressure", width="20 mm")
+
+    def test_sources(self):
+        """A default of a coal seam is stated with its source; without a source there is none."""
+        out = self.ask("probability", self.scene, "--samples", 10, "--engine", "serial", "-o", self.folder / "out")
+        notes = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))["notes"]
+        self.assertTrue(any("is assumed" in one and "10.3390/pr13072195" in one for one in notes), (out, notes))
+        self.assertEqual(scene.loads(LEVEL + failure("wall-pressure", width="20 mm")).failures[0].limit, KINDS["wall-pressure"].default)
+        for kind, told in (("jamming", "no public measurement"), ("leaves-seam", "thickness of the seam"), ("connection-torque", "make_up_torque")):
+            with self.assertRaisesRegex(scene.SceneError, f"(?s)must have a limit.*{told}"):
+                scene.loads(LEVEL + failure(kind))
+
+    def test_make_up_torque(self):
+        made = scene.loads(LEVEL + '[limits]\nmake_up_torque = "900 N m"\n' + failure("connection-torque"))
+        self.assertEqual(made.failures[0].limit, 900.0)
+        self.assertTrue(made.same_as(scene.loads(scene.saves(made))))
+
+
+class TogetherTest(FolderTest):
+    SCENE = LEVEL + PUSH
+
+    def test_grammar(self):
+        self.assertEqual(varied("a.b & c=1 & 2 m,3"), ("a.b & c", ["1 & 2 m", 3]))
+        self.assertEqual(settings_of({"a.b & c": "1 & 2 m", "d": "x & y"}), {"a.b": 1, "c": "2 m", "d": "x & y"})
+        self.assertEqual(settings_of({"a & b": 3.5}), {"a": 3.5, "b": 3.5})
+        self.assertEqual(varied("a & b=1 m:3 m:2"), ("a & b", ["1.0 m", "3.0 m"]))
+        for wrong, told in (("a & b=1 & 2 & 3", "3 values for 2 keys"), ("a &=1", "is no key"), ("& a=1", "is no key")):
+            with self.assertRaisesRegex(ValueError, told):
+                varied(wrong)
+
+    def test_map(self):
+        """One value for both keys, and one each."""
+        keys = "hole.mu_static & hole.mu_dynamic"
+        for command in (("sweep", self.scene, "check"), ("probability", self.scene, "--samples", 20, "--engine", "serial")):
+            self.ask(*command, "--vary", f"{keys}=0.2,0.4 & 0.25", "-o", self.folder / command[0])
+        with open(self.folder / "sweep" / "sweep.csv", encoding="utf-8", newline="") as file:
+            self.assertEqual([row[keys] for row in csv.DictReader(file)], ["0.2", "0.4 & 0.25"])
+        saved = scene.load(self.folder / "probability" / "00002" / "scene.toml")
+        wall = next(arguments[0] for name, arguments in saved.model.calls if name == "add_wall")
+        self.assertEqual((wall["mu_static"], wall["mu_dynamic"]), (0.4, 0.25))
+        told = self.ask("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
+        self.assertIn("each key once", told)
+
+    def test_pairs(self):
+        """Exact McNemar test of the samples that decide differently; lost samples do not count."""
+        def cell(failing, **more):
+            return Cell({}, failing=dict(enumerate(failing)), dimension=2, **more)
+        a, b = cell([False] * 20), cell([True] * 8 + [False] * 12)
+        found = paired(a, b)
+        self.assertEqual((found.samples, found.more, found.fewer, found.word), (20, 8, 0, "the probability rises"))
+        self.assertAlmostEqual(found.chance, 2.0 / 2 ** 8, 12)
+        self.assertEqual(paired(b, a).word, "the probability falls")
+        self.assertEqual(paired(a, cell([True] * 5 + [False] * 15)).word, "a difference is not shown")
+        self.assertEqual(paired(a, a).word, "no sample differs")
+        self.assertEqual(paired(a, cell([])).word, "not assessed, because no sample has all margins in both")
+        self.assertEqual(paired(a, cell([True] * 8)).samples, 8)
+        self.assertIsNone(paired(a, cell([True], message="failed")))
+        self.assertIsNone(paired(a, Cell({}, failing={0: True}, dimension=3)))
+
+
+if __name__ == "__main__":
+    unittest.main()
