@@ -72,7 +72,7 @@ def elastica(pictures):
     return Case("elastica", "Cantilever under a dead tip load (elastica)", "published",
                 "Mattiasson 1981, Int. J. Numer. Meth. Eng. 17, 145, by elliptic integrals, ten digits",
                 "10.1002/nme.1620170113", "EI = L = 1, EA = GA = 1e9 (so stiff that stretch and shear are below 1e-8)",
-                "nothing", rows, "Errors fall by 16 as elements are halved: fourth order.",
+                "nothing", rows, "Errors fall by 16 as elements are halved: fourth order, as in all bending in one plane.",
                 pictures=[picture(draw)] if pictures else [])
 
 
@@ -196,11 +196,11 @@ def spin_up(elements, step, end=20.0):
             for _ in range(round(end / step)):
                 sim.step(step)
                 a, b = sim.pose(root).rotation, sim.pose(tip).position
-                table.append((sim.time, a[0] * b[0] + a[3] * b[1] - 10.0, a[0] * b[1] - a[3] * b[0]))
+                table.append((sim.time, a[0, 0] * b[0] + a[1, 0] * b[1] - 10.0, a[0, 0] * b[1] - a[1, 0] * b[0]))
     return np.array(table)
 
 
-@case("spin_up", quick=False)
+@case("spin_up")
 def spin_up_beam(pictures):
     k = math.sqrt(1.2 * SPIN * SPIN / 2.8e7)
     stretch, rows, table = math.tan(10.0 * k) / k - 10.0, [], None
@@ -356,5 +356,6 @@ def princeton(pictures):
                 f"L {LENGTH} m, {1e3 * TALL:g} x {1e3 * WIDE:g} mm, E {YOUNG / 1e9:g} GPa, ν {POISSON}; dead tip load at an "
                 "angle to the tall side; weight left out", "nothing", rows,
                 "The measured values are published as figures and were not at hand as digits, so that this row is against the "
-                "geometrically exact rod, integrated by shooting in this page (DOP853, 1e-10): points.",
+                "geometrically exact rod, integrated by shooting in this page (DOP853, 1e-10): points. Errors fall by 4 as elements are halved: "
+                "second order, because the moment is not along the curvature (EI_y = 15 EI_z).",
                 pictures=[picture(draw, 3, 9.5, 3.0)] if pictures else [])
