@@ -22,6 +22,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <initializer_list>
 #include <type_traits>
 #include <utility>
@@ -93,50 +94,55 @@ private:
 
 #if defined(DRILLMBD_EXCEPTIONS)
 // A call that was refused or failed, with nothing changed. what() is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
-// Messages that refuse a value have four parts: which part, which field and value, which bound, and the remedy.
+// A refused value is known with its part, field, range and remedy (data(), the library's dmb_last_error).
 class error : public std::runtime_error {
 public:
     // Of a status < 0 and the message of who failed; without one the text of the status.
     explicit error(std::int32_t failed, const char *message = nullptr)
-        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(failed, message)), status_(failed)
+        : error(last(failed, message), failed, message)
     {
-        take_apart(text_of(failed, message));
     }
     // DMB_ERR_...
     DRILLMBD_NODISCARD std::int32_t status() const noexcept { return status_; }
     // Name of the status, "DMB_ERR_VALUE".
     DRILLMBD_NODISCARD const char *name() const noexcept { return dmb_status_name(status_); }
-    // Such as "pipe 3"; as the others empty where the message has no such part.
-    DRILLMBD_NODISCARD const std::string &part() const noexcept { return part_; }
+    // All that the library knows of the failure: numbers of part and component, value, low, high. Defaults where the failure
+    // is none of the library.
+    DRILLMBD_NODISCARD const dmb_error &data() const noexcept { return data_; }
+    // Such as "pipe 3"; as the others empty where the failure has no such part.
+    DRILLMBD_NODISCARD std::string part() const { return data_.part; }
     // Such as "length".
-    DRILLMBD_NODISCARD const std::string &field() const noexcept { return field_; }
-    // Such as "-1 m".
-    DRILLMBD_NODISCARD const std::string &value() const noexcept { return value_; }
+    DRILLMBD_NODISCARD std::string field() const { return data_.field; }
+    // Such as "-1".
+    DRILLMBD_NODISCARD std::string value() const { return data_.given; }
     // Such as "be > 0".
-    DRILLMBD_NODISCARD const std::string &bound() const noexcept { return bound_; }
+    DRILLMBD_NODISCARD std::string bound() const { return data_.bound; }
     // Such as "give ...".
-    DRILLMBD_NODISCARD const std::string &advice() const noexcept { return advice_; }
+    DRILLMBD_NODISCARD std::string advice() const { return data_.advice; }
 
 private:
-    static std::string text_of(std::int32_t failed, const char *message)
+    error(const dmb_error &data, std::int32_t failed, const char *message)
+        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(data, failed, message)), status_(failed),
+          data_(data)
     {
-        return message != nullptr && *message != '\0' ? message : dmb_status_text(failed);
     }
-    // part: field = value, must bound; advice
-    void take_apart(const std::string &text)
+    // The thread's last failing call, if it is the one that failed.
+    static dmb_error last(std::int32_t failed, const char *message)
     {
-        const std::size_t npos = std::string::npos, equals = text.find(" = "), must = text.find(", must ");
-        if (equals == npos || must == npos || equals > must) return;
-        const std::size_t colon = text.rfind(": ", equals), end = text.find(';', must);
-        if (colon != npos) part_ = text.substr(0, colon);
-        const std::size_t field = colon == npos ? 0 : colon + 2;
-        field_ = text.substr(field, equals - field);
-        value_ = text.substr(equals + 3, must - equals - 3);
-        bound_ = text.substr(must + 7, end == npos ? npos : end - must - 7);
-        if (end != npos) advice_ = text.substr(std::min(text.find_first_not_of("; ", end), text.size()));
+        dmb_error data{};
+        dmb_error_init(&data, sizeof data);
+        const bool same = dmb_last_error(&data) >= 0 && data.status == failed &&
+                          (message == nullptr || *message == '\0' || std::strcmp(data.message, message) == 0);
+        if (!same) dmb_error_init(&data, sizeof data);
+        return data;
+    }
+    static std::string text_of(const dmb_error &data, std::int32_t failed, const char *message)
+    {
+        if (message != nullptr && *message != '\0') return message;
+        return data.message[0] != '\0' ? data.message : dmb_status_text(failed);
     }
     std::int32_t status_;
-    std::string part_, field_, value_, bound_, advice_;
+    dmb_error data_;
 };
 
 // Throws for a failure; hands back 0 and notes.

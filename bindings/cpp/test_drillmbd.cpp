@@ -603,7 +603,7 @@ void owners_are_moved_only()
 }
 
 // ---- Messages, spans, callbacks -------------------------------------------------------------------------------------
-void messages_have_four_parts()
+void errors_are_data()
 {
     drillmbd::model model;
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -618,15 +618,19 @@ void messages_have_four_parts()
         EXPECT(error.field().find("length") != std::string::npos);
         EXPECT(error.value().find("-1") == 0);
         EXPECT(error.bound().find("be finite, >= ") == 0);
+        EXPECT(error.data().value == -1.0 && error.data().low > 0.0 && error.data().high > error.data().low);
         EXPECT(std::string(error.what()).find(error.part() + ": " + error.field() + " = ") != std::string::npos);
     }
     EXPECT(thrown);
-    const drillmbd::error whole(DMB_ERR_VALUE, "joint 1 (crank): axis = (0, 0, 0), must be longer than 0; give one");
-    EXPECT(whole.part() == "joint 1 (crank)" && whole.field() == "axis" && whole.value() == "(0, 0, 0)");
-    EXPECT(whole.bound() == "be longer than 0" && whole.advice() == "give one");
-    const drillmbd::error plain(DMB_ERR_IO, "the file could not be written");
-    EXPECT(plain.part().empty() && plain.field().empty() && plain.bound().empty() && plain.advice().empty());
-    EXPECT(drillmbd::error(DMB_ERR_NULL).part().empty());
+    try { // without a message of its own, the text of the last failing call
+        dmb_id found;
+        drillmbd::check(dmb_model_find(model.get(), DMB_PART_ANY, "nowhere", &found));
+    } catch (const drillmbd::error &error) {
+        EXPECT(std::string(error.what()).find("nowhere") != std::string::npos);
+    }
+    const drillmbd::error another(DMB_ERR_IO, "the file could not be written"); // none of the library
+    EXPECT(another.part().empty() && another.field().empty() && another.bound().empty() && another.advice().empty());
+    EXPECT(another.data().number == DMB_NONE && std::isnan(another.data().low));
 }
 
 std::size_t counted(drillmbd::span<const double> values) { return values.size(); }
@@ -722,7 +726,7 @@ int main()
         failures_return();
         parts_have_names();
         owners_are_moved_only();
-        messages_have_four_parts();
+        errors_are_data();
         spans_of_all_kinds();
         arrays_are_spans();
         callbacks_do_not_throw_through_c();

@@ -6,7 +6,9 @@
 #include "base/build.h"
 #include "base/sized_struct.h"
 
-DMB_DEFINE_INIT(dmb_error, 1536, {.number = DMB_NONE, .component = DMB_NONE})
+DMB_DEFINE_INIT(
+    dmb_error, 1536,
+    {.number = DMB_NONE, .component = DMB_NONE, .value = (double)NAN, .low = (double)NAN, .high = (double)NAN})
 
 typedef struct failure {
     dmb_failed_object of;

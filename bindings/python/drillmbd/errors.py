@@ -1,11 +1,14 @@
-"""Errors: a status and a message, taken apart into part, field, value and bound."""
+"""Errors: a status and a message with its part, field, value and bound. Those of the library come as data (dmb_last_error); the
+package's own messages have one form, "part: field = value, must bound; advice"."""
 from __future__ import annotations
 
+import math
 import re
+from ctypes import byref
 from typing import Any
 
 from ._library import lib
-from .enums import Status
+from .enums import NONE, Status
 
 _MESSAGE = re.compile(r"""(?:(?P<part>[^:=]+?):\s+)?     # 'joint 1 (crank): '
                           (?P<field>[^=:;]+?)\s+=\s+     # 'axis_a = '
@@ -34,9 +37,9 @@ def _number(text: str) -> float | str:
 class Error(Exception):
     """A call that was refused or failed, with nothing changed.
 
-    status, name ("DMB_ERR_VALUE") and message give the reason. Where the message says so, else None: part ("joint 1 (crank)"),
-    field ("axis_a"), value (a float where it is a number; its unit is in the message), bound ("be of length > 0") and
-    advice (the remedy)."""
+    status, name ("DMB_ERR_VALUE") and message give the reason. Where the failure has them, else None: part ("joint 1 (crank)"),
+    field ("axis_a"), component (of a field that is an array), value (a float where it is a number; its unit is in the message),
+    low and high (the permitted range), bound ("be of length > 0") and advice (the remedy)."""
 
     def __init__(self, status: int, message: str = "") -> None:
         try:
@@ -44,15 +47,40 @@ class Error(Exception):
         except ValueError:
             self.status = status  # of a newer library
         self.message = message or status_text(status)
-        found = _MESSAGE.match(self.message)
-        self.part: str | None = found["part"] if found else None
-        self.field: str | None = found["field"] if found else None
-        self.value: float | str | None = _number(found["value"]) if found else None
-        self.bound: str | None = found["bound"] if found else None
-        self.advice: str | None = found["advice"] if found else None
+        self.part: str | None = None
+        self.field: str | None = None
+        self.component: int | None = None
+        self.value: float | str | None = None
+        self.low: float | None = None
+        self.high: float | None = None
+        self.bound: str | None = None
+        self.advice: str | None = None
+        if not self._of_library():
+            self._of_text()
         name = status_name(status)
         super().__init__(f"{name}: {self.message}")
         self.name = name  # after AttributeError, whose constructor clears it
+
+    def _of_library(self) -> bool:
+        """The data of the thread's last failing call, if that has this message."""
+        from ._structs import ErrorStruct
+        last: Any = ErrorStruct()
+        if lib.dmb_last_error(byref(last)) < 0 or last.status != self.status or last.message.decode() != self.message:
+            return False
+        self.part, self.field, given, self.bound, self.advice = (
+            text.decode() or None for text in (last.part, last.field, last.given, last.bound, last.advice))
+        self.component = None if last.component == NONE else int(last.component)
+        self.value, self.low, self.high = (None if math.isnan(one) else one for one in (last.value, last.low, last.high))
+        if self.value is None and given is not None:
+            self.value = _number(given)
+        return True
+
+    def _of_text(self) -> None:
+        """The parts of a message of this package."""
+        found = _MESSAGE.match(self.message)
+        if found:
+            self.part, self.field, self.bound, self.advice = found["part"], found["field"], found["bound"], found["advice"]
+            self.value = _number(found["value"])
 
     def __reduce__(self) -> Any:
         return type(self), (int(self.status), self.message), dict(vars(self))
