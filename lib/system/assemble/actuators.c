@@ -1,5 +1,5 @@
-/* Actuators: command, delay, limit of the rate, lag, torque-speed curve, less the drag (force/actuator_law.h).
- * Remembered are the flow through each actuator, and the line of one with a delay. */
+/* Actuators: command, delay, limit of the rate, lag, torque-speed curve, less the drag (force/actuator_law.h). Memory:
+ * the flow through each actuator, and the line of samples of a delay. */
 #include "system/assemble/actuators.h"
 
 #include <float.h>
@@ -20,12 +20,12 @@ static dmb_delay_line line_of(const dmb_sim *sim, const dmb_actuator_law *law)
     return found;
 }
 
-#define DMB_TIME_ROUNDING (8.0 * DBL_EPSILON) /* [-] of a time, that is none */
+#define DMB_TIME_ROUNDING (8.0 * DBL_EPSILON) /* [-] relative difference of times that counts as rounding */
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-/* The delayed command at the end of the step into flow, that at its beginning into *u0; returns d delayed/d command. In
- * a step longer than the delay the command goes straight from its value at the beginning to that at the end. */
+/* Writes the delayed command at the end of the step into flow, and that at its start to *u0; returns d delayed/d
+ * command. In a step longer than the delay the command is interpolated linearly between start and end. */
 static double delay(const dmb_evaluation *evaluation, const dmb_actuator_law *law, const dmb_actuator_flow *from,
                     dmb_actuator_flow *flow, double *u0)
 {
@@ -116,9 +116,9 @@ void dmb_actuators_accept(const dmb_evaluation *evaluation)
 /* ---- Breakpoints
  * ----------------------------------------------------------------------------------------------------- */
 
-#define DMB_JUMP_ROUNDING 1e-12 /* [-] of a command, that is none */
+#define DMB_JUMP_ROUNDING 1e-12 /* [-] relative jump of a command that counts as rounding */
 
-/* A command that is late and neither lags nor is limited in its rate. */
+/* 1: the command is delayed without lag or rate limit, so that its jumps pass. */
 static int passes_jumps(const dmb_actuator_law *law)
 {
     return law->delay > 0.0 && !(law->rate_limit > 0.0) && !(law->lag > 0.0);
@@ -149,14 +149,15 @@ static double time_function_breakpoint(const dmb_scene *scene, uint32_t time_fun
 {
     double breakpoint = t - delay;
     if (time_function == DMB_NONE) return (double)INFINITY;
-    for (int i = 0; i < 3; i++) { /* t - delay may be rounded to before a breakpoint that has gone by */
+    for (int i = 0; i < 3; i++) { /* t - delay may be rounded to before a breakpoint already reached */
         breakpoint = dmb_time_function_next_breakpoint(scene->time_functions + time_function, breakpoint);
         if (breakpoint + delay > t) return breakpoint + delay;
     }
     return (double)INFINITY;
 }
 
-/* A command set at the present time is in the line at the end of the step only. */
+/* [s] First jump in a delay line later than t. A command set at the present time is in the line only at the end of the
+ * step. */
 static double jump_breakpoint(const dmb_sim *sim, uint32_t i, const dmb_delay_line *line, double t)
 {
     const double delay = sim->scene->actuators[i].delay, now = sim->clock->time;

@@ -1,4 +1,4 @@
-/* Bits at work: bottom-hole load and the rock law, along and about the axis of the hole. */
+/* Bits: bottom-hole load and rock law, along and about the axis of the hole (eq:bit.forces). */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -15,8 +15,8 @@ typedef struct bit_motion {
     double axis[3];            /* the axis in the body frame */
 } bit_motion;
 
-/* Axis of the hole where the bit is, world frame; the line of its first pose without a hole. Advance [m] since time 0.
- */
+/* Axis of the hole at the bit, world frame; without a hole the axis of its initial pose. Returns the advance [m] since
+ * time 0. */
 static double locate(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_bit *bit, const double R[9],
                      uint32_t *segment, double tangent[3])
 {
@@ -39,7 +39,7 @@ static double locate(const dmb_scene *scene, const dmb_configuration *c, const d
 }
 
 /* Advance U and speed V = along . v of the bit's reference point, angle and speed about the axis of the hole; `along`
- * takes the arm to the node with it. */
+ * includes the arm to the node. */
 static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const double R[9], uint32_t k,
                       uint32_t *segment, bit_motion *m)
 {
@@ -95,7 +95,8 @@ static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion
                        m->spin, out);
 }
 
-/* [rad/s] Spin below which a step that fails tells what the rate law is good for; [m] off bottom, where it may meet. */
+/* [rad/s] Spin below which the message of a failed step names the limit of the rate law; [m] distance off bottom at
+ * which the bit may touch. */
 #define DMB_BIT_SLOW 1.0
 #define DMB_BIT_NEAR 1e-3
 
@@ -119,13 +120,13 @@ int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t k)
     return sim->now.bit_advance[k] >= sim->now.bit_bottom[k];
 }
 
-/* [m] a blade cuts at a steady speed and spin; 0: none does. */
+/* [m] Depth of cut of a blade at a steady speed and spin; 0: no blade cuts. */
 static double steady_cut(const dmb_scene_bit *bit, double speed, double spin)
 {
     return speed > 0.0 && spin > 0.0 ? DMB_TWO_PI * speed / (spin * bit->law.blades) : 0.0;
 }
 
-/* Steady drilling depends on speeds alone: the rock lies a steady cut ahead wherever the bit is. */
+/* In steady drilling the force depends on speeds alone: places the rock surface one steady cut ahead of the bit. */
 static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_motion *m, dmb_bit_rock_result *out)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -147,8 +148,8 @@ static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_mo
     out->dW_dU = out->dW_dPhi = out->dT_dU = out->dT_dPhi = 0.0;
 }
 
-/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load turns with the body.
- */
+/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load rotates with the
+ * body. */
 static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
                         const double force[6])
 {
@@ -174,7 +175,7 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
             }
         return;
     }
-    dmb_skew(force, skew); /* force = axial part in body axes: d(R^T f) = (R^T f)~ dtheta, also at the arm */
+    dmb_skew(force, skew); /* axial force in body axes: d(R^T f) = (R^T f)~ dtheta, also at the arm */
     dmb_mat6_add_block(-1.0, skew, 0, 1, K);
     for (int j = 0; j < 3; j++) {
         dmb_vec6_copy((const double[6]){skew[j], skew[3 + j], skew[6 + j], 0.0, 0.0, 0.0}, w);
@@ -200,7 +201,7 @@ static void assemble_bit(dmb_evaluation *evaluation, uint32_t k)
     sim->trial.bit_segment[k] = sim->now.bit_segment[k];
     dmb_node_pose(scene, &sim->trial, node, R, unused);
     motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
-    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) /* whose turn is counted when the step is accepted */
+    if (scene->layout.size[node] == DMB_NODE_SIX_DOF) /* its rotation angle is computed when the step is accepted */
         m.angle = sim->now.turn[node] + dmb_node_travel(evaluation, node, 3);
     memset(&r, 0, sizeof r);
     const int drills = evaluation->steady && k < DMB_STEADY_BITS && evaluation->drilling >> k & 1;
@@ -251,7 +252,7 @@ static void add_side_tangent(dmb_evaluation *evaluation, uint32_t k, const dmb_s
     dmb_mat6_axpy(1.0, C, dmb_inertia_of(evaluation->sim, bit->node));
 }
 
-/* The rounding of the velocities that the speed across the axis is the sum of (system/assemble/springs). */
+/* Adds the rounding of the velocities whose sum is the speed across the axis (system/assemble/springs). */
 static void count_side_rounding(dmb_evaluation *evaluation, uint32_t k, const dmb_side_force *side)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -352,7 +353,7 @@ void dmb_bit_start(dmb_sim *sim, uint32_t k)
     keep_history(sim, k, &h);
 }
 
-/* The surface falls behind the bit by a cut a blade spacing, and is sampled as a run would. */
+/* Fills the history with the steady surface, one cut per blade spacing, sampled as in a run. */
 static void guess_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double advance)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;
@@ -386,7 +387,7 @@ void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t k)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_bit *bit = sim->scene->bits + k;
     const double advance = sim->trial.bit_advance[k];
-    if (!evaluation->dynamic) { /* moving to equilibrium cuts nothing */
+    if (!evaluation->dynamic) { /* moves to equilibrium cut nothing */
         sim->trial.bit_bottom[k] = sim->now.bit_bottom[k];
         return;
     }

@@ -1,5 +1,5 @@
-/* Contact sites, stops of joints and springs that may open: the steps in which they touch or let go
- * (eq:unilateral.mean, eq:contact.mean). */
+/* Contact points, stops of joints and one-sided springs in the steps in which they touch or open (eq:unilateral.mean,
+ * eq:contact.mean). */
 #include "system/assemble/bounces.h"
 
 #include <math.h>
@@ -34,15 +34,16 @@ int dmb_sites_have_mean(const dmb_sim *sim)
     return 0;
 }
 
-/* [-] (k h + c) h/m of a site up to which a step resolves its touch and release, m by the mass next to it; k and c of
- * the law at the depth of half a step. Half of what a body alone may have: the law followed to the end of the step in
- * which the contact closes takes energy as long as the body still moves in there (eq:contact.turned), which the force
- * of a restitution law at rest decides, whatever its damping. */
+/* [-] Largest (k h + c) h/m of a contact point whose touch and release a step resolves; m: mass of the adjacent
+ * elements; k and c of the law at the penetration of half a step. It is half the limit of a single body: following the
+ * law to the end of the step of touch dissipates energy only while the body still moves inwards there
+ * (eq:contact.turned), which for a restitution law depends on its force at rest, whatever its damping. */
 #define DMB_SITE_RESOLVED 2.0
-/* [-] up to where a mean force is: beyond, Newton would not find the way of a ring that the wall throws off. */
+/* [-] Largest value with a mean force: beyond, Newton's iteration does not converge for a body thrown off by the wall.
+ */
 #define DMB_SITE_FAR 1e6
 
-/* [kg/m] (k h + c) h of a metre of wall, k = K (v h/2)^(n-1), that is met with v [m/s]. */
+/* [kg/m] (k h + c) h per metre of wall, k = K (v h/2)^(n-1), for a normal speed v [m/s] at touch. */
 static double coarseness(const dmb_normal_law *law, double speed, double h)
 {
     const int by_rate = law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT;
@@ -50,7 +51,8 @@ static double coarseness(const dmb_normal_law *law, double speed, double h)
     return k * h * h + (by_rate ? law->damping * h : 0.0);
 }
 
-/* Sites whose touch and release the step does not resolve; the speed of the present or coming contact counts. */
+/* Marks the contact points whose touch and release the step does not resolve, by the speed of the present or next
+ * contact. 1: there are any. */
 static int mark_coarse(dmb_sim *sim, double h)
 {
     const dmb_scene *scene = sim->scene;
@@ -84,7 +86,7 @@ static void begin_sites(dmb_sim *sim, double h)
     *sim->sites_bounce = bounces;
 }
 
-/* A wall with damping lets go where its force comes to 0, which is before the ring is off it. */
+/* 1: the contact opens. With damping, its force reaches 0 before the penetration does. */
 static int site_opens(const dmb_sim *sim, uint32_t s)
 {
     dmb_site_force f;
@@ -115,7 +117,7 @@ void dmb_site_mean_of(const dmb_sim *sim, uint32_t s, double step, dmb_normal_me
  * that it comes to is between that of before and that of b = 1/2.
  */
 
-/* [J] that the step gains by a site, and that it exchanges with the wall. */
+/* Adds the energy [J] gained by the step at a contact point, and the energy exchanged with the wall. */
 static void add_gain(const dmb_evaluation *evaluation, uint32_t s, double *gain, double *exchanged)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -174,7 +176,7 @@ void dmb_bounces_begin(dmb_sim *sim, double step)
         sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
 }
 
-/* It pressed at the start of the step and does so no more, or on the other side. */
+/* 1: the law pressed at the start of the step and is open, or on its other side, at the end. */
 static int opens(const dmb_sim *sim, uint32_t u)
 {
     dmb_unilateral_end a, b;

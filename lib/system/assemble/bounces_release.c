@@ -6,7 +6,7 @@
 
 #include "system/assemble/assemble.h"
 
-/* Joint of a law, and which of its six it is. */
+/* Joint of a law, and its coordinate of six. */
 static uint32_t joint_of(const dmb_scene *scene, uint32_t u)
 {
     for (uint32_t j = 0; j < scene->joint_count; j++)

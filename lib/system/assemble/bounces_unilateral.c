@@ -56,8 +56,8 @@ static void note(dmb_sim *sim, uint32_t u, const dmb_bounce *law)
     sim->bounce_own[u] = sim->bounce_warmth[u] = 0.0;
 }
 
-/* The trapezoidal rule takes half of the power at each end of the step: that at its start is what the law had, or none
- * where the force of the step before was the step's own. */
+/* The trapezoidal rule of the ledger uses half of the power at each end of the step: at its start that of the law, or 0
+ * if the force of the step before was a mean force. */
 int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law, dmb_bounce_force *own)
 {
     dmb_sim *sim = evaluation->sim;

@@ -8,7 +8,7 @@
 
 /* An argument: a place, or a joint's coordinate. */
 typedef struct argument {
-    union { /* one or the other: four of both are 3 kB more of stack */
+    union { /* a union, because four of both need 3 kB more stack */
         dmb_point_motion point;
         struct {
             dmb_relative relative;
@@ -17,7 +17,7 @@ typedef struct argument {
     };
     uint32_t joint; /* DMB_NONE: a place */
     int32_t component;
-    int open; /* the joint is: its coordinate is told, but nothing acts */
+    int open; /* the joint is open: its coordinate is an argument, but its force is ignored */
 } argument;
 
 /* ---- From the scene to the question ------------------------------------------------------------------------------ */
@@ -63,7 +63,7 @@ static void read_arguments(const dmb_sim *sim, const dmb_configuration *c, int r
     }
 }
 
-/* Wrenches in the axes of the places. */
+/* Transforms wrenches to the axes of the places. */
 static void to_axes(const dmb_caller_question *ask, const argument *a, dmb_caller_answer *to)
 {
     for (uint32_t i = 0; i < ask->force->count; i++) {
@@ -126,7 +126,7 @@ static void add_turning(const dmb_caller_question *ask, const argument *a, dmb_c
     }
 }
 
-/* Nothing acts on the coordinate of an open joint. */
+/* Clears the force on the coordinate of an open joint. */
 static void clear_open(const dmb_caller_question *ask, const argument *a, dmb_caller_answer *to)
 {
     for (uint32_t i = 0; i < ask->force->count; i++)
@@ -141,7 +141,7 @@ typedef double wide_row[DMB_CONSTRAINT_COLUMNS];
 typedef struct caller_tangent {
     dmb_force_tangent sum;
     wide_row L[DMB_CALLER_WIDE];    /* of V by the nodes' velocities, and of z by their displacements */
-    wide_row rate[DMB_CALLER_WIDE]; /* of V by displacements, velocities of the nodes staying the same */
+    wide_row rate[DMB_CALLER_WIDE]; /* of V by displacements at constant velocities of the nodes */
 } caller_tangent;
 
 static void take_nodes(const dmb_scene *scene, const dmb_scene_force *force, const argument *a, dmb_force_tangent *t)
@@ -196,7 +196,7 @@ static void add_geometric(const dmb_scene *scene, const dmb_scene_force *force, 
     dmb_add_joint_tangent(scene, scene->constraints + force->constraint, a->joint, &a->relative, w, W, t->K);
 }
 
-/* K -= L^T (M L + N rate); N NULL: without the latter */
+/* K -= L^T (M L + N rate); N NULL: without N rate */
 static void add_products(const dmb_caller_matrix M, const dmb_caller_matrix *N, uint32_t rows, caller_tangent *t)
 {
     const uint32_t n = t->sum.columns;
@@ -251,7 +251,7 @@ static void apply(dmb_sim *sim, const argument *a, const double f[6])
     if (joint->a.node != DMB_NONE) dmb_apply_wrench(sim, joint->a.node, wa);
 }
 
-/* The rate of a potential is work of potential forces, the rest of the power is that of loads. */
+/* Adds the powers: the rate of the potential to potential forces, the remainder to loads. */
 static int32_t add_power(dmb_evaluation *evaluation, const dmb_caller_question *ask, const argument *a,
                          const dmb_caller_answer *to)
 {

@@ -1,25 +1,24 @@
-/* Forces that the caller's functions give by poses, speeds and time (dmb_model_add_force; eq:motion.caller-force).
+/* Forces computed by the caller's functions from poses, speeds and time (dmb_model_add_force; eq:motion.caller-force).
  *
- * With V the twists of the places in their axes and the speeds of the joint coordinates, V = L v by the velocities v of
- * the nodes, and w the wrenches there:
+ * With V the twists of the places in their axes and the speeds of the joint coordinates, V = L v by the velocities v
+ * of the nodes, and w the wrenches there:
  *
  *     residual -L^T w,   K = -L^T (A L + B dV/dq) - d(L^T) w,   C = -L^T B L,   A = dw/dz, B = dw/dV
  *
- * z the displacements in the same axes. Derivatives given in the axes of the world, f = R w by dx = R z, v = R V, are
- * turned: A = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R. */
+ * z the displacements in the same axes. Derivatives given in world axes, f = R w by dx = R z, v = R V, are rotated: A
+ * = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R. */
 #ifndef DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 #define DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 
 #include "system/assemble/point_motion.h"
 
-/* DMB_OK, DMB_ERR_CALLBACK: dmb_failed_force tells which. */
+/* DMB_OK, DMB_ERR_CALLBACK: the force from dmb_failed_force. */
 int32_t dmb_assemble_caller_forces(dmb_evaluation *evaluation);
-/* A tangent that the caller gives against differences in the state now. DMB_OK, DMB_ERR_CALLBACK with the message. */
+/* Compares the caller's tangent with differences in the present state. DMB_OK, DMB_ERR_CALLBACK with the message. */
 int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force);
-/* "force 2 (magnet)" of the force whose callback failed in the last evaluation, which is forgotten then; 0: none did.
- */
+/* "force 2 (magnet)", the force whose callback failed in the last evaluation; clears the record. 0: none failed. */
 int dmb_failed_force(dmb_sim *sim, dmb_message *text);
-/* [J] sum of the potentials that the callbacks have given. */
+/* [J] Sum of the potentials given by the callbacks. */
 double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 
 /* ---- caller_force_call.c: one function of a caller --------------------------------------------------------------- */
@@ -27,8 +26,8 @@ double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration 
 enum { DMB_CALLER_WIDE = 6 * DMB_CONSTRAINT_PLACES };
 typedef double dmb_caller_matrix[DMB_CALLER_WIDE][DMB_CALLER_WIDE];
 
-/* Arguments of a callback: poses in the world, velocities in the axes that it asks for; of a joint its coordinate in
- * x[0] and v[0]. */
+/* Arguments of a callback: poses in the world, velocities in the axes it requests; of a joint its coordinate in x[0]
+ * and v[0]. */
 typedef struct dmb_caller_question {
     const dmb_scene_force *force;
     double time;
@@ -47,7 +46,7 @@ typedef struct dmb_caller_answer {
             dmb_caller_matrix A, B; /* by displacements and velocities in those axes */
         };
         double given[2 * DMB_CALLER_WIDE *
-                     DMB_CALLER_WIDE]; /* the same as a callback gives them, row by row as long as the count asks for */
+                     DMB_CALLER_WIDE]; /* the same as given by a callback, row by row, of the requested length */
     };
 } dmb_caller_answer;
 
@@ -57,11 +56,11 @@ static inline int dmb_caller_is_place(const dmb_scene_force *force, uint32_t i)
     return force->joint[i] == DMB_NONE;
 }
 
-/* Values; and their derivatives, as given or by differences. DMB_OK, DMB_ERR_CALLBACK. */
+/* Values, and with `tangent` their derivatives, as given or by differences. DMB_OK, DMB_ERR_CALLBACK. */
 int32_t dmb_caller_ask(const dmb_caller_question *ask, int tangent, dmb_caller_answer *to);
 /* [W] dU/dt along the motion, time included. DMB_OK, DMB_ERR_CALLBACK. */
 int32_t dmb_caller_potential_rate(const dmb_caller_question *ask, double *rate);
-/* The tangent that the function gives against differences. DMB_OK, DMB_ERR_CALLBACK with the message. */
+/* Compares the tangent given by the function with differences. DMB_OK, DMB_ERR_CALLBACK with the message. */
 int32_t dmb_caller_compare(const dmb_caller_question *ask, const char *owner, dmb_message *message);
 
 #endif

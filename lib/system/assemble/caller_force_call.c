@@ -1,4 +1,4 @@
-/* A function of the caller that gives forces: its arguments, its answer and the derivatives of that. */
+/* Call of a caller's force function: arguments, result, and derivatives of the result. */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -34,7 +34,7 @@ static int32_t call(const dmb_caller_question *ask, dmb_caller_values *to, doubl
     return sum + fabs(to->potential) <= DMB_CALLBACK_MAX ? DMB_OK : DMB_ERR_CALLBACK; /* nor is a NaN */
 }
 
-/* The pose of place i displaced by s along component c of the axes that are asked for. */
+/* Displaces the pose of place i by s along component c of the requested axes. */
 static void displace(dmb_caller_question *ask, uint32_t i, uint32_t c, double s)
 {
     double e[3] = {0.0}, turn[9], R[9];
@@ -80,7 +80,8 @@ static int32_t tangent_by_differences(const dmb_caller_question *ask, dmb_caller
     return DMB_OK;
 }
 
-/* In place: entries move up, the last first, so that none is lost. A second copy would be the largest on the stack. */
+/* Expands the given tangent in place, from the last entry, so that none is overwritten. A second copy would be the
+ * largest object on the stack. */
 static int32_t given_tangent(const dmb_caller_question *ask, dmb_caller_answer *to)
 {
     const uint32_t n = 6 * ask->force->count;

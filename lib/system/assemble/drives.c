@@ -1,6 +1,6 @@
-/* Drives: prescribed motion, loads on a component, and speed control.
- * Control: command = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act, of
- * which the torque-speed curve of an actuator is one. A table G(e) may be in the place of kp e, with G'(e) as kp. */
+/* Drives: prescribed motion, loads on a component, and speed control. Control: command = clamp(kp e + ki z), e = v* -
+ * v, z' = e by the trapezoidal rule, constant while a limit acts, the torque-speed curve of an actuator included. A
+ * table G(e) may replace kp e, with G'(e) as kp. */
 #include "system/assemble/drives.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 /* ---- Time functions, controllers and motion
  * -------------------------------------------------------------------------- */
 
-/* Target now: the caller's value, or the time function and its excitation. */
+/* Present target: the caller's value, or time function plus excitation. */
 static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)
 {
     const dmb_scene *scene = sim->scene;
@@ -40,8 +40,8 @@ static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, doubl
     return status;
 }
 
-/* Slope of the target with which a step ends at the breakpoint of a time function; the time function itself tells the
- * one to come. */
+/* Slope of the target at the end of a step that ends at a breakpoint; the time function itself gives the slope after
+ * it. */
 static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *rate)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
@@ -53,7 +53,7 @@ static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *
     return status;
 }
 
-/* Slope of the target from the present time on: beyond the breakpoint reached, also where that is an ulp later. */
+/* Slope of the target after the present time, beyond the breakpoint reached even if that is an ulp later. */
 static int32_t rate_to_come(const dmb_sim *sim, uint32_t i, double *rate)
 {
     double value;
@@ -73,7 +73,7 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
         status = rate_before(sim, i, fmin(evaluation->time, evaluation->breakpoint), &rate);
     if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
     if (status < 0) return status;
-    if (drive->joint != DMB_NONE) { /* its constraint moves the coordinate */
+    if (drive->joint != DMB_NONE) { /* moved by its constraint */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
         sim->trial.drive_rate[i] = rate;
         return DMB_OK;
@@ -159,7 +159,7 @@ double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configura
     return gain;
 }
 
-/* Force of a controlled drive and its slope by the speed; the integral of the error goes into the trial. */
+/* Force of a controlled drive and its derivative by the speed; stores the integral of the error in the trial. */
 static double control_force(const dmb_evaluation *evaluation, uint32_t i, double speed, double *slope)
 {
     dmb_sim *sim = evaluation->sim;
@@ -208,7 +208,7 @@ static void assemble_drive(dmb_evaluation *evaluation, uint32_t i)
     dmb_inertia_of(sim, drive->node)[(size + 1) * c] -= evaluation->velocity_factor * slope;
 }
 
-/* Those on joints act with them. */
+/* Drives of nodes; those of joints are added with the joints. */
 void dmb_assemble_drives(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -231,7 +231,7 @@ void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed
         sim->trial.drive_position[drive] = value - sim->drive_offset[drive];
 }
 
-/* [m, rad] of the row of a node that a drive acts on, in the step or the move of statics. */
+/* [m, rad] Travel of a driven row in the step, or in a move of statics. */
 static double travel_in(const dmb_evaluation *evaluation, const dmb_scene_drive *drive)
 {
     const dmb_sim *sim = evaluation->sim;

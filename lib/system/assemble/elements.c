@@ -1,4 +1,5 @@
-/* Flexible elements: internal and inertia forces, stiffness and inertia tangent, element by element in chain order. */
+/* Flexible elements: internal and inertia forces, stiffness and inertia tangent, element by element in the order of the
+ * chain. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -10,7 +11,7 @@
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
 
-/* Vector from node a to node b; returns the largest magnitude that entered it. */
+/* Vector from node a to node b; returns the largest magnitude of its terms (for rounding). */
 static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, const double *ub, double span[3])
 {
     double reach = 0.0;
@@ -21,7 +22,7 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
     return reach;
 }
 
-/* Inputs and outputs of the kernels for a batch: its nodes, rows and blocks follow one another. */
+/* Inputs and outputs of the kernels for a batch, whose nodes, rows and blocks are consecutive. */
 static dmb_beam_args args_of(const dmb_sim *sim, const dmb_batch *batch)
 {
     const dmb_scene *scene = sim->scene;
@@ -52,8 +53,8 @@ static dmb_beam_args args_of(const dmb_sim *sim, const dmb_batch *batch)
     return args;
 }
 
-/* Contact along elements asks for the strain, and so does the correction by factors of the evaluation's own; reused
- * ones give way to an evaluation with a tangent first. */
+/* 1: the strain of the elements is stored, because contact along elements or a correction with fresh factors needs it;
+ * reused factors are followed by an evaluation with tangent first. */
 static int strain_is_kept(const dmb_evaluation *evaluation)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -61,7 +62,7 @@ static int strain_is_kept(const dmb_evaluation *evaluation)
            sim->scene->axial_torsional_site_count > 0;
 }
 
-/* Forces and tangents of the SE(3) elements of a batch, or of a piece of one, in lanes (element/beam_element.h). */
+/* Forces and tangents of the SE(3) elements of a batch, or of a chunk of one, in lanes (element/beam_element.h). */
 static dmb_beam_args task_of(const dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     dmb_beam_args args = args_of(evaluation->sim, batch);
@@ -77,7 +78,7 @@ static dmb_beam_args task_of(const dmb_evaluation *evaluation, const dmb_batch *
     return args;
 }
 
-/* A batch that is made in pieces. */
+/* A batch computed in chunks. */
 typedef struct beam_chunks {
     const dmb_evaluation *evaluation;
     const dmb_batch *batch;
@@ -93,7 +94,8 @@ static dmb_batch piece_of(const beam_chunks *in, uint32_t piece)
     return out;
 }
 
-/* Of the node between two pieces the second writes its own part, the first leaves its part in the seam. */
+/* The node between two chunks: the second chunk writes its own contribution, the first stores its contribution in the
+ * seam. */
 static void make_pieces(void *work, uint32_t first, uint32_t end)
 {
     const beam_chunks *in = work;
@@ -119,7 +121,7 @@ static void add_numbers(uint32_t count, const double *from, double *to)
     for (uint32_t i = 0; i < count; i++) to[i] += from[i];
 }
 
-/* The element before a node adds what it left in the seam. */
+/* Adds the contribution of the element before a node from the seam. */
 static void add_seam(const dmb_evaluation *evaluation, const dmb_seam *seam, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
@@ -151,7 +153,7 @@ static int32_t assemble_chunks(dmb_evaluation *evaluation, const dmb_batch *batc
     return DMB_OK;
 }
 
-/* Powers are summed on. */
+/* Powers are added to those of the evaluation. */
 static int32_t assemble_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     if (dmb_chunks_of(batch->count) > 1) return assemble_chunks(evaluation, batch);
@@ -174,9 +176,8 @@ static int32_t assemble_beams(dmb_evaluation *evaluation, const dmb_batch *batch
 /* ---- Axial-torsional elements on the hole's axis: axial-torsional nodes
  * --------------------------------------------------------- */
 
-/* Per bar K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes
- * (kernel/lanes_axial_torsional.h).
- */
+/* Axial-torsional elements: K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes
+ * (kernel/lanes_axial_torsional.h). */
 static void axial_torsional_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -312,8 +313,8 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
     dmb_vec6_copy(B->z, in->zb);
 }
 
-/* As a beam between two poses; forces and tangents come to the axial-torsional side as J^T f and J^T K J, J its two
- * columns. */
+/* Mixed element (one six-DOF and one axial-torsional node): a beam between two poses; its forces and tangents are
+ * projected to the axial-torsional side as J^T f and J^T K J, J its two columns. */
 DMB_OWN_FRAME static int32_t assemble_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;

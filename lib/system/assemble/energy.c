@@ -44,8 +44,8 @@ static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t
         memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
 }
 
-/* Relative pose of an element's ends, d = log(H_A^-1 H_B), from displacements, which keep the digits that positions
- * far from the origin lose. */
+/* Relative pose of an element's ends, d = log(H_A^-1 H_B), from displacements, because positions far from the origin
+ * lose digits. */
 static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
 {
     const uint32_t a = scene->element_node[e];
@@ -70,7 +70,7 @@ typedef struct ends {
     double va[6], vb[6], pa[6], pb[6];
 } ends;
 
-/* Velocities and momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
+/* Velocities and momenta p = M v of an element's ends; an axial-torsional element uses its two rows only. */
 static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, ends *m)
 {
     double *va = m->va, *vb = m->vb, d[6];
@@ -118,7 +118,7 @@ double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
     return 0.5 * dmb_vec6_dot(v, p);
 }
 
-/* Coupling of the three in an eccentric mass counts as lateral. */
+/* Coupling of the three motions by an eccentric mass counts as lateral. */
 void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
                                   double parts[3])
 {
@@ -226,7 +226,8 @@ uint32_t dmb_most_strained(const dmb_scene *scene, const dmb_configuration *conf
     return element;
 }
 
-/* Where the centre of a bent element's weight is off the point that its nodes' weight acts at, world, and at time 0. */
+/* Offset of the weight of a bent element from the point of action of its lumped weights, world frame, now and at time
+ * 0. */
 static void bent_centre(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double now[3], double start[3])
 {
     const uint32_t a = scene->element_node[e];
@@ -274,7 +275,7 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum + bent_energy(scene, configuration);
 }
 
-/* Sum over the rings of length times the integral of K d^n (eq:contact.normal); damping stores nothing. */
+/* Sum over the contact points of length times the integral of K d^n (eq:contact.normal); dampers store nothing. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     const int by_depth = scene->hole.pieces > 0;
@@ -288,8 +289,8 @@ double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum;
 }
 
-/* Of a beam g = P^T (s + tau K/L e') at both ends, which is what the element adds to the residual of its nodes; of a
- * bar K/L (e + tau e') along and about the axis. */
+/* Beam: g = P^T (s + tau K/L e') at both ends, the element's contribution to the residual of its nodes; axial-torsional
+ * element: K/L (e + tau e') along and about the axis. */
 void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double force[12])
 {
@@ -320,7 +321,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
 }
 
-/* Half the weight and the moment +- w L^2/12 that belong to one end (side 1: A, -1: B), in its frame. */
+/* Half the weight and the moment +- w L^2/12 of one end (side 1: A, -1: B), in its frame. */
 static void end_weight(const dmb_scene *scene, const dmb_element_type *type, const double R[9], double side,
                        double w[6])
 {
@@ -331,15 +332,13 @@ static void end_weight(const dmb_scene *scene, const dmb_element_type *type, con
     dmb_vec3_cross(moment, g, w + 3);
 }
 
-/* [N] Half of what mud that flows pulls on an element, towards A. */
+/* [N] Half of the drag of flowing mud on an element, towards A. */
 static double end_flow(const dmb_scene *scene, uint32_t element)
 {
     return scene->flow_count > 0 ? 0.5 * scene->flow_element[element] : 0.0;
 }
 
-/* Adds it where it acts on an end (0: A), along the hole there (dmb_assemble_flow), as a uniform load on the cubic
- * shape.
- */
+/* Adds it at an end (0: A), along the hole there (dmb_assemble_flow), as a uniform load on the cubic shape. */
 static void add_end_flow(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, uint32_t end,
                          double w[6])
 {
@@ -376,7 +375,7 @@ static void end_inertia(const dmb_scene *scene, const dmb_configuration *configu
     dmb_element_inertia(type, d, v, acceleration, f);
 }
 
-/* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
+/* Equilibrium of an end with its part of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
  * B. */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12])
@@ -401,7 +400,8 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     }
 }
 
-/* The same of a bar, axial force and torque at its end A: N - (M a)_A + half its weight along the axis. */
+/* The same of an axial-torsional element, axial force and torque at its end A: N - (M a)_A + half its weight along the
+ * axis. */
 void dmb_axial_torsional_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                      double load[2])
 {

@@ -1,3 +1,6 @@
+/* Evaluation of the equations of motion (eq:motion.euler-poincare) at a trial: all terms in the order of
+ * dmb_system_evaluate, which fixes the rounding of their sums; motion of nodes, iteration matrix, and results at
+ * acceptance. */
 #include "system/assemble/evaluation.h"
 
 #include <string.h>
@@ -12,7 +15,7 @@
 #include "system/constrain/constrain.h"
 #include "system/constrain/rotor.h"
 
-/* Rows and, for a tangent, blocks of the nodes from `first` to before `end`. */
+/* Clears rows and, for a tangent, blocks of the nodes from `first` to before `end`. */
 static void clear_nodes(void *work, uint32_t first, uint32_t end)
 {
     const dmb_evaluation *evaluation = work;
@@ -28,7 +31,7 @@ static void clear_nodes(void *work, uint32_t first, uint32_t end)
     memset(sim->inertia_diagonal + diag, 0, blocks);
 }
 
-/* Beams write what is between the ends of their runs. */
+/* Clears rows and blocks; beams write, and need not clear, the blocks between the ends of their runs. */
 static void clear(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -49,13 +52,13 @@ static void clear(dmb_evaluation *evaluation)
         dmb_chunks_run(sim, n, DMB_GRAIN, clear_nodes, evaluation);
     else
         clear_nodes(evaluation, next, n);
-    if (!evaluation->tangent || scene->beams_only) return; /* beams write their links */
+    if (!evaluation->tangent || scene->beams_only) return; /* beams write their off-diagonal blocks */
     memset(sim->stiffness_lower, 0, link);
     memset(sim->stiffness_upper, 0, link);
 }
 
-/* Along the axis and about it, from node `first` on as long as there are axial-torsional nodes before `end`; what else
- * a pose has stays. Returns how many they are; *turned is raised to the square of the largest rotation. */
+/* Moves axial-torsional nodes along and about the axis, from node `first` on while there are such nodes before `end`;
+ * other pose components stay. Returns their number; *turned is raised to the square of the largest rotation. */
 static uint32_t move_axial_torsional_nodes(dmb_sim *sim, uint32_t first, uint32_t end, double *turned)
 {
     const dmb_scene *scene = sim->scene;
@@ -69,7 +72,7 @@ static uint32_t move_axial_torsional_nodes(dmb_sim *sim, uint32_t first, uint32_
     return i - first;
 }
 
-/* Of the nodes that begin a piece, the first of the range tells for all in it. */
+/* Stores the largest squared rotation in the entry of the first grain of the range. */
 static void note_turned(dmb_sim *sim, uint32_t first, uint32_t end, double turned)
 {
     double *to = sim->turned_squared + first / DMB_GRAIN;
@@ -158,13 +161,13 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
             held[i];
 }
 
-/* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq:
+/* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq (eq:integration.iteration-matrix):
  *     [K T6(h Dq) + mass_factor M + velocity_factor C] z = -residual
- * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
- * links; what is left are the blocks of the nodes, to which all forces add. */
+ * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have applied T6 to their
+ * off-diagonal blocks; the blocks of the nodes, to which all forces add, are transformed here. */
 
-/* six-DOF nodes from `node` on and before `end`, up to the next free rigid body, whose block is done but for its
- * inertia; `rigid` is the first that may be there. */
+/* Number of six-DOF nodes from `node` on, before `end` and before the next free rigid body, whose block only lacks its
+ * inertia; `rigid` is the first candidate. */
 static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t end, uint32_t rigid)
 {
     const uint32_t count = dmb_six_dof_nodes_before(scene, node, end);
@@ -172,7 +175,7 @@ static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t en
     return scene->free_rigids[rigid].node - node;
 }
 
-/* rigid: the first free rigid body that counts as one. */
+/* rigid: index of the first free rigid body to treat as such. */
 typedef struct block_work {
     dmb_sim *sim;
     uint32_t rigid, reserved;
@@ -206,7 +209,7 @@ static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
     dmb_chunks_run(sim, sim->scene->node_count, DMB_GRAIN, make_diagonal_blocks, &work);
 }
 
-/* Row and column of an unknown that is not solved for: identity. */
+/* Makes row and column of a constrained unknown identity. */
 static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
 {
     const dmb_scene *scene = sim->scene;
@@ -231,7 +234,7 @@ static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
     }
 }
 
-/* Row c of a node in the matrix, by the node before, its own and the node after: shape (3, 6). */
+/* Row c of a node in the matrix: blocks of the node before, of the node and of the node after, shape (3, 6). */
 static void read_row(const dmb_sim *sim, uint32_t node, uint32_t c, double row[18])
 {
     const dmb_scene *scene = sim->scene;
@@ -288,7 +291,7 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
     dmb_system_iteration_matrix_constrained(evaluation, NULL);
 }
 
-/* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
+/* Rotation about the node's own x axis since time 0, on the revolution reached by the increment of the step. */
 static void unwrap_nodes(void *work, uint32_t first, uint32_t end)
 {
     const dmb_sim *sim = work;

@@ -2,7 +2,7 @@
  *
  *     residual = M v' - v^^T M v + g_internal - f_external = 0       (each node in its body frame)
  *
- * dmb_system_evaluate gathers all terms in a fixed order; it is the one place that knows them all. */
+ * dmb_system_evaluate assembles all terms in a fixed order, and is the only list of them. */
 #ifndef DMB_SYSTEM_ASSEMBLE_EVALUATION_H
 #define DMB_SYSTEM_ASSEMBLE_EVALUATION_H
 
@@ -16,61 +16,64 @@ typedef struct dmb_evaluation {
     dmb_sim *sim;           /* trial is read; work arrays are written */
     double time;            /* [s] of the trial */
     double step;            /* [s] from now to trial; 0 in statics */
-    double breakpoint;      /* [s] of a time function, at which the step ends; 0: none */
-    double inside;          /* [s] of a time function, which the step is not divided at; 0: none */
+    double breakpoint;      /* [s] breakpoint of a time function at the end of the step; 0: none */
+    double inside;          /* [s] breakpoint of a time function inside the step, which is not divided there; 0: none */
     double mass_factor;     /* [1/s2] d v'/d pose parameters (eq:integration.factors) */
     double velocity_factor; /* [1/s] d v/d pose parameters */
     double pseudo_factor;   /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
-    double own_factor;      /* [-] of the mean force of a step at its end: 1/(gamma pseudo_factor); 0: by the laws */
-    double load_factor;     /* [-] on gravity, loads and bit load (static load steps) */
-    int32_t dynamic;        /* 0: no inertia, damping, nor rates: statics */
-    int32_t tangent;        /* 1: fill stiffness_ and inertia_ blocks too */
-    int32_t inertia_only;   /* 1: tangents by motion alone, links of elements without their stiffness */
-    int32_t steady;         /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
-    uint32_t drilling;      /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
-    int32_t extrapolated;   /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
-    int32_t predicted;      /* 1: the trial lacks mean forces of contacts: their tangents act (eq:contact.mean) */
-    int32_t given;          /* 1: multipliers of the trial are taken as they are, else they balance the residual */
-    int32_t assembling;     /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
-    int32_t slipping;       /* statics: friction acts as at the speed slip[] */
-    double wall_softness;   /* statics: rings press as on a wall this much softer; 0: as it is */
-    double frictionless;    /* [-] statics: this share of the friction of rings is left out; 0: none of it */
-    double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
-    double rounding;   /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
+    double own_factor;  /* [-] factor of the mean force of a step at its end: 1/(gamma pseudo_factor); 0: by the laws */
+    double load_factor; /* [-] factor on gravity, loads and bit load (static load steps) */
+    int32_t dynamic;    /* 0: statics, without inertia, damping and rates */
+    int32_t tangent;    /* 1: also computes stiffness_ and inertia_ blocks */
+    int32_t
+        inertia_only;  /* 1: tangents of inertia and damping only, off-diagonal blocks of elements without stiffness */
+    int32_t steady;    /* 1: bristles and rock as in steady sliding and drilling */
+    uint32_t drilling; /* steady: bit mask of the drill bits that cut, of the first DMB_STEADY_BITS */
+    int32_t extrapolated; /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
+    int32_t
+        predicted; /* 1: the trial does not contain mean forces of contacts yet: their tangents act (eq:contact.mean) */
+    int32_t given; /* 1: multipliers of the trial are unknowns and used as they are; 0: they balance the residual */
+    int32_t assembling;   /* 1: initial coordinates of joints are also equations, couplings and joint drives are not */
+    int32_t slipping;     /* statics: friction acts as at the speed slip[] */
+    double wall_softness; /* statics: factor by which the wall is softer at contact points; 0: 1 */
+    double frictionless;  /* [-] statics: fraction of contact friction that is omitted; 0: none */
+    double slip[2];       /* [m/s, rad/s] along the hole, of rotation */
+    double rounding; /* [N2] sum of squares of the rounding of forces caused by the rounding of poses (elements, joints,
+                        wall) */
     double gravity[3]; /* [m/s2] times load_factor, on bent elements */
     double power[8];   /* [W] of each class of force on the bodies, DMB_POWER_... */
     int32_t status;    /* of this evaluation */
-    uint32_t element;  /* where status says DMB_ERR_ROTATION */
+    uint32_t element;  /* the element, if status is DMB_ERR_ROTATION */
 } dmb_evaluation;
 
 /* Residual into sim->residual, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
  * DMB_ERR_ROTATION, DMB_ERR_NOT_FINITE. */
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
-/* Pose of the trial: that of now moved by `increment`. */
+/* Pose of the trial: the accepted pose moved by `increment`. */
 void dmb_system_move(dmb_sim *sim);
-/* Those from `first` to before `end` alone. */
+/* The same for nodes `first` to before `end`. */
 void dmb_system_move_nodes(dmb_sim *sim, uint32_t first, uint32_t end);
-/* Sets what contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only
- * the rows that are held are set, to held. Not of axial-torsional nodes nor callers' forces. */
+/* Updates the memory fields of contacts, drives and bits in the trial without a full evaluation; of the residual only
+ * the constrained rows are valid: they become `held`. Not for axial-torsional nodes and callers' forces. */
 void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
-/* The same; before rows that are held become identity they go into constrained_rows, by the node before, its own and
- * the one after, shape (held, 3, 6); NULL: they do not. */
+/* The same; constrained rows are copied to constrained_rows (blocks of the node before, of the node and of the node
+ * after; shape (constrained, 3, 6)) before they become identity; NULL: not copied. */
 void dmb_system_iteration_matrix_constrained(const dmb_evaluation *evaluation, double *constrained_rows);
-/* product (held) = those rows times z, shape (row). */
+/* product (constrained) = those rows times z, shape (row). */
 void dmb_system_constrained_times(const dmb_sim *sim, const double *rows, const double *z, double *product);
-/* Unwrapped turns of the trial, from its pose and the increments. */
+/* Rotation angles of the trial with revolutions, from its pose and the increments. */
 void dmb_system_unwrap(dmb_sim *sim);
-/* Results of a finished step, whose turns are unwrapped: drive positions and forces, bit bottom and history. Trial ->
- * trial and memory; called just before the swap. */
+/* Results of a step at its acceptance, after dmb_system_unwrap: drive positions and forces, bottom and history of bits.
+ * Reads the trial, writes trial and memory; called just before trial and now are exchanged. */
 void dmb_system_accept(dmb_evaluation *evaluation);
 
-/* Reactions of what is held, from the residual and the multipliers of the trial: memory, and forces of motion drives
- * into a configuration. */
+/* Reactions of supports, from the residual and the multipliers of the trial: memory, and forces of motion drives into a
+ * configuration. */
 void dmb_system_get_reactions(dmb_sim *sim, dmb_configuration *to);
 
-/* Blocks of node i, and of the link i, i+1. */
+/* Blocks of node i, and off-diagonal blocks of nodes i, i + 1. */
 static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)
 {
     return sim->stiffness_diagonal + sim->scene->layout.diag[node];

@@ -1,15 +1,15 @@
-/* Free rigid bodies and strings: their translation is integrated at the centre of mass, in axes that do not turn
+/* Free rigid bodies and strings: their translation is integrated at the centre of mass, in axes that do not rotate
  * (eq:integration.free-rigid).
  *
- * In body axes m (u' + w x u) = f couples translation and rotation, and the integration of the one takes part in the
- * errors of the other: a reference point 10 m from the centre of mass drifted by 1.7 m in 100 s at 20 rad/s. With c the
- * centre of mass from the node and the axes of the node at the start of the step (E = exp(theta) turns those of the end
- * into them),
+ * In body axes m (u' + w x u) = f couples translation and rotation, so that integration errors of one enter the other:
+ * a reference point 10 m from the centre of mass drifted by 1.7 m in 100 s at 20 rad/s. With c the centre of mass from
+ * the node and the axes of the node at the start of the step (E = exp(theta) maps axes at the end to those at the
+ * start),
  *     W = E (u + w x c),   W' = E (u' + w' x c + w x (u + w x c)),   x1 = x0 + R0 (z + c - E c),
- * generalized-alpha is applied to (W, w) and its increments (z, theta) instead of (u, w). Then m W' = f, so that linear
- * momentum is kept to rounding, and a parabola is one. The rotation is integrated as before: angular momentum to second
- * order. So is the translation where mud goes along with the part, since its mass depends on the direction. Only in
- * scenes without joints, where nothing holds or leads the part. */
+ * generalized-alpha is applied to (W, w) and its increments (z, theta) instead of (u, w). Then m W' = f, so that
+ * linear momentum is conserved to rounding and a ballistic trajectory is exact. The rotation is integrated as for
+ * other nodes: angular momentum to second order; so is the translation of a body with added mass, which depends on the
+ * direction. Used only in scenes without joints, for parts without supports and motion drives. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -76,7 +76,7 @@ void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_args *args)
     }
 }
 
-/* Increments are corrected with all rows. */
+/* The increments themselves are corrected with all rows. */
 void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_args *args)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
@@ -122,7 +122,7 @@ static void place(dmb_sim *sim, uint32_t rigid)
     accelerations_of(body, E, v, motion + 12, sim->trial.pseudo_acceleration + row);
 }
 
-/* Orientations have been moved with all nodes: they take the rotation of an increment by itself. */
+/* Positions of the bodies; their orientations have been moved with all nodes by the rotation of the increment. */
 void dmb_free_rigids_place(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) place(sim, i);
@@ -130,7 +130,7 @@ void dmb_free_rigids_place(dmb_sim *sim)
 
 /* ---- Tangent ----------------------------------------------------------------------------------------------------- */
 
-/* Quantities of one body that its derivatives are made of, at the end of the step, in body axes there. */
+/* Quantities of one body for its derivatives, at the end of the step, in body axes there. */
 typedef struct rigid_end {
     double Et[9], T[9];     /* E^T; right tangent of theta */
     double velocity[6];     /* of the centre */

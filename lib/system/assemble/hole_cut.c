@@ -1,19 +1,19 @@
-/* The hole that cutters leave behind (eq:hole.cut): at the end of a step the stations that a face has come up to are as
- * wide as its cutter. The wall that was strained there goes with the rock, and its energy with it. */
+/* Hole widened by cutters (eq:hole.cut): at the end of a step, the stations reached by a face get the diameter of its
+ * cutter. Strained rock there is removed with its stored energy. */
 #include <math.h>
 
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/ledger.h"
 
-/* [m] measured depth of a cutter's face when it has cut up to `bottom`, which it leads by the intrusion depth. */
+/* [m] Measured depth of a cutter's face at a bottom `bottom`, which it leads by the intrusion depth. */
 static double face_at(const dmb_scene *scene, uint32_t k, double bottom)
 {
     const dmb_scene_bit *bit = scene->bits + k;
     return scene->reference_depth[bit->node] + bit->arm + bit->face + bottom + bit->law.intrusion_depth;
 }
 
-/* The first station beyond a depth, of those that may be cut; 0: none is above it. */
+/* First station beyond a depth that may be widened; 0: the depth is above all of them. */
 static uint32_t station_beyond(const dmb_hole *hole, double depth)
 {
     const double u = floor((depth - hole->cut_start) / hole->cut_spacing) + 1.0;
@@ -21,7 +21,7 @@ static uint32_t station_beyond(const dmb_hole *hole, double depth)
     return u < (double)(hole->cuts - 2) ? (uint32_t)u : hole->cuts - 2;
 }
 
-/* [m] by which a cutter widens a station more than it is. */
+/* [m] Increase of the radius at a station by a cutter. */
 static double more_at(const dmb_sim *sim, uint32_t k, uint32_t j)
 {
     const dmb_hole *hole = &sim->scene->hole;
@@ -29,7 +29,7 @@ static double more_at(const dmb_sim *sim, uint32_t k, uint32_t j)
            sim->hole_widening[j];
 }
 
-/* The wall at rings that touch it gives way by that much. 1: there are any. */
+/* Reduces the penetration of touching contact points by that much. 1: there are any. */
 static int give_way(dmb_sim *sim, uint32_t j, double more)
 {
     int touched = 0;
@@ -41,7 +41,7 @@ static int give_way(dmb_sim *sim, uint32_t j, double more)
     return touched;
 }
 
-/* Stations after `from` and up to `to`. 1: rings touch the wall there. */
+/* Widens the stations after `from` up to `to`. 1: contact points touch the wall there. */
 static int widen(dmb_sim *sim, uint32_t k, uint32_t from, uint32_t to)
 {
     int touched = 0;
@@ -59,7 +59,8 @@ void dmb_hole_make_room(dmb_sim *sim, uint32_t k, double before)
     const dmb_scene *scene = sim->scene;
     if (scene->hole.cuts == 0 || scene->bits[k].law.kind == DMB_ROCK_NONE) return;
     const double rear = face_at(scene, k, fmin(before, sim->now.bit_advance[k] - scene->bits[k].length));
-    const uint32_t beyond = station_beyond(&scene->hole, rear); /* the one before it too, and all up to the bottom */
+    const uint32_t beyond =
+        station_beyond(&scene->hole, rear); /* also the station before it, and all up to the bottom */
     (void)widen(sim, k, beyond > 1 ? beyond - 2 : 0,
                 station_beyond(&scene->hole, face_at(scene, k, sim->now.bit_bottom[k])));
 }

@@ -4,7 +4,7 @@
 
 /* Inertia forces of a change of the accelerations, by lumped masses. */
 
-/* [kg, kg m2] times the factor, by the rows of an end that is six-DOF. */
+/* [kg, kg m2] Lumped inertia times the factor, by the rows of a six-DOF end. */
 typedef struct lumped {
     double row[6];
 } lumped;
@@ -28,7 +28,7 @@ static void add_node(uint32_t size, const lumped *mass, const double *z, double 
     for (uint32_t k = 0; k < 6; k++) force[k] += mass->row[k] * z[k];
 }
 
-/* Both ends of an element between six-DOF nodes, whose rows follow each other. */
+/* Adds both ends of an element between six-DOF nodes, whose rows are consecutive. */
 static void add_both(const lumped *half, const double *restrict z, double *restrict force)
 {
     for (uint32_t k = 0; k < 6; k++) force[k] += half->row[k] * z[k];

@@ -11,7 +11,7 @@ static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32
     return c->drive_force[i] * dmb_drive_speed(sim->scene, c, i);
 }
 
-/* Powers of an evaluation, with what the motion drives do through the rows they hold. */
+/* Powers of an evaluation, with those of motion drives through their constrained rows. */
 static void powers(const dmb_sim *sim, const dmb_evaluation *evaluation, double power[8])
 {
     memcpy(power, evaluation->power, sizeof evaluation->power);
@@ -27,7 +27,7 @@ double dmb_ledger_balance(const dmb_ledger *ledger, double stored)
     return sum - (stored - ledger->start);
 }
 
-/* Keeps the balance where the time since the start has grown by DMB_LEDGER_SPACING of it. */
+/* Stores the balance each time the elapsed time has grown by the fraction DMB_LEDGER_SPACING. */
 static void mark_balance(dmb_sim *sim, double time)
 {
     dmb_ledger *ledger = sim->ledger;
@@ -49,7 +49,7 @@ double dmb_ledger_balance_before(const dmb_ledger *ledger, double time)
     return mark[2 * k + 1] + part * (mark[2 * k - 1] - mark[2 * k + 1]);
 }
 
-/* Energies at the start; from there on kinetic + stored = start + sum of works, but for the error of the scheme. */
+/* Energies at the start; later kinetic + stored = start + sum of works + error of the scheme. */
 void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     memset(sim->ledger, 0, sizeof *sim->ledger);
@@ -66,7 +66,7 @@ void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
     dmb_ledger_take_forces(sim);
 }
 
-/* Half and half, or up to a breakpoint inside, at which powers jump, and from there on. */
+/* Half of the step each, or the parts before and after a breakpoint inside, at which powers jump. */
 static dmb_ledger_parts parts_of(const dmb_evaluation *evaluation)
 {
     dmb_ledger_parts parts = {0.5 * evaluation->step, 0.5 * evaluation->step};
@@ -76,8 +76,8 @@ static dmb_ledger_parts parts_of(const dmb_evaluation *evaluation)
     return parts;
 }
 
-/* Work of each drive, and what the trapezoidal rule had beyond it. `input` sums magnitudes: what an error of the
- * balance is measured by. */
+/* Work of each drive, and the excess of the trapezoidal rule over it. `input`: sum of magnitudes, the scale for errors
+ * of the balance. */
 static double add_drives(dmb_sim *sim, const dmb_ledger_parts *parts)
 {
     const dmb_scene *scene = sim->scene;
@@ -93,8 +93,8 @@ static double add_drives(dmb_sim *sim, const dmb_ledger_parts *parts)
     return sum;
 }
 
-/* Work of each kind over the step: by the trapezoidal rule, less what this has beyond the step's own work where forces
- * and speeds both change fast (eq:motion.work, eq:motion.trapezoid-excess). */
+/* Work of each kind over the step: by the trapezoidal rule, less its excess over the step's own work if forces and
+ * speeds both change fast (eq:motion.work, eq:motion.trapezoid-excess). */
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation, int released)
 {
     double power[8], *last = sim->clock->power, friction = 0.0, damping = 0.0;
@@ -119,7 +119,7 @@ void dmb_ledger_move(dmb_sim *sim, int kind, double excess)
     sim->ledger->work[DMB_POWER_POTENTIAL] += excess;
 }
 
-/* Energy that changes at once (a joint closes): kinetic and stored energy that are lost are work of the impact. */
+/* Instantaneous change of energy (a joint closes): lost kinetic and stored energy are work of the impact. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
 {
     sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;

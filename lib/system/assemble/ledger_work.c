@@ -8,7 +8,7 @@
 #include "system/assemble/assemble.h"
 #include "system/assemble/bounces.h"
 
-/* Sum over `count` forces, four side by side. */
+/* Sum over `count` forces, four at a time. */
 static double excess_of(const dmb_ledger_parts *parts, size_t count, const double *f0, const double *s0,
                         const double *f1, const double *s1)
 {
@@ -35,7 +35,7 @@ double dmb_ledger_rock_excess(const dmb_sim *sim, const dmb_ledger_parts *parts)
     return excess_of(parts, 4 * (size_t)sim->scene->bit_count, a->bit_force, a->bit_speed, b->bit_force, b->bit_speed);
 }
 
-/* Both are functions of the speed alone. */
+/* Damper and friction of a law, both functions of the speed alone. */
 static void law_excess(const dmb_joint_law *law, const dmb_ledger_parts *parts, double s0, double s1, double *friction,
                        double *damping)
 {
@@ -58,7 +58,7 @@ void dmb_ledger_joint_excess(const dmb_sim *sim, const dmb_ledger_parts *parts, 
     }
 }
 
-/* Dampers of springs that act both ways; those of others have their own integration (bounces). */
+/* Dampers of two-sided springs; one-sided springs are integrated by bounces. */
 double dmb_ledger_spring_excess(const dmb_sim *sim, const dmb_ledger_parts *parts)
 {
     const dmb_scene *scene = sim->scene;
@@ -73,7 +73,7 @@ double dmb_ledger_spring_excess(const dmb_sim *sim, const dmb_ledger_parts *part
     return sum;
 }
 
-/* K d'^2 tau/L of the change of d' over the step, along and about the axis, where elements are stiff. */
+/* K d'^2 tau/L of the change of d' over the step, along and about the axis, in which elements are stiff. */
 static double element_loss(const dmb_sim *sim, uint32_t e)
 {
     const dmb_block_layout *layout = &sim->scene->layout;
@@ -101,7 +101,7 @@ static double node_loss(const dmb_sim *sim, uint32_t node)
     return -dmb_vec6_dot(force, v);
 }
 
-/* A linear damper takes C ((v0 + v1)/2)^2 h, the trapezoidal rule C (v1 - v0)^2 h/4 more. */
+/* A linear damper dissipates C ((v0 + v1)/2)^2 h; the trapezoidal rule gives C (v1 - v0)^2 h/4 more. */
 double dmb_ledger_damping_excess(const dmb_sim *sim, const dmb_ledger_parts *parts)
 {
     const dmb_scene *scene = sim->scene;
@@ -111,7 +111,7 @@ double dmb_ledger_damping_excess(const dmb_sim *sim, const dmb_ledger_parts *par
     return -0.25 * (parts->first + parts->second) * sum;
 }
 
-/* Force of a ring as the step has it. */
+/* Friction force of a contact point as used by the step. */
 static void friction_of(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
 {
     dmb_site_force_of(sim->scene, c, s, f);

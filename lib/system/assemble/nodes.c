@@ -14,7 +14,7 @@
 /* ---- six-DOF nodes, by the kernels ----------------------------------------------------------------------------------
  */
 
-/* Inputs and outputs of the kernels for `count` six-DOF nodes from `node` on; `rigid_mass` is the first that may be on
+/* Inputs and outputs of the kernels for `count` six-DOF nodes from `node` on; `rigid_mass` is the first candidate on
  * them. */
 static dmb_node_force_args args_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
@@ -47,13 +47,13 @@ static dmb_node_force_args args_of(const dmb_evaluation *evaluation, uint32_t no
     return args;
 }
 
-/* A run of six-DOF nodes that is made in pieces. */
+/* A run of six-DOF nodes, computed in chunks. */
 typedef struct node_chunks {
     const dmb_evaluation *evaluation;
     uint32_t node, count, rigid_mass, pieces;
 } node_chunks;
 
-/* The first rigid mass from `next` on that is not before the node; they stand in the order of their nodes. */
+/* First rigid mass from `next` on at the node or after it; they are ordered by node. */
 static uint32_t rigid_mass_from(const dmb_scene *scene, uint32_t next, uint32_t node)
 {
     uint32_t end = scene->rigid_mass_count;
@@ -116,7 +116,7 @@ static void assemble_six_dof(dmb_evaluation *evaluation, uint32_t node, uint32_t
  * -----------------------------------------------------------------------
  */
 
-/* Only mass and the inertia about the axis are felt. */
+/* Rigid mass on an axial-torsional node: only mass and inertia about the axis act. */
 static void assemble_axial_torsional_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
 {
     dmb_sim *sim = evaluation->sim;
@@ -165,7 +165,7 @@ static void assemble_axial_torsional(dmb_evaluation *evaluation, uint32_t node, 
     if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) assemble_axial_torsional_damping(evaluation, node);
 }
 
-/* Node by node in their order, and so are the rigid_masses on them. */
+/* All nodes and their rigid masses in order. */
 void dmb_assemble_nodes(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -225,10 +225,10 @@ void dmb_assemble_added_masses(dmb_evaluation *evaluation)
     }
 }
 
-/* Flow of mud: its pull on a node goes along the hole's axis there, as pressures fall and shear acts in a narrow
- * annulus (of a pipe that is tilted in it: Taylor 1952; Paidoussis 2014). With the tangent t(s) at the depth s of the
- * node, and b = (lever, 0, 0), it is f = -pull R^T t,   m = -b x R^T t,   d(R^T t) = (R^T t)~ dtheta + R^T dt/ds J t.R
- * dx, J = ds/dx of a point beside the axis. */
+/* Flow of mud: its force on a node is along the hole's axis there, the direction of pressure gradient and shear in a
+ * narrow annulus (tilted pipe: Taylor 1952; Paidoussis 2014). With the tangent t(s) at the depth s of the node, and b =
+ * (lever, 0, 0), it is f = -pull R^T t, m = -b x R^T t, d(R^T t) = (R^T t)~ dtheta + R^T dt/ds J t.R dx, J = ds/dx of a
+ * point beside the axis. */
 static void pull_six_dof(dmb_evaluation *evaluation, uint32_t node, const double pull[2])
 {
     dmb_sim *sim = evaluation->sim;
@@ -260,7 +260,7 @@ static void pull_six_dof(dmb_evaluation *evaluation, uint32_t node, const double
     dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, node));
 }
 
-/* A force along the axis of a node turns with it and has no tangent in its frame. */
+/* A force along the axis of an axial-torsional node rotates with it and has no tangent in its frame. */
 static void pull_along(dmb_evaluation *evaluation, uint32_t node, double pull)
 {
     dmb_sim *sim = evaluation->sim;
@@ -290,7 +290,7 @@ void dmb_assemble_flow(dmb_evaluation *evaluation)
 static void frame_of_load(const dmb_sim *sim, const dmb_configuration *c, const dmb_scene_load *load, double R[9])
 {
     const dmb_scene *scene = sim->scene;
-    if (load->frame == DMB_FRAME_HOLE) { /* compile refuses it without a hole */
+    if (load->frame == DMB_FRAME_HOLE) { /* compile requires a hole for it */
         double x[3], u[3], unused[9], point[3], tangent[3], s;
         dmb_node_pose(scene, c, load->node, unused, u);
         dmb_vec3_add(scene->reference_position + 3 * (size_t)load->node, u, x);
@@ -302,7 +302,7 @@ static void frame_of_load(const dmb_sim *sim, const dmb_configuration *c, const 
     }
 }
 
-/* Body-frame wrench at the place of the load. */
+/* Body-frame wrench at the point of a load. */
 static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double factor, double w[6])
 {
     double R[9], body[9], f[3], unused[3];
@@ -351,8 +351,8 @@ void dmb_assemble_loads(dmb_evaluation *evaluation)
 
 /* ---- Loads at points --------------------------------------------------------------------------------------------- */
 
-/* By displacements of the nodes, the body turning under a dead wrench, d(R^T f) = (R^T f) x theta, and the map
- * changing: -map^T (w_f x theta; w_m x theta) - d(map^T) w. */
+/* By displacements of the nodes, the body rotating under a dead load, d(R^T f) = (R^T f) x theta, and by the change of
+ * the map: -map^T (w_f x theta; w_m x theta) - d(map^T) w. */
 static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, const dmb_point_motion *m,
                         const double w[6])
 {
@@ -377,7 +377,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, 
     dmb_force_tangent_add(evaluation, DMB_NONE, DMB_BY_DISPLACEMENT, &t);
 }
 
-/* In the axes of the point; frame: of a load that is dead. */
+/* Wrench in the axes of the point; frame: of a dead load. */
 static void point_wrench(const dmb_scene_load *load, double factor, const double frame[9], const double R[9],
                          double w[6])
 {

@@ -98,8 +98,8 @@ void dmb_point_apply(dmb_sim *sim, const dmb_point_motion *motion, const double 
     }
 }
 
-/* The map of a point on a node is constant. That of one in a section is shifted from it by a constant offset, so the
- * wrench at the section is (f; m + offset x f), which stays the same there too. */
+/* The map of a point on a node is constant. That of a point fixed to a section is shifted by a constant offset, so the
+ * wrench at the section is (f; m + offset x f), constant in its axes too. */
 void dmb_point_map_tangent(const dmb_scene *scene, const dmb_point_motion *motion, const double w[6], double K[144])
 {
     dmb_section_shape shape;
@@ -139,7 +139,8 @@ void dmb_force_tangent_clear(dmb_force_tangent *tangent)
     memset(tangent->K, 0, bytes);
 }
 
-/* Column of component k (0 .. 11) of the point's nodes; DMB_NONE: an axial-torsional node has none. */
+/* Column of component k (0 .. 11) of the point's nodes; DMB_NONE: for components that an axial-torsional node does not
+ * have. */
 static uint32_t column_of(const dmb_scene *scene, const dmb_force_tangent *tangent, const dmb_point_motion *motion,
                           uint32_t k)
 {
@@ -193,7 +194,7 @@ static void to_parameters(const dmb_sim *sim, const dmb_force_tangent *tangent, 
     }
 }
 
-/* Block of nodes i, k into storage that is as wide as node k has rows. */
+/* Adds the block of nodes i, k to storage with as many columns as node k has rows. */
 static void add_block(const dmb_block_layout *layout, const dmb_force_tangent *tangent, double factor, uint32_t i,
                       uint32_t k, double *to)
 {
@@ -204,8 +205,8 @@ static void add_block(const dmb_block_layout *layout, const dmb_force_tangent *t
                 factor * tangent->K[(size_t)(tangent->column[i] + r) * tangent->columns + tangent->column[k] + c];
 }
 
-/* Diagonal blocks by displacements are multiplied by T6 with all others of their node; those of links are whole where
- * they stand, and without their stiffness where inertia alone is asked for. */
+/* Adds K to the blocks of the chain. Diagonal blocks by displacements are multiplied by T6 later, with the others of
+ * their node; off-diagonal blocks are complete here, and without stiffness for tangents of inertia alone. */
 static void add_to_chain(const dmb_evaluation *evaluation, int by, double factor, dmb_force_tangent *tangent)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -225,7 +226,7 @@ static void add_to_chain(const dmb_evaluation *evaluation, int by, double factor
     add_block(layout, tangent, factor, high, low, lower);
 }
 
-/* The constraint has the same nodes in the same order. */
+/* Requires that the constraint has the same nodes in the same order. */
 void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, int by, dmb_force_tangent *tangent)
 {
     dmb_sim *sim = evaluation->sim;

@@ -2,7 +2,7 @@
  *
  *     d = x_b - x_a,  l = sqrt(|d|^2 + 1e-18 m2),  n = d/l,  l' = n . (R_b v_b - R_a v_a)
  *
- * tension t(l - l0, l') pulls with -t n on b and t n on a; the elastic part is the gradient of E(l - l0). */
+ * tension t(l - l0, l') acts with -t n on b and t n on a; the elastic part is the gradient of E(l - l0). */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@
 
 /* ---- Springs between two points ---------------------------------------------------------------------------------- */
 
-#define DMB_SPRING_NEAR 1e-9 /* [m] points closer than some of these have no direction */
+#define DMB_SPRING_NEAR 1e-9 /* [m] points closer than a few of these have no direction */
 
 static const dmb_spring_point *points_of(const dmb_scene *scene, const dmb_scene_spring *spring)
 {
@@ -48,7 +48,7 @@ void dmb_spring_motion_of(const dmb_scene *scene, const dmb_configuration *confi
     dmb_spring_force_at(&s->law, points_of(scene, s), motion->length - s->free_length, motion->rate, &motion->force);
 }
 
-/* (R^T n; 0): the line in the axes of a point. */
+/* (R^T n; 0): direction of the spring in the axes of a point. */
 static void line_at(const dmb_point_motion *point, const double n[3], double w[6])
 {
     dmb_mat3_tvec(point->R, n, w);
@@ -71,7 +71,7 @@ typedef struct spring_tangent {
     wide_row turn[3];        /* dn */
 } spring_tangent;
 
-/* R rows of the point's move, world axis i. */
+/* Adds rows of R times the displacement of the point, world axis i. */
 static void add_move(const dmb_scene *scene, const dmb_force_tangent *sum, const dmb_point_motion *point, int i,
                      double sign, double *row)
 {
@@ -91,7 +91,7 @@ static void turn_of_line(const dmb_scene *scene, const dmb_spring_motion *m, spr
     }
 }
 
-/* d(R v) = R (theta x v), and v by the map that changes: n . of both; A as of dmb_point_map_tangent for the line. */
+/* d(R v) = R (theta x v), and v by the change of the map: n . both; A by dmb_point_map_tangent for the direction. */
 static void add_rate(const dmb_scene *scene, const dmb_point_motion *point, const double line[6], double sign,
                      const double A[144], spring_tangent *t)
 {
@@ -177,8 +177,7 @@ static void pull(dmb_sim *sim, const dmb_point_motion *point, const double n[3],
     dmb_point_apply(sim, point, w);
 }
 
-/* As of a joint's spring (below): rounding of the numbers that the length is the difference
- * of. */
+/* Rounding of the length, a difference of large numbers, as for springs of joints (below). */
 static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
 {
     const double reach = dmb_vec3_norm(spring->span) + dmb_vec3_norm(m->a.x) + dmb_vec3_norm(m->b.x);
@@ -186,8 +185,8 @@ static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *s
     if (!evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0) evaluation->rounding += k * k;
 }
 
-/* In a step of its own integration the law gives way to the mean force; the damper of a spring that acts both ways
- * stays. Returns the power that goes into heat. */
+/* Replaces the force of the law by the mean force in a step that has one; the damper of a two-sided spring stays.
+ * Returns the dissipated power. */
 static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion *m)
 {
     const dmb_scene_spring *spring = evaluation->sim->scene->springs + i;
@@ -246,7 +245,7 @@ double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *confi
 
 /* ---- Joints: springs, dampers, stops, friction, drives, forces of constraint ------------------------------------- */
 
-/* Forces on the six coordinates, what they change by, and where they act. */
+/* Forces on the six coordinates, their derivatives, and their points of action. */
 typedef struct coordinate_forces {
     dmb_relative relative;
     dmb_joint_coordinates c;
@@ -274,23 +273,23 @@ static double largest_place(const dmb_sim *sim, const dmb_scene_frame *frame)
                                    : dmb_vec3_norm(frame->x) + dmb_vec3_norm(u + 3 * (size_t)frame->node);
 }
 
-/* [N] what the force on coordinate i changes by where the numbers that the coordinate is the difference of do so by
- * their own size; moments as forces at the length scale. */
+/* [N] Change of the force on coordinate i if the numbers whose difference is the coordinate change by their own size;
+ * moments as forces at the length scale. */
 static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *joint, int i, double by_position)
 {
     if (i >= 3) return by_position / sim->scene->length_scale;
     return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
 }
 
-/* Before the first correction of a step a residual that a stiff spring's rounding could make may as well be that of a
- * soft part, which would then fly on as if nothing held it; one correction moves it to where it belongs. Without a
- * step, as about a state that is linearised, nothing flies on. */
+/* 1: rounding of stiff springs counts. Before the first correction of a step, a residual of the size of a stiff
+ * spring's rounding may be that of a soft part, which would then move without its force; one correction places it
+ * correctly. Without a step, as in linearisations, rounding always counts. */
 static int rounding_counts(const dmb_evaluation *evaluation)
 {
     return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
 }
 
-/* The stop of coordinate i by the step's own integration. */
+/* Mean force of the stop of coordinate i. */
 static void take_own_stop(dmb_evaluation *evaluation, uint32_t u, const coordinate_forces *f, int i,
                           dmb_joint_force *law)
 {
@@ -329,7 +328,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
     }
 }
 
-/* Drives in load or speed control push on their coordinate; motion drives are equations (system/constrain). */
+/* Forces of drives in load or speed control; motion drives are equations (system/constrain). */
 static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
 {
     dmb_sim *sim = evaluation->sim;
@@ -347,7 +346,7 @@ static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces
     }
 }
 
-/* Drives of an open joint do nothing, and follow its coordinate. */
+/* Drives of an open joint have no force, and track its coordinate. */
 static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
 {
     dmb_sim *sim = evaluation->sim;
@@ -418,7 +417,7 @@ static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint
     }
 }
 
-/* The tangent by speeds is one by parameters already. */
+/* The tangent by speeds already is with respect to parameters. */
 static void add_joint_tangent(dmb_evaluation *evaluation, uint32_t j, const coordinate_forces *f)
 {
     const dmb_scene *scene = evaluation->sim->scene;
@@ -437,8 +436,8 @@ void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component,
     apply(evaluation, evaluation->sim->scene->joints + j, &f);
 }
 
-/* Laws of an open joint have no force, and no speed: a speed that stayed from before the joint opened would be that of
- * an earlier step, and a restored state would not have it. */
+/* Laws of an open joint have no force and no speed: a speed kept from before the opening would belong to an earlier
+ * step, and would differ after a restored state. */
 static void rest_laws(dmb_sim *sim, const dmb_scene_joint *joint)
 {
     if (joint->law == DMB_NONE) return;
@@ -467,7 +466,7 @@ static void assemble_forces(dmb_evaluation *evaluation)
     }
 }
 
-/* Curvature of the equations, onto the tangents of the forces. */
+/* Adds the curvature of the equations to the tangents of the forces. */
 static int32_t gather_curvatures(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;

@@ -1,4 +1,4 @@
-/* Places that are stuck: springs and dampers to the pose where they got stuck, until they let go (eq:motion.stuck). */
+/* Stuck places: springs and dampers to the pose in which they got stuck, until they release (eq:motion.stuck). */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -120,7 +120,7 @@ static void turning_of(const stuck_motion *m, const double f[COORDINATES], doubl
     add_twist(m->J[0], f[3], W);
 }
 
-/* Row of ds'_k/dq: V^T dJ_k, and J_k by the map that changes. */
+/* Row of ds'_k/dq: V^T dJ_k, and J_k by the change of the map. */
 static void rate_row(const dmb_scene *scene, const dmb_force_tangent *t, const stuck_motion *m, int k, double *row)
 {
     double unit[COORDINATES] = {0.0}, W[36], w[6] = {0.0}, A[144], values[DMB_POINT_COLUMNS] = {0.0};
@@ -141,7 +141,7 @@ static void add_product(dmb_force_tangent *t, double factor, const double *left,
         for (uint32_t c = 0; c < t->columns; c++) t->K[(size_t)r * t->columns + c] += factor * left[r] * right[c];
 }
 
-/* K = J^T (k J + c ds'/dq) + sum of f dJ^T; the map too changes under w. */
+/* K = J^T (k J + c ds'/dq) + sum of f dJ^T; plus the change of the map under w. */
 static void add_stiffness(dmb_evaluation *evaluation, const dmb_scene_stuck *stuck, const stuck_motion *m,
                           const double f[COORDINATES], const double w[6], dmb_force_tangent *t)
 {
@@ -191,7 +191,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_stuck *stuck
 
 /* ---- Residual ---------------------------------------------------------------------------------------------------- */
 
-/* The rounding of its pose times the stiffness (system/assemble/springs). */
+/* Rounding of its pose times the stiffness (system/assemble/springs). */
 static void count_rounding(dmb_evaluation *evaluation, uint32_t i, const dmb_scene_stuck *stuck, const stuck_motion *m)
 {
     const double *x0 = evaluation->sim->stuck_anchor + 12 * (size_t)i + 9;

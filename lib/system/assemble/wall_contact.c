@@ -1,5 +1,5 @@
-/* Contact sites at the wall of the hole: their forces in the residual, and how a force changes with the motion of its
- * site. */
+/* Contact points at the wall of the hole: their forces in the residual, and derivatives of a force by the motion of its
+ * point. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -45,7 +45,7 @@ uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site)
 
 /* ---- Friction of a ring that slips ------------------------------------------------------------------------------- */
 
-/* Closest point of the hole's axis to a ring, and the frame there. */
+/* Closest point of the hole's axis to a contact point, and the contact frame there. */
 static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_frame *f)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -62,7 +62,7 @@ static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_f
     dmb_contact_frame_at(R, sim->trial.site_normal + 3 * (size_t)s, tangent, f);
 }
 
-/* Forces along and around for a unit of normal force; 0: it does not slip. */
+/* Friction along and around per unit of normal force; 0: no slip. */
 static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
 {
     const dmb_sim *sim = evaluation->sim;
@@ -93,7 +93,7 @@ int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t si
     return 1;
 }
 
-/* Rings of six-DOF nodes against the wall: force/contact_law by the kernels, and what the trial keeps of the sites. */
+/* Contact points of six-DOF nodes: force/contact_law by the kernels, and the contact fields of the trial. */
 
 static dmb_site_fields fields_of(const dmb_configuration *configuration)
 {
@@ -111,7 +111,7 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
     return fields;
 }
 
-/* Inputs and outputs of the kernels for the sites. */
+/* Inputs and outputs of the kernels for the contact points. */
 static dmb_wall_args args_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -144,14 +144,15 @@ static dmb_wall_args args_of(const dmb_sim *sim)
     return args;
 }
 
-/* Laws that differ from those of the scene. */
+/* Laws of a static analysis that differ from those of the scene. */
 typedef struct own_laws {
     dmb_normal_law soft;
     dmb_friction_law sliding, partial;
     dmb_hole hole;
 } own_laws;
 
-/* Friction of rings with a share of it left out: the law's own coefficients, and those of sections of the hole. */
+/* Reduces the friction of contact points by the fraction `frictionless`: the coefficients of the law, and those of
+ * sections of the hole. */
 static void leave_friction_out(const dmb_evaluation *evaluation, own_laws *laws, dmb_wall_args *args)
 {
     const double share = 1.0 - evaluation->frictionless;
@@ -246,7 +247,7 @@ void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *
     out->sticks = 0;
 }
 
-/* Axes, centre [m] (world) and velocity of a ring. */
+/* Axes, centre [m] (world) and velocity of a contact point. */
 static void motion_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, double R[9], double x[3],
                       double V[6])
 {
@@ -266,7 +267,7 @@ static void motion_of(const dmb_scene *scene, const dmb_configuration *c, uint32
     dmb_arm_velocity(site->offset, V);
 }
 
-/* Closest point of the axis, its depth, the direction from it and the speeds there. */
+/* Closest point of the axis, its depth, the direction from it, and the speeds at the contact point. */
 static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
                             dmb_contact_frame *f)
 {
@@ -282,8 +283,7 @@ static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, 
     return depth;
 }
 
-/* The wall's constants at a ring at that depth, its way in and how fast it grows (force/hole.h); friction gets
- * its own law. */
+/* Constants of the wall at that depth, penetration and its rate (force/hole.h), and the friction law there. */
 static void local_force(const dmb_scene *scene, const dmb_site *site, double depth, const dmb_contact_frame *f,
                         double impact_speed, double still, dmb_friction_law *friction, dmb_site_force *out)
 {
@@ -319,7 +319,7 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     out->slip[0] = f.speed[1];
     out->slip[1] = f.speed[2];
     const double *assumed = configuration->friction_slip;
-    const double still = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : 1.0; /* statics know no speed */
+    const double still = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : 1.0; /* statics have no speed */
     if (scene->hole.pieces > 0) {
         local_force(scene, site, place, &f, configuration->site_impact_speed[s], still, &local, out);
         law = &local;
@@ -357,7 +357,7 @@ double dmb_site_elastic_force(const dmb_scene *scene, const dmb_configuration *c
     return scene->sites[s].length * force;
 }
 
-/* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the ring. */
+/* Wrench -N n + F_t t + F_b b, b = t x n, at r n from the centre, in body axes at the contact point. */
 void dmb_site_add_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double factor,
                         const dmb_site_force *f, double *rows)
 {
@@ -384,7 +384,7 @@ void dmb_contact_place(dmb_sim *sim, uint32_t s, double depth)
     sim->now.site_segment[s] = dmb_hole_is_straight(hole) ? 0 : dmb_hole_segment_at(hole, depth);
 }
 
-/* Only a node that is brought to its joint moves before time begins, and may come to another length of the hole. */
+/* Only nodes moved by the assembly change before time 0, and may reach another section of the hole. */
 void dmb_contacts_follow_assembly(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -403,7 +403,7 @@ void dmb_contacts_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t s = 0; s < scene->site_count; s++) {
-        const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
+        const double down[3] = {0.0, 0.0, -1.0}; /* until a normal is defined */
         dmb_vec3_copy(down, sim->now.site_normal + 3 * s);
         dmb_contact_place(sim, s, scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset);
     }
@@ -438,10 +438,10 @@ void dmb_contacts_forget(dmb_sim *sim)
         memset(sim->trial.site_touch, 0, DMB_TOUCH_SIZE * scene->site_count * sizeof(double));
 }
 
-/* So far beyond the limit that rounding does not make a bristle stick. */
+/* [-] Deflection over the sticking limit, so that rounding does not make a sliding bristle stick. */
 #define DMB_SLIDING_BEYOND (1.0 + 1e-9)
 
-/* z = mu(|v|)/sigma0 v/|v|: where bristles are while their ring slides on. */
+/* z = mu(|v|)/sigma0 v/|v|: bristle deflection in steady sliding. */
 static void deflect(const dmb_friction_law *law, const double v[2], double z[2], int32_t *sticks)
 {
     const dmb_friction_law sliding = dmb_sliding_law(law);

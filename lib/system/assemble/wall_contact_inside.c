@@ -1,11 +1,11 @@
-/* A ring inside an element is one on a node of its own for the wall, whose pose H and velocity V are those of the
- * section:
+/* A contact point inside an element is treated by the wall as one on a separate node, whose pose H and velocity V are
+ * those of the section:
  *
  *     V = A(d) v,   residual r = A^T f,   f = -wrench(H, V)
  *     dr = (d A^T) f + A^T [f_H A + f_V dA v] dq + A^T f_V A dv
  *
  * with A the map of element/section_shape.h, v the velocities of both nodes, dq their body-frame displacements, and
- * f_H, f_V what force/contact_law.h gives for a node. */
+ * f_H, f_V the derivatives by force/contact_law.h for a node. */
 #include "system/assemble/assemble.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@
 #include "sim/node.h"
 #include "system/assemble/bounces.h"
 
-/* The element that rings are in: seen once for all of them. */
+/* Element of the contact points, evaluated once for all of them. */
 typedef struct host {
     const dmb_element_type *type;
     uint32_t element, node;
@@ -65,7 +65,7 @@ static void section_of(const host *of, const dmb_scene_point *point, section *at
     dmb_vec3_add(at->x, of->ua, at->x);
 }
 
-/* The node that the section is taken for. */
+/* Node that represents the section. */
 typedef struct section_node {
     double displacement[3], quaternion[4], velocity[6];
     double now_quaternion[4], now_velocity[6];
@@ -119,7 +119,7 @@ static void add_block(const dmb_evaluation *evaluation, const dmb_point_motion *
     dmb_force_tangent_add(evaluation, DMB_NONE, by, &tangent);
 }
 
-/* The two nodes, for those who add to their blocks. */
+/* The two nodes, for additions to their blocks. */
 static void nodes_of(const host *of, dmb_point_motion *motion)
 {
     motion->nodes = 2;
@@ -127,7 +127,7 @@ static void nodes_of(const host *of, dmb_point_motion *motion)
     motion->node[1] = of->node + 1;
 }
 
-/* dA v counts by the velocity tangent f_V, dA dq by that of displacements. */
+/* dA v enters with the velocity tangent f_V, dA dq with that by displacements. */
 static void add_tangent(const dmb_evaluation *evaluation, const host *of, const section *in, const section_node *at)
 {
     double map[72], K[144], W[72], rows[72] = {0.0};
@@ -154,7 +154,7 @@ static int touches(const dmb_sim *sim, uint32_t s, const section_node *at)
     return sim->trial.site_penetration[s] > 0.0 || at->site.clearance <= 0.0 || sim->site_mode[s] != 0;
 }
 
-/* The wall of one ring: sums go on from those given. */
+/* Contact force of one point, added to the sums given. */
 static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at, const dmb_wall_args *sums,
                   dmb_wall_args *args)
 {
@@ -179,7 +179,7 @@ static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at
     dmb_kernels_of(1)->walls(args);
 }
 
-/* The ring meets the wall: the last accepted motion tells how fast it comes. */
+/* 1: the contact point reaches the wall within the step at the speed of the accepted motion. */
 static int meets(const dmb_sim *sim, uint32_t s)
 {
     return sim->trial.site_penetration[s] > 0.0 && !(sim->now.site_penetration[s] > 0.0);
@@ -221,7 +221,7 @@ static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_w
     if (evaluation->tangent) add_tangent(evaluation, of, &in, &at);
 }
 
-/* [m] The most that a section is off the line through the ends. */
+/* [m] Largest distance of a section from the line through the ends. */
 static double sag_of(const dmb_sim *sim, const dmb_element_type *type, uint32_t element)
 {
     const double *d = sim->element_strain + 6 * (size_t)element;
@@ -231,8 +231,8 @@ static double sag_of(const dmb_sim *sim, const dmb_element_type *type, uint32_t 
     return sag;
 }
 
-/* [m] The most that a section goes in the step: with the nodes, as they turn across, and round the line through them as
- * they turn about it. */
+/* [m] Largest displacement of a section in the step: with the nodes, by their rotation across the axis, and about the
+ * line through them by their rotation about it. */
 static double reach_of(const dmb_sim *sim, const dmb_scene_point *point)
 {
     const double *a = sim->increment + sim->scene->layout.row[point->node];
@@ -243,8 +243,8 @@ static double reach_of(const dmb_sim *sim, const dmb_scene_point *point)
     return dmb_vec3_norm(a) + dmb_vec3_norm(b) + length * across + sag_of(sim, type, point->element) * about;
 }
 
-/* 1: within a step the element cannot come so far that its ring would touch. Distances from the axis of the hole change
- * by no more than the ring moves; not so in holes whose wall has sections. */
+/* 1: the contact point cannot touch within the step. Its distance from the axis of the hole changes by no more than its
+ * displacement; not used in holes whose wall has sections. */
 static int stays_open(const dmb_evaluation *evaluation, const dmb_scene_point *point, uint32_t s)
 {
     const dmb_sim *sim = evaluation->sim;

@@ -1,6 +1,5 @@
-/* axial-torsional nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force is what weight and tension in
- * a curved hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis.
- */
+/* Axial-torsional nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force balances weight and tension
+ * in a curved hole across the axis, N = | w_across + T kappa n | l, and friction acts along and around the axis. */
 #include <string.h>
 
 #include "element/beam.h"
@@ -10,7 +9,7 @@
 #include "system/assemble/energy.h"
 #include "system/assemble/evaluation.h"
 
-/* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
+/* [m] Elongation of an element at the trial; stored by a mixed element. */
 static double stretch_of(const dmb_sim *sim, uint32_t element)
 {
     const dmb_scene *scene = sim->scene;

@@ -1,4 +1,4 @@
-/* Rings that are pressed on the wall in pieces (sim/chunks); no node has rings in two of them. */
+/* Contact points evaluated in chunks (sim/chunks); points of one node are in the same chunk. */
 #include "kernel/kernels.h"
 #include "sim/chunks.h"
 #include "system/assemble/assemble.h"
@@ -18,7 +18,7 @@ static uint32_t begin_of(const wall_chunks *in, uint32_t piece)
     return begin;
 }
 
-/* The same for the sites from `first` to before `end`; nothing is summed yet. */
+/* Arguments for the contact points from `first` to before `end`, with sums at 0. */
 static dmb_wall_args part_of(const dmb_wall_args *all, uint32_t first, uint32_t end)
 {
     dmb_wall_args args = *all;
@@ -49,7 +49,7 @@ static void add_sums(const dmb_chunk_sums *sums, dmb_wall_args *args)
     args->friction += sums->friction;
 }
 
-/* Sites of strings stand in the order of their nodes; those of bodies come behind them, and last. */
+/* Contact points of strings are ordered by node; those of bodies are last. */
 void dmb_press_rings(const dmb_sim *sim, dmb_wall_args *args)
 {
     const dmb_kernels *kernels = sim->scene->kernels;

@@ -148,7 +148,7 @@ static double *full_matrix(const dmb_sim *sim, const dmb_cluster *cluster)
     return D;
 }
 
-/* G of the present matrix (eq:joints.null-space); columns that are not solved do not move. */
+/* G of the present matrix (eq:joints.partition); columns that are not solved do not move. */
 static void make_null_space(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
