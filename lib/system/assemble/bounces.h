@@ -9,13 +9,14 @@
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
-/* Treatment in a step:
+/* Treatment of a contact in a step, and its transitions (bounce_end.c decides those at the end of a step):
  *     LAW     force of the law at the end of the step
- *     OWN     mean force over the step, since the contact touched
- *     OPENS   mean force, in the step in which the contact opens
- * A law that touches in the step also has its mean force. State diagram, bounce_end.c decides the dashed transition:
- *     LAW --touches--> OWN - - resolved or lasting - -> LAW;   OWN or LAW --opens in the step--> OPENS --> LAW (open)
- */
+ *     OWN     mean force over the step, from the step after touch on, until resolved or lasting
+ *     OPENS   mean force, in the step in which a contact treated by its law opens
+ *
+ *     LAW --touches, stiff for the step--> OWN --opens, resolved or lasting--> LAW
+ *     LAW --opens within the step--> OPENS --> LAW, open
+ * A contact that touches in the step has its mean force already there. */
 enum { DMB_BOUNCE_LAW = 0, DMB_BOUNCE_OWN = 1, DMB_BOUNCE_OPENS = 2 };
 /* Marks of contact points: with the mode, the next step has a mean force too; with the mode, the history of the step
  * contains the mean force; mask of the mode; with the age, as the first. */
