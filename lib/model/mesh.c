@@ -1,3 +1,5 @@
+/* Compilation of a described model into a scene: the steps of dmb_model_compile in their order (table in mesh.h). A
+ * failing step leaves the model as it was, with a message about the part that caused it. */
 #include "model/mesh.h"
 
 #include <math.h>
@@ -129,7 +131,7 @@ static uint64_t elements_of(const dmb_mesh *mesh, const dmb_pipe_run *run)
     return dmb_mesh_kind(mesh, run) == DMB_PIPE_RIGID ? 0 : (uint64_t)run->count * run->def.elements;
 }
 
-/* Points at which forces may divide an element, at most. */
+/* Upper bound of the points at which forces divide elements. */
 static uint64_t points_of(const dmb_model *model)
 {
     uint64_t count = (uint64_t)model->loads.count + model->stuck.count + 2 * (uint64_t)model->springs.count;
@@ -138,8 +140,8 @@ static uint64_t points_of(const dmb_model *model)
     return count;
 }
 
-/* Each string has one node more than elements, each free body one node, each ring and each point of a force at most
- * one. */
+/* Upper bounds of nodes and elements: each string has one node more than elements, each free body one node, each
+ * stabiliser and each point of a force at most one. */
 int32_t dmb_mesh_count(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -162,7 +164,7 @@ int32_t dmb_mesh_count(dmb_mesh *mesh)
     return status;
 }
 
-/* Features of a scene, out of those asked for: one that was not described is left out too. */
+/* Features of a scene: those requested by the options and present in the description. */
 
 static bool has_gravity(const dmb_model *model)
 {
@@ -233,7 +235,7 @@ int32_t dmb_mesh_features(const dmb_mesh *mesh)
 
 /* ---- Compile ----------------------------------------------------------------------------------------------------- */
 
-/* From what was described to the scene that a step works on. */
+/* dmb_model_compile: from the description to the scene of a step. */
 
 static int32_t read_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
 {
@@ -268,7 +270,7 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     return status;
 }
 
-/* Each warning to the log, the first into the message too. */
+/* Writes each warning to the log, and the first also into the message. */
 static void warn(dmb_model *model, const dmb_scene *scene)
 {
     const dmb_log log = {model->log, model->log_context};

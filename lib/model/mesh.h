@@ -1,6 +1,6 @@
-/* The scene while it is being made. Each step of dmb_model_compile fills some of it from the model and from what
- * earlier steps have left; mesh_finalise.c then moves it into one block. Held in growable arrays, so that nothing has
- * to be known in advance; all of it goes when the compile step ends.
+/* The scene during compilation. Each step of dmb_model_compile fills part of it from the model and from the results of
+ * earlier steps; mesh_finalise.c then copies it into one block. Growable arrays, whose sizes need not be known in
+ * advance; all are released at the end of compilation.
  *
  *   step            reads                      fills
  *   count           runs                       run_order, room in nodes and elements
@@ -21,8 +21,8 @@
  *   constraints     joints ... forces          constraints, clusters, cluster_nodes; back-references
  *                                              in joints, couplings, drives, callbacks, springs, forces
  *
- * Fields that need the numbers of rows are made by freeze: rows of drives, columns of clusters, the blocks of jointed
- * chains. */
+ * Fields that depend on row numbers are filled by mesh_finalise: rows of drives, columns of constraint components,
+ * blocks of jointed chains. */
 #ifndef DMB_MODEL_MESH_H
 #define DMB_MODEL_MESH_H
 
@@ -41,14 +41,14 @@ typedef struct dmb_mesh_node {
     double depth;            /* [m] measured depth, 0 without a hole */
     double weight_mass;      /* [kg] */
     double weight_moment[3]; /* [kg m] */
-    double displaced[2];     /* [m3, m4] what a fluid of density 1 takes off weight_mass and the x of weight_moment */
-    double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
-    uint32_t string;         /* DMB_NONE: free body `body` */
+    double displaced[2]; /* [m3, m4] reduction of weight_mass and of the x of weight_moment by a fluid of density 1 */
+    double damped[3];    /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping is lumped here */
+    uint32_t string;     /* DMB_NONE: free body `body` */
     uint32_t body;
-    uint32_t rigid_mass; /* in rigid_masses; DMB_NONE: none */
-    uint32_t added_mass; /* in added_masses; DMB_NONE: none */
+    uint32_t rigid_mass; /* index in rigid_masses; DMB_NONE: none */
+    uint32_t added_mass; /* index in added_masses; DMB_NONE: none */
     uint8_t size;        /* DMB_NODE_SIX_DOF or DMB_NODE_AXIAL_TORSIONAL */
-    uint8_t free;        /* mask of free components; of an axial-torsional node X and RX count */
+    uint8_t free;        /* mask of free components; of an axial-torsional node X and RX only */
     uint8_t prescribed;  /* mask of components moved by MOTION drives */
     uint8_t rigid;       /* 1: carries a rigid body */
 } dmb_mesh_node;
@@ -65,20 +65,20 @@ typedef struct dmb_mesh_element {
     int32_t reserved;
 } dmb_mesh_element;
 
-/* A ring, or the point of a force, at its place on a string. */
+/* A contact point of a stabiliser, or the point of a force, by its position on a string. */
 typedef struct dmb_mesh_ring {
     double along;    /* [m] of its middle from the near end of the pipe */
     uint32_t string; /* index */
     uint32_t pipe;
-    uint32_t ring; /* in the model's rings; DMB_NONE: the point of a force */
+    uint32_t ring; /* index in the model's stabilisers; DMB_NONE: the point of a force */
     uint32_t reserved;
 } dmb_mesh_ring;
 
 /* A body that may spin; its masses are those of its node. */
 typedef struct dmb_mesh_rotor {
     dmb_scene_rotor rotor;
-    int32_t from;     /* where its axis comes from, in mesh_rotor */
-    int32_t bearings; /* 1: it is on a joint that it may spin on */
+    int32_t from;     /* origin of its axis, in mesh_rotor */
+    int32_t bearings; /* 1: it has a joint that permits its spin */
 } dmb_mesh_rotor;
 
 typedef struct dmb_mesh {
@@ -86,9 +86,9 @@ typedef struct dmb_mesh {
     dmb_compile_options options;
     int32_t features;
     int32_t has_hole;
-    dmb_hole hole;                    /* its stations stand in `stations` */
+    dmb_hole hole;                    /* its stations are in `stations` */
     dmb_vector stations;              /* dmb_hole_station */
-    dmb_vector pieces;                /* dmb_hole_piece, which the hole points to */
+    dmb_vector pieces;                /* dmb_hole_piece, referenced by the hole */
     dmb_vector run_order;             /* uint32_t: runs sorted by string, in each by pipe */
     dmb_vector run_start;             /* uint32_t: where in run_order each string begins, one more at the end */
     dmb_vector nodes;                 /* dmb_mesh_node */
@@ -100,7 +100,7 @@ typedef struct dmb_mesh {
     dmb_vector sites;                 /* dmb_site */
     dmb_vector inside;                /* dmb_scene_point: of the last of them */
     dmb_vector axial_torsional_sites; /* dmb_axial_torsional_site */
-    dmb_vector drives;                /* dmb_scene_drive; row is filled by freeze */
+    dmb_vector drives;                /* dmb_scene_drive; its row is filled by mesh_finalise */
     dmb_vector actuators;             /* dmb_actuator_law */
     dmb_vector gain_tables;           /* dmb_gain_table */
     dmb_vector loads;                 /* dmb_scene_load */
@@ -118,7 +118,7 @@ typedef struct dmb_mesh {
     dmb_vector couplings;             /* dmb_scene_coupling */
     dmb_vector callbacks;             /* dmb_scene_callback */
     dmb_vector laws;                  /* dmb_joint_law */
-    dmb_vector driven;                /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
+    dmb_vector driven;                /* uint8_t: mask of the coordinates of each joint prescribed by MOTION drives */
     dmb_vector constraints;           /* dmb_constraint, sorted by cluster */
     dmb_vector clusters;              /* dmb_cluster */
     dmb_vector cluster_nodes;         /* uint32_t */
@@ -166,7 +166,7 @@ bool dmb_same_numbers(const double *a, const double *b, size_t count);
 int32_t dmb_mesh_kind(const dmb_mesh *mesh, const dmb_pipe_run *run);
 /* True if the string starts on the hole's axis. */
 bool dmb_mesh_follows_hole(const dmb_mesh *mesh, uint32_t string);
-/* Index of the string an id names, the first one for the id that names nothing. */
+/* Index of the string of an id; the empty id is the first string. */
 uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id);
 
 /* Rings of a pipe, in their order along it. */
@@ -175,17 +175,18 @@ typedef struct dmb_ring_range {
     uint32_t count;
 } dmb_ring_range;
 dmb_ring_range dmb_mesh_rings_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
-/* Likewise of rings and points of forces, which divide its elements. */
+/* The same of stabilisers and points of forces, which divide its elements. */
 dmb_ring_range dmb_mesh_divisions_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
 /* By string, pipe and distance along it. */
 void dmb_mesh_sort_places(dmb_mesh_ring *items, size_t count);
-/* Run that holds a pipe of a string; NULL: there is no such pipe. */
+/* Run that contains a pipe of a string; NULL: there is no such pipe. */
 const dmb_pipe_run *dmb_mesh_run_with(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
-/* [m] Closer to a node than this, a quarter of the pipe's diameter, a ring is carried by that node on a rigid arm: over
- * such lengths a beam does not deform by itself. Farther away it has a node of its own, which divides an element. */
+/* [m] Largest distance from a node, a quarter of the pipe's diameter, at which a stabiliser is carried by that node on
+ * a rigid arm: beam theory does not resolve deformation over such lengths. Farther away it has its own node, which
+ * divides an element. */
 double dmb_ring_reach(const dmb_pipe_def *def);
 
-/* Element of a pipe, and the fraction of its flexible length, at a distance from the pipe's near end [m]. */
+/* Element of a pipe and fraction of its flexible length at a distance from the pipe's near end [m]. */
 uint32_t dmb_mesh_element_along(const dmb_mesh *mesh, const dmb_pipe_map *pipe, double along, double *fraction);
 
 /* The pipes of a string one after the other.
@@ -195,8 +196,8 @@ typedef struct dmb_pipe_iterator {
     const dmb_mesh *mesh;
     const dmb_pipe_run *run;
     uint32_t place, end; /* in run_order */
-    uint32_t within;     /* pipes of the run that are done */
-    uint32_t number;     /* of the pipe along the string */
+    uint32_t within;     /* number of pipes of the run already visited */
+    uint32_t number;     /* number of the pipe along the string */
     uint32_t string;
 } dmb_pipe_iterator;
 dmb_pipe_iterator dmb_pipe_iterator_of(const dmb_mesh *mesh, uint32_t string);
@@ -205,17 +206,18 @@ bool dmb_pipe_iterator_next(dmb_pipe_iterator *iterator);
 void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options);
 void dmb_mesh_release(dmb_mesh *mesh);
 
-/* The steps, in their order. Each returns DMB_OK or an error, with a message where a part is to blame. */
+/* The steps of the compilation, in order. Each returns DMB_OK or an error, with a message if a part caused it. */
 int32_t dmb_mesh_check(dmb_mesh *mesh);
 int32_t dmb_mesh_hole(dmb_mesh *mesh);
 /* Pieces of the wall from the sections of the hole. DMB_ERR_GEOMETRY, _VALUE, _NO_MEMORY. */
 int32_t dmb_mesh_sections(dmb_mesh *mesh);
 /* Stations at which cutters widen it; mesh->hole.cuts stays 0 without any. DMB_ERR_GEOMETRY. */
 int32_t dmb_mesh_cuts(dmb_mesh *mesh);
-/* [m] Diameter that a bit, or the reamers on a ring, widen the hole to; 0: they do not. */
+/* [m] Diameter to which a bit, or the reamers of a stabiliser, widen the hole; 0: they do not. */
 double dmb_mesh_bit_cuts(const dmb_mesh *mesh, uint32_t bit);
 double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring);
-/* Everything that could meet a wall of sections fits into it where it is described. DMB_ERR_GEOMETRY. */
+/* Checks that all parts with wall contact fit into a hole of sections at their described positions. DMB_ERR_GEOMETRY.
+ */
 int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);
 int32_t dmb_mesh_ring_places(dmb_mesh *mesh);
@@ -225,15 +227,15 @@ int32_t dmb_mesh_bodies(dmb_mesh *mesh);
 int32_t dmb_mesh_rings(dmb_mesh *mesh);
 int32_t dmb_mesh_poses(dmb_mesh *mesh);
 int32_t dmb_mesh_depths(dmb_mesh *mesh);
-/* True for an element that has the mass of bent ones: its unstressed shape is bent, it is described bent by more than
- * DMB_CURVED_BEND, or its sections are thick. */
+/* True for an element with the mass matrix of curved elements: its unstressed shape is curved, its described shape is
+ * bent by more than DMB_CURVED_BEND, or its sections are thick. */
 bool dmb_mesh_is_curved(const dmb_mesh *mesh, const dmb_mesh_element *element);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);
 int32_t dmb_mesh_joints(dmb_mesh *mesh);
 int32_t dmb_mesh_actions(dmb_mesh *mesh);
-/* Lengths of pipe that mud flows through. DMB_ERR_UNSUPPORTED, _GEOMETRY, _VALUE, _NO_MEMORY. */
+/* Lengths of pipe with mud flow. DMB_ERR_UNSUPPORTED, _GEOMETRY, _VALUE, _NO_MEMORY. */
 int32_t dmb_mesh_flow(dmb_mesh *mesh);
 int32_t dmb_mesh_forces(dmb_mesh *mesh);
 int32_t dmb_mesh_constraints(dmb_mesh *mesh);
@@ -241,31 +243,31 @@ int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 int32_t dmb_mesh_rotors(dmb_mesh *mesh);
 int32_t dmb_mesh_inputs(dmb_mesh *mesh);
 
-/* DMB_FEATURE_... that are asked for and described. */
+/* DMB_FEATURE_... that are requested and present. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh);
-/* Moves everything into one block of the model's allocator. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
+/* Copies everything into one block of the model's allocator. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
 int32_t dmb_mesh_finalise(const dmb_mesh *mesh, dmb_scene **scene);
 
-/* Places of parts that move rigidly with a node. */
+/* Places that move rigidly with a node. */
 
 typedef struct dmb_mesh_place {
     uint32_t node;
     double arm; /* [m] along body x from the node */
 } dmb_mesh_place;
 
-/* A body, a bit, any place of a rigid pipe, and of an elastic one its ends, its tool joint and the ends of its elements
- * (within 1e-9 of the pipe). False elsewhere. The pipe has to be there. */
+/* Node and arm of a place: on a body, a bit, anywhere on a rigid pipe, and on an elastic pipe at its ends, its tool
+ * joint and the ends of its elements (within 1e-9 of the pipe). False elsewhere. The pipe must exist. */
 bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_place *found);
-/* From node a (or the world's origin, DMB_NONE) to node b [m]. Along one string it keeps the digits that a difference
- * of large coordinates loses. */
+/* From node a (or the world's origin, DMB_NONE) to node b [m]. Along one string it is summed from elements, because a
+ * difference of large coordinates loses digits. */
 void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3]);
-/* Fails the check where the pipe of a place is not there, or its node is one on the axis of a curved hole, which turns
- * with the axis. */
+/* Fails the check if the pipe of a place does not exist, or if its node is axial-torsional in a curved hole, where it
+ * rotates with the axis. */
 void dmb_mesh_check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place);
 void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                          uint32_t node);
-/* The point at any place moved by an offset in its axes; the ground for a place on no part. Fails the check as the two
- * above. */
+/* The point at any place displaced by an offset in its axes; of the ground for a place on no part. Fails the check as
+ * the two above. */
 dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                                const double offset[3]);
 
@@ -276,22 +278,21 @@ int32_t dmb_mesh_check_mud(const dmb_mesh *mesh, const dmb_pipe_def *def);
 /* Adds a body of that mass [kg], centre [m] from the node and inertia [kg m2] xx, yy, zz, xy, xz, yz at its centre. */
 void dmb_rigid_mass_add(dmb_rigid_mass *rigid_mass, double mass, const double centre[3], const double inertia[6]);
 
-/* Moves a mass [kg] that is already counted at (x, 0, 0) [m] to (x, e_y, e_z): the node gains a first moment and
- * inertia, but no mass. */
+/* Moves a mass [kg] already added at (x, 0, 0) [m] to (x, e_y, e_z): the node gains a first moment and inertia, but no
+ * mass. */
 void dmb_rigid_mass_shift(dmb_rigid_mass *rigid_mass, double mass, double x, const double e[2]);
 
-/* Eccentric pipes: where the centre of mass of each pipe of a run is. */
+/* Eccentric pipes: offset of the centre of mass of each pipe of a run. */
 
 bool dmb_pipe_is_eccentric(const dmb_pipe_def *def);
 
 /* Offset (e_y, e_z) [m] of the centre of mass of a pipe from its axis, section frame. `pipe` is its number along the
- * string: the random parts depend on it and on the seed only, so they are the same whatever the order of description.
- */
+ * string: the random parts depend on it and on the seed only, not on the order of description. */
 void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2]);
 
 /* Filling the arrays of a scene from a finished mesh. */
 
-/* The layout's arrays and the hole's stations, which the scene sees as read-only. */
+/* The layout's arrays and the hole's stations, read-only in the scene. */
 typedef struct dmb_scene_storage {
     uint8_t *size;
     uint32_t *row, *diag, *link;
@@ -299,7 +300,7 @@ typedef struct dmb_scene_storage {
     dmb_hole_piece *pieces;
 } dmb_scene_storage;
 
-/* Free rows, and rows that MOTION drives move, as bits of the node's own rows. */
+/* Free rows, and rows prescribed by MOTION drives, as bits of the node's own rows. */
 static inline uint8_t dmb_free_rows(const dmb_mesh_node *node)
 {
     if (node->size == DMB_NODE_SIX_DOF) return node->free;
@@ -312,8 +313,8 @@ static inline uint8_t dmb_prescribed_rows(const dmb_mesh_node *node)
     return (uint8_t)((node->prescribed >> DMB_X & 1) | (node->prescribed >> DMB_RX & 1) << 1);
 }
 
-/* All arrays of a scene whose counts are set and whose arrays have their places. DMB_ERR_TOO_LARGE if the blocks cannot
- * be counted in 32 bits. */
+/* Fills all arrays of a scene whose counts and storage are set. DMB_ERR_TOO_LARGE if the blocks cannot be counted in 32
+ * bits. */
 int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *storage);
 
 #endif

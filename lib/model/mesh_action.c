@@ -30,7 +30,7 @@ static bool is_free(const dmb_mesh_node *node, int32_t component)
     return (mask >> component & 1) != 0;
 }
 
-/* A MOTION drive takes the component for itself: its bit in the mask of those that are taken. */
+/* Reserves a component for a MOTION drive in the mask of reserved components. */
 static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, uint8_t *taken)
 {
     dmb_message part;
@@ -121,7 +121,7 @@ static bool is_shifted(const double offset[3])
     return fabs(offset[0]) > 0.0 || fabs(offset[1]) > 0.0 || fabs(offset[2]) > 0.0;
 }
 
-/* On the axis of a node it costs the least; elsewhere it acts at a point. */
+/* A load on the axis of a node acts at the node, the cheapest form; elsewhere it acts at a point. */
 static int32_t place_load(dmb_mesh *mesh, uint32_t i, const dmb_load_def *def, dmb_scene_load *load)
 {
     dmb_message part;
@@ -171,7 +171,7 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
     return law;
 }
 
-/* Left out with the rock; axial-torsional nodes do not move sideways. */
+/* Side cutting is omitted without rock; axial-torsional nodes do not move sideways. */
 static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     if (!(def->side_cutting > 0.0) || (mesh->features & DMB_FEATURE_ROCK) == 0) return DMB_OK;
@@ -189,7 +189,7 @@ static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_
     return DMB_OK;
 }
 
-/* A bit begins at its reference point and cuts at its far end; a reamer cuts at the middle of its ring. */
+/* A bit starts at its reference point and cuts at its far end; a reamer cuts at the middle of its stabiliser. */
 static void take_face(const dmb_mesh *mesh, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     bit->face = bit->length = def->length;

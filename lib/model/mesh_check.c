@@ -1,4 +1,4 @@
-/* The scene as a whole: what one description alone could not know. */
+/* Checks of the whole scene that a single description could not make. */
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/model.h"
@@ -13,7 +13,7 @@ static int32_t check_something_there(const dmb_model *model, dmb_message *messag
     return DMB_ERR_VALUE;
 }
 
-/* The id that names nothing stands for the first string, which must exist by now. */
+/* The empty id is the first string, which must exist. */
 static int32_t check_string_there(const dmb_model *model, dmb_message *message, const char *part, uint32_t index,
                                   const char *name, dmb_id id)
 {
@@ -79,7 +79,7 @@ static double curvature_of(const dmb_pipe_def *def)
     return fmax(fabs(def->curvature[0]), bend_of(def));
 }
 
-/* Axial-torsional pipes stay on the axis, so there has to be one: that of the hole, or a straight line of their own. */
+/* Axial-torsional pipes require an axis: that of the hole, or a straight line of their own. */
 static void check_axis(dmb_check *check, const dmb_mesh *mesh, const dmb_pipe_run *run)
 {
     const dmb_string_def *string = dmb_mesh_string_def(mesh, run->string);
@@ -157,7 +157,8 @@ static int32_t check_run_fits(const dmb_model *model, dmb_message *message, uint
     return check_fits(model, message, DMB_PART_STRING, i, "joint_outer_diameter", dmb_joint_diameter(def));
 }
 
-/* Everything that could meet the wall goes through it; no clearance at all is a pipe held on the axis. */
+/* Checks that parts with wall contact are not wider than the hole; a clearance of 0 is a pipe constrained to the axis.
+ */
 static int32_t check_diameters(const dmb_model *model, dmb_message *message)
 {
     int32_t status;

@@ -1,5 +1,5 @@
-/* Constraint rows of joints, couplings, joint drives and the caller's constraints, and the clusters of nodes that they
- * connect. */
+/* Constraint rows of joints, couplings, joint drives and the caller's constraints, and the constraint components: sets
+ * of nodes connected by them. */
 #include "base/memory.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
@@ -39,7 +39,7 @@ static dmb_cluster *cluster_at(const dmb_mesh *mesh, uint32_t i)
 
 /* ---- Constraints, kind by kind ----------------------------------------------------------------------------------- */
 
-/* The ground has no columns, and each node has them once. */
+/* Adds a node to a constraint, once; the ground has no columns. */
 static void touch(const dmb_mesh *mesh, uint32_t node, dmb_constraint *constraint)
 {
     if (node == DMB_NONE) return;
@@ -101,7 +101,7 @@ static void touch_point(const dmb_mesh *mesh, const dmb_scene_point *point, dmb_
     if (point->element != DMB_NONE) touch(mesh, point->node + 1, constraint);
 }
 
-/* Room for the tangent of a force within one node, or the two nodes of an element, is there already. */
+/* True if the tangent of a force has storage in the chain: forces within one node, or the two nodes of an element. */
 static bool is_local(const dmb_mesh *mesh, const dmb_constraint *constraint)
 {
     if (constraint->node_count < 2) return true;
@@ -111,7 +111,7 @@ static bool is_local(const dmb_mesh *mesh, const dmb_constraint *constraint)
            dmb_mesh_node_at(mesh, first)->string == dmb_mesh_node_at(mesh, first + 1)->string;
 }
 
-/* One row that is always idle. */
+/* A constraint with one idle row, for the tangent of a spring. */
 static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
 {
     dmb_constraint constraint = {.kind = DMB_OF_SPRING, .index = i, .rows = 1};
@@ -150,7 +150,7 @@ static int32_t add_all(dmb_mesh *mesh)
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
-/* Union and find, the smallest node of each set being its root; DMB_NONE: in no constraint. */
+/* Union-find with the smallest node of each set as its root; DMB_NONE: in no constraint. */
 static uint32_t root_of(uint32_t *parent, uint32_t i)
 {
     while (parent[i] != i) {
@@ -169,8 +169,8 @@ static void join(uint32_t *parent, const dmb_constraint *constraint)
     }
 }
 
-/* cluster[i] := number of the cluster of node i, by their smallest nodes; DMB_NONE: none. Counts nodes and columns.
- */
+/* cluster[i] := number of the component of node i, in the order of their smallest nodes; DMB_NONE: none. Counts nodes
+ * and columns. */
 static int32_t number_clusters(dmb_mesh *mesh, uint32_t *parent, uint32_t *cluster)
 {
     for (uint32_t i = 0; i < mesh->nodes.count; ++i) {
@@ -215,7 +215,7 @@ static int32_t make_clusters(dmb_mesh *mesh)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
     const size_t n = mesh->nodes.count;
-    dmb_vector both = dmb_vector_of(sizeof(uint32_t)); /* parents, then clusters */
+    dmb_vector both = dmb_vector_of(sizeof(uint32_t)); /* first parents, then components */
     int32_t status = dmb_vector_append(&both, allocator, NULL, 2 * n);
     if (status >= 0) {
         uint32_t *parent = both.items, *cluster = parent + n;
@@ -233,7 +233,7 @@ static int32_t make_clusters(dmb_mesh *mesh)
 
 /* ---- Order, numbers, limits -------------------------------------------------------------------------------------- */
 
-/* Constraints cluster by cluster, in each as they were. */
+/* Sorts constraints by component, keeping their order within each. */
 static int32_t sort_by_cluster(dmb_mesh *mesh)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
@@ -272,7 +272,7 @@ static void refer_back(const dmb_mesh *mesh, const dmb_constraint *constraint, u
     }
 }
 
-/* Rows and storage one after the other; false when 32 bits do not hold them. */
+/* Numbers rows and storage; false if 32 bits are not enough. */
 static bool number_rows(const dmb_mesh *mesh)
 {
     uint64_t row = 0, jacobian = 0, tangent = 0;
@@ -293,7 +293,7 @@ static bool number_rows(const dmb_mesh *mesh)
     return true;
 }
 
-/* Name of a cluster: its first constraint. */
+/* Name of a component: its first constraint. */
 static const char *name_of(const dmb_mesh *mesh, const dmb_cluster *cluster, dmb_message *text)
 {
     const dmb_constraint *first = constraint_at(mesh, cluster->constraint);
@@ -320,7 +320,7 @@ static int32_t check_size(const dmb_mesh *mesh, const dmb_cluster *cluster)
     return check.status;
 }
 
-/* A cluster is dense where that is the faster way. */
+/* Chooses dense or sparse storage of a component, whichever is faster. */
 static int32_t choose_storage(const dmb_mesh *mesh)
 {
     for (uint32_t c = 0; c < mesh->clusters.count; ++c) {

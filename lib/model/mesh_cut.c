@@ -1,5 +1,5 @@
-/* Stations at which bits and reamers widen the hole as they drill it (cut_spacing of dmb_wall_def), and what goes
- * through a hole that they have widened. */
+/* Stations at which bits and reamers widen the hole as they drill it (cut_spacing of dmb_wall_def), and the fit of
+ * parts in the widened hole. */
 #include <math.h>
 
 #include "force/hole.h"
@@ -32,7 +32,7 @@ double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring)
     return widest;
 }
 
-/* Two parabolas over a spacing are as steep as 2 widening/spacing. */
+/* Two parabolas over a spacing have slopes up to 2 widening/spacing. */
 static int32_t check_slope(const dmb_mesh *mesh, uint32_t bit, double least)
 {
     const dmb_wall_def *wall = &mesh->model->wall;

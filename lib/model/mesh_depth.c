@@ -1,5 +1,5 @@
-/* Measured depths at time 0 of what is not described on the hole's axis: strings at a position of their own, and free
- * bodies. */
+/* Measured depths at time 0 of parts that are not described on the hole's axis: strings at a position of their own, and
+ * free bodies. */
 #include <math.h>
 
 #include "math/so3.h"
@@ -7,7 +7,7 @@
 #include "model/field_check.h"
 #include "model/mesh.h"
 
-/* The axis is searched this much further than two places are apart, because it bends between them. */
+/* [-] Range of the search along the axis over the distance of two places, because the axis bends between them. */
 #define DMB_DETOUR 2.0
 
 static void direction_of(const dmb_mesh_node *node, double direction[3])
@@ -18,8 +18,8 @@ static void direction_of(const dmb_mesh_node *node, double direction[3])
 
 /* ---- Strings ----------------------------------------------------------------------------------------------------- */
 
-/* Depths of the nodes of a string whose first one is on that arc: each is searched from the one before, no further than
- * twice the distance from it. Returns the sum of the squared distances from the axis [m2]. */
+/* Depths of the nodes of a string whose first one is at that arc: each is searched from the one before, within twice
+ * their distance. Returns the sum of the squared distances from the axis [m2]. */
 static double follow_from(const dmb_mesh *mesh, const dmb_string_map *map, uint32_t arc)
 {
     double sum = 0.0, point[3], tangent[3], direction[3];
@@ -39,7 +39,8 @@ static double follow_from(const dmb_mesh *mesh, const dmb_string_map *map, uint3
     return sum;
 }
 
-/* The axis may pass the first node several times: the string is where it is nearest to the axis over its length. */
+/* Places a string: the axis may pass its first node several times, and the passage nearest over the length of the
+ * string is chosen. */
 static void place_string(const dmb_mesh *mesh, const dmb_string_map *map)
 {
     const double *x = dmb_mesh_node_at(mesh, map->first_node)->position;
@@ -58,7 +59,7 @@ static void place_string(const dmb_mesh *mesh, const dmb_string_map *map)
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Node of one place of a joint; false where there is none, which the joints refuse later. */
+/* Node of one place of a joint; false if it does not exist, which the joints report later. */
 static bool node_of(const dmb_mesh *mesh, const dmb_place *place, uint32_t *node)
 {
     const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
@@ -77,7 +78,7 @@ static void place_body(const dmb_mesh *mesh, dmb_mesh_node *node, double middle,
     (void)dmb_hole_search(&mesh->hole, node->position, middle, reach, direction, &node->depth);
 }
 
-/* The body of a joint is as far along the hole as the part at its other end, if that one's depth is known. */
+/* The depth of a jointed body is that of the part at the other end of the joint, if known. */
 static bool place_joined(const dmb_mesh *mesh, uint32_t known, uint32_t body, uint8_t *is_known)
 {
     const dmb_mesh_node *from = dmb_mesh_node_at(mesh, known);

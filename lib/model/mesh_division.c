@@ -1,5 +1,5 @@
-/* Nodes inside pipes: rings, and the points of loads, springs, forces and stuck places, divide the elements that they
- * are in, so that a concentrated force acts at a node (eq:beam.section-pose). */
+/* Nodes inside pipes: stabilisers, and the points of loads, springs, forces and stuck places, divide their elements, so
+ * that a concentrated force acts at a node (eq:beam.section-pose). */
 #include <math.h>
 
 #include "model/field_check.h"
@@ -14,7 +14,7 @@ double dmb_ring_reach(const dmb_pipe_def *def)
 
 /* ---- Places in their order --------------------------------------------------------------------------------------- */
 
-/* Runs of a string stand in the order of their pipes. */
+/* Run that contains a pipe; runs of a string are ordered by pipe. */
 const dmb_pipe_run *dmb_mesh_run_with(const dmb_mesh *mesh, uint32_t string, uint32_t pipe)
 {
     const uint32_t *order = mesh->run_order.items;
@@ -52,7 +52,7 @@ static void sink(dmb_mesh_ring *items, size_t i, size_t count)
     }
 }
 
-/* Heapsort (Williams 1964): in place, n log n whatever the order. */
+/* Heapsort (Williams 1964): in place, n log n for any order. */
 void dmb_mesh_sort_places(dmb_mesh_ring *items, size_t count)
 {
     for (size_t i = count / 2; i-- > 0;) sink(items, i, count);
@@ -94,7 +94,7 @@ dmb_ring_range dmb_mesh_divisions_of(const dmb_mesh *mesh, uint32_t string, uint
 
 /* ---- Points of forces -------------------------------------------------------------------------------------------- */
 
-/* A ring keeps its node: no point so close to it gets one of its own. */
+/* True if a point is so close to a stabiliser that it uses the node of that. */
 static bool is_by_ring(const dmb_mesh *mesh, const dmb_mesh_ring *point, double reach)
 {
     const dmb_ring_range rings = dmb_mesh_rings_of(mesh, point->string, point->pipe);
@@ -103,8 +103,8 @@ static bool is_by_ring(const dmb_mesh *mesh, const dmb_mesh_ring *point, double 
     return false;
 }
 
-/* A place on the flexible length of an elastic pipe; others are rigid with a node, or refused where they are described
- * on (mesh_action.c, mesh_force.c). */
+/* Adds a place on the flexible length of an elastic pipe; other places are rigid with a node, or rejected by their part
+ * (mesh_action.c, mesh_force.c). */
 static int32_t add_point(dmb_mesh *mesh, const dmb_place *place)
 {
     const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);

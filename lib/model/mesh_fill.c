@@ -39,7 +39,7 @@ static void fill_pose(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
     dmb_node_damping_of(node->damped, e->axial_damping, e->torsional_damping, e->lateral_damping, damping);
 }
 
-/* Marks the rows that are free, solved and held; `held` is the number of held rows so far. */
+/* Marks free, solved and constrained rows; `held` counts the constrained rows so far. */
 static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32_t *held)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
@@ -55,9 +55,9 @@ static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32
     }
 }
 
-/* Velocity of the string as a rigid body at a six-DOF node: Ad(H)^-1 of the rig end's, H the node seen from it.
- * axial-torsional nodes slide and turn on the axis as the rig end does, so that the string keeps its length on a curved
- * axis too. */
+/* Velocity of a string as a rigid body at a six-DOF node: Ad(H)^-1 of that of the rig end, H the node relative to it.
+ * Axial-torsional nodes move along and about the axis as the rig end does, so that the string keeps its length on a
+ * curved axis. */
 static void string_velocity(const dmb_mesh *mesh, const dmb_mesh_node *node, double v[6])
 {
     const dmb_string_map *map = dmb_mesh_string_at(mesh, node->string);
@@ -70,7 +70,7 @@ static void string_velocity(const dmb_mesh *mesh, const dmb_mesh_node *node, dou
     dmb_quat_to_matrix(q, R);
     dmb_vec3_sub(node->position, start->position, x);
     dmb_quat_rotate_inverse(start->quaternion, x, x);
-    x[0] -= map->start_arm; /* the rig end may stand behind the node that carries it */
+    x[0] -= map->start_arm; /* the rig end may be behind its node */
     dmb_adjoint_inverse_apply(R, x, given, v);
 }
 
@@ -91,7 +91,7 @@ static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
     row[1] = v[DMB_RX];
 }
 
-/* Rigid masses were made string by string; here they go by node. */
+/* Rigid masses, created string by string, sorted by node. */
 static void fill_rigid_masses(const dmb_mesh *mesh, dmb_scene *scene)
 {
     dmb_rigid_mass *next = scene->rigid_masses;
@@ -117,7 +117,7 @@ static uint32_t added_mass_on(const dmb_scene *scene, uint32_t node)
     return DMB_NONE;
 }
 
-/* A chain of its own; before elements are filled in. */
+/* 1: a chain of one node; before elements are filled in. */
 static int is_alone(const dmb_scene *scene, uint32_t node)
 {
     for (uint32_t c = 0; c < scene->chain_count; ++c)
@@ -125,7 +125,7 @@ static int is_alone(const dmb_scene *scene, uint32_t node)
     return 0;
 }
 
-/* As they were counted: single nodes that are wholly free. */
+/* Free rigid bodies, as counted: single unconstrained nodes. */
 static void fill_free_rigids(dmb_scene *scene)
 {
     dmb_free_rigid *next = scene->free_rigids;
@@ -287,7 +287,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->constraints, scene->constraints);
     copy_items(&mesh->clusters, scene->clusters);
     copy_items(&mesh->cluster_nodes, scene->cluster_nodes);
-    scene->time_functions = mesh->model->time_functions.items; /* frozen with the model, which outlives the scene */
+    scene->time_functions = mesh->model->time_functions.items; /* owned by the model, which outlives the scene */
     for (uint32_t s = 0; s < scene->string_count; ++s) scene->length += scene->strings[s].length;
 }
 
@@ -307,7 +307,8 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                   .bristle_stiffness = w->bristle_stiffness,
                                   .bristle_damping = w->bristle_damping,
                                   .points = (int32_t)w->friction_table_count,
-                                  .table_speed = w->friction_table_speed, /* of the model, which outlives the scene */
+                                  .table_speed =
+                                      w->friction_table_speed, /* owned by the model, which outlives the scene */
                                   .table_mu = w->friction_table_mu};
     scene->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = contact ? w->normal_law : DMB_NORMAL_NONE,
                                                            .stiffness = w->stiffness,
@@ -319,7 +320,7 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
     scene->friction_law = dmb_friction_law_of(law);
 }
 
-/* The hole keeps pointers to its stations and pieces: from now on to the scene's own. */
+/* Points the hole to the scene's own stations and pieces. */
 static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *w)
 {
     scene->has_hole = mesh->has_hole;
@@ -342,7 +343,7 @@ static int take_near(uint32_t *near_contact, uint32_t from, uint32_t to)
     return 1;
 }
 
-/* From neighbours along the chain, those further from the rig end first. */
+/* Copies values from neighbours along the chain, towards the rig end first. */
 static void spread_along(dmb_scene *scene)
 {
     for (uint32_t i = scene->node_count; i-- > 1;)
@@ -374,7 +375,7 @@ static void fill_near_sites(dmb_scene *scene)
 
 /* ---- Lengths ----------------------------------------------------------------------------------------------------- */
 
-/* Shorter than this [m] a body has no length of its own. */
+/* [m] Smallest length of a body used as a length scale. */
 #define DMB_BODY_LENGTH_MIN 1e-9
 
 static double mean_element(const dmb_scene *scene, const dmb_chain *chain)

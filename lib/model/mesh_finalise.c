@@ -1,5 +1,4 @@
-/* The finished scene in one block: counts first, then the arrays are laid out twice (counting, placing), then filled.
- */
+/* The finished scene in one block: counts, then layout in two passes (counting, placing), then contents. */
 #include "base/memory.h"
 #include "force/hole.h"
 #include "force/unilateral.h"
@@ -43,8 +42,8 @@ static int starts_in_motion(const dmb_mesh *mesh)
     return 0;
 }
 
-/* Fixed joints as one would count them on the drawing: between neighbouring pipes, between a pipe and its tool joint,
- * and where a body or a bit is fixed to a string. */
+/* Number of fixed joints as in a drawing: between neighbouring pipes, between a pipe and its tool joint, and between a
+ * string and a body or bit fixed to it. */
 static uint32_t structural_joints(const dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -56,7 +55,7 @@ static uint32_t structural_joints(const dmb_mesh *mesh)
     return count;
 }
 
-/* True for a chain of one node that nothing holds, leads or connects. */
+/* True for a chain of one node without supports, motion drives and connections. */
 static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
@@ -73,7 +72,7 @@ static uint32_t count_free_rigids(const dmb_mesh *mesh)
     return count;
 }
 
-/* Rows and storage of constraints and clusters end where those of the last one do. */
+/* Counts rows and storage of constraints and components from the ends of the last ones. */
 static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->joint_count = (uint32_t)mesh->joints.count;
@@ -92,7 +91,7 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
     scene->cluster_column_count = cluster->column + cluster->columns;
 }
 
-/* Laws of joints and springs are numbered together where any of them may open. */
+/* Number of laws of joints and springs, numbered together if any of them may open. */
 static uint32_t count_unilaterals(const dmb_mesh *mesh)
 {
     int any = 0;
@@ -155,7 +154,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->has_callback = has_callback(mesh);
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
-    scene->body_count = (uint32_t)mesh->bodies.count; /* bits and rings included */
+    scene->body_count = (uint32_t)mesh->bodies.count; /* including bits and stabilisers */
     scene->ring_count = (uint32_t)mesh->rings.count;
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
@@ -242,7 +241,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     if (counts->ring_count > 0) to->rings = DMB_ARENA_ARRAY(arena, dmb_ring_map, counts->ring_count);
 }
 
-/* Not even empty arrays where there is nothing to connect. */
+/* No arrays, not even empty ones, without joints. */
 static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
 {
     const size_t n = counts->node_count;
@@ -262,8 +261,7 @@ static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to
     to->off_diagonal_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * n);
 }
 
-/* The struct comes first, so that its address is that of the block. Its counts are copied, its arrays point behind it.
- */
+/* The struct is first, so that its address is that of the block. Its counts are copied, its arrays follow it. */
 static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_storage *w, const dmb_hole *hole)
 {
     dmb_scene nowhere = *counts;

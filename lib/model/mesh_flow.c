@@ -1,5 +1,5 @@
-/* Lengths of pipe that mud flows through and back along: its losses there, by the diameters where they are described,
- * and its pull on the string (force/mud_flow.h). */
+/* Lengths of pipe with mud flow inside and back outside: losses there, by the diameters at the described positions, and
+ * force on the string (force/mud_flow.h). */
 #include <math.h>
 
 #include "force/hole.h"
@@ -24,7 +24,7 @@ static int32_t refuse(const dmb_mesh *mesh, int32_t status, const char *text)
     return status;
 }
 
-/* The laws of eccentric annuli have a range of diameters. */
+/* Checks the range of diameters of the laws of eccentric annuli. */
 static int32_t check_ratio(const flow_iterator *iterator, const char *part, double ratio, double from)
 {
     if (!(iterator->mesh->flow.eccentricity > 0.0)) return DMB_OK;
@@ -65,7 +65,7 @@ static const dmb_input_def *input_of(const dmb_model *model)
     return NULL;
 }
 
-/* The least or the largest rate there may be: as described, or as the input sets it, which *by is then. */
+/* Smallest or largest flow rate: as described, or the bound of the input *by. */
 static double rate_at(const dmb_mesh *mesh, int largest, const dmb_input_def **by)
 {
     const dmb_input_def *def = input_of(mesh->model);
@@ -86,7 +86,7 @@ static const char *rate_text(const dmb_input_def *by, const char *bound, dmb_mes
     return text->text;
 }
 
-/* It grows with the rate. */
+/* Checks the Reynolds number, which grows with the rate. */
 static int32_t check_reynolds(const flow_iterator *iterator, const dmb_flow_piece *piece)
 {
     const dmb_input_def *by;
@@ -104,7 +104,7 @@ static int32_t check_reynolds(const flow_iterator *iterator, const dmb_flow_piec
     return DMB_ERR_VALUE;
 }
 
-/* Of equal diameters the shape, which takes the time, is that of the piece before. */
+/* Losses of a piece; for equal diameters the shape, the expensive part, is that of the piece before. */
 static void take_losses(flow_iterator *iterator, double hole, dmb_flow_piece *piece)
 {
     const dmb_mud_flow *flow = &iterator->mesh->flow;
@@ -120,7 +120,7 @@ static void take_losses(flow_iterator *iterator, double hole, dmb_flow_piece *pi
     piece->annulus = dmb_annulus_loss_by(flow, piece->diameter[0], hole, &piece->shape);
 }
 
-/* Of an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
+/* Levers of the force on an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
 static void take_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
 {
     const double L = piece->length;
@@ -172,7 +172,7 @@ static int32_t add_pipe(flow_iterator *iterator, const dmb_pipe_map *pipe, doubl
     return add_piece(iterator, &piece, 1);
 }
 
-/* [Pa] Inside over outside at the rig end, as described, at a rate. */
+/* [Pa] Excess of inside over outside pressure at the rig end, as described, at a rate. */
 static double pump_pressure(const dmb_mesh *mesh, double rate)
 {
     const dmb_environment_def *e = &mesh->model->environment;
@@ -209,7 +209,7 @@ static int32_t check_largest_pressure(const dmb_mesh *mesh)
     return DMB_ERR_VALUE;
 }
 
-/* Losses grow with the rate: the smallest rate decides on the sign, the largest one on the size. */
+/* Checks the pump pressure. Losses grow with the rate: the smallest rate decides its sign, the largest its size. */
 static int32_t check_pump(const dmb_mesh *mesh)
 {
     const dmb_input_def *by;
@@ -237,7 +237,7 @@ static void take_flow(dmb_mesh *mesh)
                                 .outside = e->fluid_density};
 }
 
-/* An open end: no loss, but the thrust of what leaves it. */
+/* Open end of the string: no loss, but the thrust of the outflow. */
 static int32_t take_end(flow_iterator *iterator)
 {
     dmb_mud_flow *flow = &iterator->mesh->flow;
@@ -245,7 +245,7 @@ static int32_t take_end(flow_iterator *iterator)
     return check_pump(iterator->mesh);
 }
 
-/* The environment is checked for its own rate; an input may come to it that makes the mud flow. */
+/* Checks the mud for flow. The environment was checked for its own rate; an input may add a flow later. */
 static int32_t check_mud(const dmb_mesh *mesh)
 {
     const dmb_environment_def *e = &mesh->model->environment;
@@ -270,7 +270,7 @@ static bool is_far_end(const dmb_mesh *mesh, const dmb_place *place)
            place->fraction >= 1.0;
 }
 
-/* The mud of the string goes through its motors where it leaves it. */
+/* Checks motors: the mud of the string must pass through its motors at its end. */
 static int32_t check_motors(const dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;

@@ -1,5 +1,5 @@
-/* Points of forces at any place, springs between them, and the caller's forces, from the parts they are described on to
- * nodes and elements. */
+/* Points of forces at any place, springs between them, and callers' forces, converted from parts to nodes and elements.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
-/* Inside an element; the pipe is elastic and the place not rigid with a node. */
+/* A point inside an element of an elastic pipe, not rigid with a node. */
 static void point_in_element(const dmb_mesh *mesh, const dmb_place *place, dmb_scene_point *point)
 {
     const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
@@ -43,8 +43,8 @@ dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const cha
     return point;
 }
 
-/* The answer of a callback is known when it is called alone, so a point that an element's interpolation would carry is
- * rigid with the nearer node instead, a quarter of the pipe's diameter away at most (mesh_division.c). */
+/* Derivatives of a callback are known by calls only, so a point inside an element is rigid with the nearer node
+ * instead, at most a quarter of the pipe's diameter away (mesh_division.c). */
 static void take_nearer_node(const dmb_mesh *mesh, dmb_scene_point *point)
 {
     if (point->element == DMB_NONE) return;
@@ -111,7 +111,7 @@ static double length_of(const dmb_mesh *mesh, dmb_scene_spring *spring)
 {
     double a[3], b[3];
     if (spring->b.node != DMB_NONE) dmb_mesh_span(mesh, spring->a.node, spring->b.node, spring->span);
-    if (spring->b.node == DMB_NONE) { /* the ground: its points count from the world's origin */
+    if (spring->b.node == DMB_NONE) { /* ground: points relative to the world's origin */
         dmb_mesh_span(mesh, DMB_NONE, spring->a.node, spring->span);
         dmb_vec3_scale(-1.0, spring->span, spring->span);
     }
@@ -122,7 +122,7 @@ static double length_of(const dmb_mesh *mesh, dmb_scene_spring *spring)
     return dmb_vec3_norm(b);
 }
 
-/* A force between points in one place has no direction. */
+/* Length at time 0 of a force between two points; coincident points have no direction and fail the check. */
 static void take_length(dmb_check *check, const dmb_spring_plan *plan, double length, dmb_scene_spring *spring)
 {
     dmb_spring_force force;
@@ -190,7 +190,7 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
 
 /* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
 
-/* axial-torsional nodes have no motion sideways, so nothing may act on them there. */
+/* Fails the check if a force acts sideways on an axial-torsional node, which cannot move sideways. */
 static void check_sideways(dmb_check *check, const dmb_mesh *mesh, const dmb_stuck_def *def,
                            const dmb_scene_point *point)
 {

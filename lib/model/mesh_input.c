@@ -1,4 +1,4 @@
-/* Inputs and events: from the parts they are described of to those of the scene. */
+/* Inputs and events, converted from described parts to parts of the scene. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ static bool any(const double mass[2])
     return mass[0] > 0.0 || mass[1] > 0.0;
 }
 
-/* The order of description is free, so what the target needs of the scene is looked for here. */
+/* Requirements of an input on other parts, checked here because the order of description is free. */
 static int32_t check_density(const dmb_mesh *mesh, const dmb_input_def *def)
 {
     const dmb_model *model = mesh->model;

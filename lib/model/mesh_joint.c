@@ -8,9 +8,9 @@
 #include "math/so3.h"
 #include "model/field_check.h"
 
-#define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
+#define DMB_WITHIN 1e-9 /* [-] tolerance of the caller's fraction of a pipe */
 
-/* Ends of elements that rings or forces divide. */
+/* Ends of elements divided by stabilisers or forces. */
 static bool place_on_divided(const dmb_mesh *mesh, const dmb_pipe_map *map, double along, dmb_mesh_place *found)
 {
     double fraction;
@@ -23,8 +23,8 @@ static bool place_on_divided(const dmb_mesh *mesh, const dmb_pipe_map *map, doub
     return true;
 }
 
-/* The tool joint, counted back from the far end so that fraction 1 falls on it without round-off; then the ends of the
- * equal elements. */
+/* Place on the tool joint, measured from the far end so that fraction 1 is exact; otherwise at the ends of the equal
+ * elements. */
 static bool place_on_elastic(const dmb_mesh *mesh, const dmb_pipe_map *map, double fraction, dmb_mesh_place *found)
 {
     const dmb_mesh_element *first = dmb_mesh_element_at(mesh, map->element), *last = first + map->elements - 1;
@@ -72,7 +72,7 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
     return true;
 }
 
-/* The kinds of a description go on unchanged as the kinds of its equations. */
+/* Kinds of joints in the description equal those of the equations. */
 #define DMB_SAME_KIND(name) _Static_assert((int)DMB_ROWS_##name == (int)DMB_JOINT_##name, "kinds of joints: " #name)
 DMB_SAME_KIND(FIXED);
 DMB_SAME_KIND(REVOLUTE);
@@ -95,7 +95,9 @@ _Static_assert((int)DMB_CONSTRAINT_ROWS == (int)DMB_ROWS_MAX, "rows of a joint")
 
 /* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */
 
-enum { SPAN_ELEMENTS_MAX = 1024 }; /* elements whose spans are summed; over more of them a difference is as exact */
+enum {
+    SPAN_ELEMENTS_MAX = 1024
+}; /* largest number of elements whose spans are summed; beyond it a difference is as accurate */
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
@@ -113,7 +115,8 @@ void dmb_mesh_check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *fie
     dmb_check_count(check, name.text, place->pipe, 0, dmb_mesh_string_at(mesh, string)->pipe_count - 1);
 }
 
-/* axial-torsional nodes turn with the axis where it is curved, and a joint would feel that: not offered. */
+/* Fails the check for axial-torsional nodes on a curved axis: they rotate with the axis, which a joint would resist;
+ * not supported. */
 void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
                          uint32_t node)
 {
@@ -158,7 +161,7 @@ static dmb_scene_frame frame_at(const dmb_mesh_place *place)
     return frame;
 }
 
-/* Turned and shifted from the place as described; the axes were checked then. */
+/* Frame rotated and displaced from its place as described; its axes were checked at the description. */
 static void set_frame(const double origin[3], const double axis[3], const double normal[3], dmb_scene_frame *frame)
 {
     dmb_vec3_add(frame->x, origin, frame->x);
@@ -170,8 +173,8 @@ static bool on_one_string(const dmb_mesh_node *a, const dmb_mesh_node *b)
     return a->string == b->string && a->string != DMB_NONE;
 }
 
-/* Sum of the spans of the elements from node `from` to node `to` of one string. Strings come first, and each has one
- * element less than nodes. */
+/* Sum of the spans of the elements from node `from` to node `to` of one string. Strings precede bodies, and each has
+ * one element less than nodes. */
 static void sum_spans(const dmb_mesh *mesh, uint32_t from, uint32_t to, double sum[3])
 {
     const uint32_t string = dmb_mesh_node_at(mesh, from)->string;
@@ -195,7 +198,7 @@ void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
     dmb_vec3_sub(to->position, from->position, span);
 }
 
-/* Frame b where frame a is: R_b M_b = R_a M_a, R_b x_b = R_a x_a - span. */
+/* Places frame b at frame a: R_b M_b = R_a M_a, R_b x_b = R_a x_a - span. */
 static void match_frame(const dmb_mesh *mesh, dmb_scene_joint *joint)
 {
     double Ra[9], Rb[9], Ma[9], x[3];

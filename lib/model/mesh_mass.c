@@ -37,7 +37,8 @@ bool dmb_pipe_is_eccentric(const dmb_pipe_def *def)
     return def->eccentricity > 0.0 || def->eccentricity_spread > 0.0;
 }
 
-/* SplitMix64 (Steele, Lea, Flood 2014): a counter through a mixing function, so that draw number k needs no others. */
+/* SplitMix64 (Steele, Lea, Flood 2014): a counter through a mixing function, so that draw k does not depend on other
+ * draws. */
 static uint64_t mix(uint64_t z)
 {
     z += UINT64_C(0x9E3779B97F4A7C15);
@@ -63,11 +64,11 @@ void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2])
     e[1] = distance * sine;
 }
 
-/* Rigid masses on the nodes, and what gravity and external damping act on. */
+/* Rigid masses on the nodes; masses subject to gravity, and external damping. */
 
 /* ---- Sums on a node ---------------------------------------------------------------------------------------------- */
 
-/* The rigid_mass of a node, made if there is none; NULL without memory. */
+/* The rigid mass of a node, created if needed; NULL without memory. */
 static dmb_rigid_mass *rigid_mass_of(dmb_mesh *mesh, uint32_t node)
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
@@ -79,7 +80,7 @@ static dmb_rigid_mass *rigid_mass_of(dmb_mesh *mesh, uint32_t node)
     return DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, n->rigid_mass);
 }
 
-/* The mud that goes along with a node, likewise. */
+/* The added mass of mud at a node, created if needed; NULL without memory. */
 static dmb_added_mass *added_mass_of(dmb_mesh *mesh, uint32_t node)
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
@@ -91,7 +92,7 @@ static dmb_added_mass *added_mass_of(dmb_mesh *mesh, uint32_t node)
     return DMB_VECTOR_AT(dmb_added_mass, &mesh->added_masses, n->added_mass);
 }
 
-/* Parts without any leave no trace. */
+/* Adds added mass; none for parts without displaced mud. */
 static int32_t add_mud(dmb_mesh *mesh, uint32_t node, const dmb_added_mass *part)
 {
     if (!(part->along > 0.0) && !(part->across[0] > 0.0)) return DMB_OK;
@@ -115,14 +116,14 @@ static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
     for (int i = 0; i < 3; ++i) node->weight_moment[i] += mass * centre[i];
 }
 
-/* [m3] that the fluid outside lifts. */
+/* Adds a displaced volume [m3], for buoyancy. */
 static void add_displaced(dmb_mesh_node *node, double volume, double x)
 {
     node->displaced[0] += volume;
     node->displaced[1] += volume * x;
 }
 
-/* A rigid body with its centre there; `buoyancy` is the share of its weight that is left. */
+/* Adds a rigid body with its centre there; `buoyancy`: fraction of its weight after buoyancy. */
 static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double centre[3], const double inertia[6],
                         double buoyancy)
 {
@@ -135,7 +136,7 @@ static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double
     return DMB_OK;
 }
 
-/* A solid of revolution on the x axis, its centre at x; volume [m3] that the fluid outside lifts. */
+/* A solid of revolution on the x axis, its centre at x; displaced volume [m3]. */
 static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *part, double x, double buoyancy,
                         double volume)
 {
@@ -145,8 +146,8 @@ static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *par
     return add_body(mesh, node, part->mass, centre, inertia, buoyancy);
 }
 
-/* An eccentric mass that is counted on the axis already. Buoyancy acts on the axis, so all of its first moment has
- * weight. */
+/* Offset of a mass already added on the axis. Buoyancy acts on the axis, so all of the added first moment has weight.
+ */
 static int32_t add_offset(dmb_mesh *mesh, uint32_t node, double mass, double x, const double e[2])
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
@@ -160,7 +161,7 @@ static int32_t add_offset(dmb_mesh *mesh, uint32_t node, double mass, double x, 
 
 /* ---- Pipes ------------------------------------------------------------------------------------------------------- */
 
-/* Properties that the pipes of a run have in common. */
+/* Common properties of the pipes of a run. */
 typedef struct run_mass {
     const dmb_pipe_def *def;
     dmb_pipe_section section;
@@ -198,7 +199,7 @@ static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const
     mesh->mass += mass->section.mass * length;
 }
 
-/* A length of pipe around x = `at` on the node's axis; `spread` is its own integral of (x - at)^2. */
+/* Adds the damping of a length of pipe around x = `at` on the node's axis; `spread` is its integral of (x - at)^2. */
 static void damp_node(dmb_mesh *mesh, uint32_t node, double length, double at, double spread)
 {
     double *damped = dmb_mesh_node_at(mesh, node)->damped;
@@ -226,7 +227,8 @@ static double joint_volume(const run_mass *mass, double length)
     return mass->joint.mass / mass->def->density + mass->joint_inside * length;
 }
 
-/* The joint ends where the pipe does, and the far node may stand further on, behind rigid pipes. */
+/* Mass of an elastic pipe. The tool joint ends at the end of the pipe, and its far node may be further away, behind
+ * rigid pipes. */
 static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
 {
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, pipe->element), *last = element + pipe->elements - 1;
@@ -338,7 +340,7 @@ static int32_t add_string(dmb_mesh *mesh, uint32_t string)
 
 /* ---- Bodies and bits --------------------------------------------------------------------------------------------- */
 
-/* [-] share of a body's weight that is left; below 0 it floats up. */
+/* [-] Fraction of a body's weight after buoyancy; below 0 it rises. */
 static double lifted(const dmb_mesh *mesh, double volume, double mass)
 {
     return volume > 0.0 ? 1.0 - mesh->model->environment.fluid_density * volume / mass : 1.0;
@@ -372,7 +374,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
                     lifted(mesh, def->displaced_volume, def->mass), def->displaced_volume);
 }
 
-/* Rotor and gear of a drive turn about the x axis with its part and add nothing else. */
+/* Adds the inertia of rotor and gear of a drive about the x axis of its part. */
 static int32_t add_rotor(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);

@@ -10,7 +10,7 @@
 /* Equal elements are mostly near each other: a run of pipes has four types at most. */
 enum { RECENT_TYPES = 8, NUMBERS = sizeof(dmb_element_type) / sizeof(double) };
 
-/* A type holds nothing but numbers. */
+/* True for equal types, which contain numbers only. */
 static bool same_type(const dmb_element_type *a, const dmb_element_type *b)
 {
     return dmb_same_numbers((const double *)(const void *)a, (const double *)(const void *)b, NUMBERS);
@@ -48,7 +48,7 @@ int32_t dmb_mesh_check_mud(const dmb_mesh *mesh, const dmb_pipe_def *def)
     return DMB_OK;
 }
 
-/* The mud that goes along sideways. */
+/* Adds the transverse added mass of mud. */
 static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_mud *mud, dmb_element_type *type)
 {
     const double added = mesh->model->environment.added_mass, hole = mesh->model->wall.diameter;
@@ -87,7 +87,8 @@ static int32_t kernel_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
     return a || b ? DMB_KERNEL_MIXED : DMB_KERNEL_AXIAL_TORSIONAL;
 }
 
-/* A batch ends where the kernel or the kind of mass changes, or the chain ends. */
+/* Adds an element to its batch; a new batch starts if the kernel or the kind of mass changes, or at the end of a chain.
+ */
 static int32_t add_to_batch(dmb_mesh *mesh, uint32_t e)
 {
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
@@ -113,15 +114,15 @@ int32_t dmb_mesh_types(dmb_mesh *mesh)
     return status;
 }
 
-/* Nodes and elements of the strings. A string is walked from its rig end in pieces: a stretch of rigid pipes, which is
- * one body with one node, or a run of elastic pipes, where every element brings one more node. */
+/* Nodes and elements of the strings. A string is divided from its rig end on into stretches of rigid pipes, each one
+ * body with one node, and runs of elastic pipes, in which every element adds a node. */
 
 typedef struct string_iterator {
     dmb_mesh *mesh;
     dmb_string_map *map;
     uint32_t string;
     uint32_t place, end; /* in run_order */
-    uint32_t node;       /* last node so far; DMB_NONE: none yet */
+    uint32_t node;       /* last node; DMB_NONE: none yet */
     double at;           /* [m] from the rig end */
     double arm;          /* [m] from the last node to here along its x axis */
 } string_iterator;
@@ -131,7 +132,7 @@ static const dmb_pipe_run *run_at(const string_iterator *iterator, uint32_t plac
     return dmb_mesh_run_at(iterator->mesh, *DMB_VECTOR_AT(uint32_t, &iterator->mesh->run_order, place));
 }
 
-/* Room was reserved for all of them by the counting step. */
+/* Adds a node, for which the counting step has reserved memory. */
 static uint32_t push_node(string_iterator *iterator, uint8_t size, double at)
 {
     const dmb_mesh_node node = {.at = at,
@@ -175,8 +176,8 @@ typedef struct pipe_iterator {
     uint8_t size; /* of its nodes */
 } pipe_iterator;
 
-/* Nodes of rings and forces inside one of the pipe's equal elements, which goes from `from` to `to` [m] of the pipe.
- * Returns the place of the last node before `to`. */
+/* Adds nodes of stabilisers and forces inside one of the pipe's equal elements, from `from` to `to` [m] of the pipe.
+ * Returns the position of the last node before `to`. */
 static double divide(string_iterator *iterator, const pipe_iterator *pipe, double from, double to,
                      dmb_ring_range *places)
 {
@@ -191,7 +192,7 @@ static double divide(string_iterator *iterator, const pipe_iterator *pipe, doubl
     return from;
 }
 
-/* Equal elements, divided where rings and forces have nodes of their own, and the tool joint as the far arm of the last
+/* Equal elements, divided at stabilisers and forces with nodes of their own; the tool joint is the far arm of the last
  * one. */
 static void mesh_pipe(string_iterator *iterator, const pipe_iterator *pipe)
 {
@@ -217,7 +218,7 @@ static void mesh_and_count(string_iterator *iterator, const pipe_iterator *pipe)
     map->elements = elements;
 }
 
-/* A node stays an axial-torsional node while all its neighbours are axial-torsional. */
+/* A node is axial-torsional if all its elements are. */
 static void mesh_elastic_run(string_iterator *iterator, uint32_t run_index)
 {
     const dmb_pipe_run *run = dmb_mesh_run_at(iterator->mesh, run_index);
@@ -258,8 +259,8 @@ static bool end_is_pinned(const string_iterator *iterator)
     return !dmb_mask_is_axial(dmb_mesh_string_def(iterator->mesh, iterator->string)->end_free);
 }
 
-/* The place of the node of a stretch of rigid pipes. A support acts at the node, so a body with a pinned end has it
- * there; otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
+/* Position of the node of a stretch of rigid pipes: at a pinned end, because supports act at nodes; otherwise at the
+ * end where neighbouring elements need no arms, or the near end. */
 static int32_t choose_near_end(const string_iterator *iterator, uint32_t next, bool *near)
 {
     const bool first = iterator->node == DMB_NONE, last = next == iterator->end;
@@ -274,7 +275,7 @@ static int32_t choose_near_end(const string_iterator *iterator, uint32_t next, b
     return DMB_ERR_UNSUPPORTED;
 }
 
-/* The node, at the near or the far end of the stretch; one that is there already moves. */
+/* Places the node at the near or the far end of the stretch; an existing node moves. */
 static void place_rigid_node(string_iterator *iterator, double length, bool near)
 {
     const double ahead = near ? 0.0 : length;
@@ -292,7 +293,7 @@ static void place_rigid_node(string_iterator *iterator, double length, bool near
     iterator->arm = length - ahead;
 }
 
-/* Runs [place, next) are rigid and make one body. */
+/* Runs [place, next) are rigid and form one body. */
 static int32_t mesh_rigid_stretch(string_iterator *iterator, uint32_t next)
 {
     double length = 0.0, start;
@@ -398,8 +399,8 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
     return map;
 }
 
-/* A bit's reference point is the string's end; its centre is half its length beyond. Reamers are put on their rings
- * when those have their places (mesh_stabiliser). */
+/* A bit's reference point is the string's end; its centre is half its length beyond. Reamers are placed later, with
+ * their stabilisers (mesh_stabiliser). */
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
     const dmb_string_map *string =

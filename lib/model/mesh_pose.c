@@ -41,8 +41,8 @@ static void hole_frame(const dmb_mesh *mesh, double depth, double q[4])
     dmb_quat_normalize(q);
 }
 
-/* Turns q by the smallest rotation that takes its x axis to t. The frames of neighbouring nodes then differ without any
- * twist about the axis, so a string placed in a spatially curved hole starts free of torsion. */
+/* Rotates q by the smallest rotation that aligns its x axis with t. The frames of neighbouring nodes then differ
+ * without twist about the axis, so a string placed in a spatially curved hole starts free of torsion. */
 static void turn_to(const double t[3], double q[4])
 {
     const double ex[3] = {1.0, 0.0, 0.0};
@@ -55,7 +55,7 @@ static void turn_to(const double t[3], double q[4])
     dmb_quat_normalize(q);
 }
 
-/* As the axis carries axial-torsional nodes in every step. */
+/* Transports a frame along the axis, as for axial-torsional nodes in every step. */
 static void carry(const dmb_mesh *mesh, double from, double to, double q[4])
 {
     double turn[9], turned[4];
@@ -65,8 +65,8 @@ static void carry(const dmb_mesh *mesh, double from, double to, double q[4])
     dmb_quat_normalize(q);
 }
 
-/* The rig end has the hole's own frame. From there on frames are carried along without twist, between axial-torsional
- * nodes by the axis itself: these turn about it by nothing but torsion wherever they move. */
+/* Poses in a hole. The rig end has the frame of the hole; further frames are transported without twist, between
+ * axial-torsional nodes along the axis itself, so that these rotate about it by torsion only, wherever they move. */
 static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_node *node, const dmb_mesh_node *before)
 {
     double tangent[3], shift[3] = {0.0, def->offset[0], def->offset[1]}, frame[4];
@@ -91,8 +91,8 @@ static double straight_length(const dmb_mesh_element *element)
     return element->arm[0] + element->length + element->arm[1];
 }
 
-/* Vector between two nodes. Where the hole is straight it is direction times length, which keeps the digits that a
- * difference of large coordinates loses. */
+/* Vector between two nodes. In a straight hole it is direction times length, because a difference of large coordinates
+ * loses digits. */
 static void span_between(const dmb_mesh *mesh, dmb_mesh_element *element)
 {
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node), *b = a + 1;
@@ -123,7 +123,7 @@ static void rest_of(const dmb_pipe_def *def, double length, double d[6])
     dmb_vec3_scale(length, def->curvature, d + 3);
 }
 
-/* H_b = H_a arm_0 exp(d0) arm_1; the span is what x moves by. */
+/* H_b = H_a arm_0 exp(d0) arm_1; the span is the change of x. */
 static void advance(const dmb_mesh *mesh, dmb_mesh_element *element, pose *p)
 {
     double d[6], q[4], x[3], arm[3] = {element->arm[1], 0.0, 0.0};
@@ -158,7 +158,7 @@ static void string_on_its_own(dmb_mesh *mesh, uint32_t string, uint32_t *element
     for (uint32_t i = 0; i < map->node_count; ++i) {
         dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->first_node + i);
         if (i > 0) advance(mesh, dmb_mesh_element_at(mesh, (*element)++), &p);
-        if (straight) { /* from the rig end each time: no error is carried along */
+        if (straight) { /* from the rig end each time, so that no error accumulates */
             p = rig;
             move_along(&p, node->at);
         }

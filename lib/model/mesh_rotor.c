@@ -1,22 +1,21 @@
-/* Bodies that may spin fast on joints, and the axis that a step turns their axes about (system/constrain/rotor.h):
- * bodies of revolution whose joints, too, are the same when they turn about that axis. In axes that do not spin with
- * the body its equations then have no part that goes round with it. A body that is not round would have one at twice
- * its spin, which steps of half a radian no longer resolve and which makes its nutation grow without end (a top with
- * moments across its axis that differ by a tenth, at one radian a step): such a body is integrated in its own axes.
+/* Rotors: bodies that may spin fast on joints, and their axis of spin (system/constrain/rotor.h). They are bodies of
+ * revolution whose joints are also invariant under rotation about that axis: in axes that do not spin with the body,
+ * their equations then have no terms that vary with the spin. An asymmetric body would have terms at twice its spin,
+ * which steps of half a radian do not resolve and which make its nutation grow (a top with moments across its axis
+ * that differ by a tenth, at one radian a step): such a body is integrated in its own axes.
  *
  * The axis is that of a bearing of the body; without bearings the line from a pivot to the centre of mass, or else an
- * axis of inertia through the centre of mass. A body that cannot turn against a part that has no such axis has none
- * either. */
+ * axis of inertia through the centre of mass. A body clamped in rotation to a part without such an axis has none. */
 #include "model/mesh.h"
 
 #include <math.h>
 
-/* [-] of the moments across the axis by which they may differ, or the axis from one of inertia: values in single
- * precision pass. */
+/* [-] relative difference of the moments across the axis, or angle to an axis of inertia; permits values in single
+ * precision */
 #define DMB_ROUND 1e-6
-/* [-] of the radius of inertia across the axis, by which the centre of mass may be off it: an unbalance. */
+/* [-] offset of the centre of mass from the axis over the radius of inertia across it: an unbalance */
 #define DMB_BALANCED 1e-2
-/* [-] by which directions and, over their sizes, places may differ that are the same. */
+/* [-] largest difference of equal directions, and of equal places over their size */
 #define DMB_ALIGNED 1e-6
 
 enum { OF_NOTHING, OF_BEARING, OF_PIVOT };
@@ -53,8 +52,8 @@ static void across(const double e[3], double t[3])
     dmb_vec3_scale(1.0 / dmb_vec3_norm(unit), unit, t);
 }
 
-/* True if the mass is alike round the axis e through the point x: J round it, m d^2 small, d the way from the axis to
- * the centre. */
+/* True if the mass is axisymmetric about the axis e through the point x: equal moments across it, m d^2 small, d the
+ * distance of the centre from the axis. */
 static bool is_round(const dmb_mesh *mesh, const dmb_mesh_rotor *rotor, const double e[3], const double x[3])
 {
     double c[3], J[9], s[3], t[3], Js[3], Jt[3], d[3];
@@ -105,14 +104,14 @@ static void axes_of_inertia(const double J[9], double axes[9])
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
-/* Its x axis on this part is one that the part may spin about. */
+/* True if the part may spin about the x axis of the joint on this part. */
 static bool is_bearing(int32_t kind, bool of_b)
 {
     return kind == DMB_JOINT_REVOLUTE || kind == DMB_JOINT_CYLINDRICAL || kind == DMB_JOINT_UNIVERSAL ||
            kind == DMB_JOINT_PLANAR || kind == DMB_JOINT_SCHOENFLIES || (kind == DMB_JOINT_ROLLING && of_b);
 }
 
-/* Neither part turns against the other. */
+/* True if the joint permits no relative rotation. */
 static bool is_clamp(int32_t kind)
 {
     return kind == DMB_JOINT_FIXED || kind == DMB_JOINT_PRISMATIC || kind == DMB_JOINT_TRANSLATIONAL ||
@@ -130,7 +129,7 @@ static void x_axis(const dmb_scene_frame *frame, double e[3])
     for (int i = 0; i < 3; ++i) e[i] = frame->M[3 * i];
 }
 
-/* Takes the axis e through x if the mass is alike round it. */
+/* Sets the axis e through x if the mass is axisymmetric about it. */
 static bool take_axis(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const double e[3], const double x[3], int32_t from)
 {
     if (!is_round(mesh, rotor, e, x)) return false;
@@ -152,7 +151,7 @@ static void offer_pivot(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const doubl
     (void)take_axis(mesh, rotor, e, x, OF_PIVOT);
 }
 
-/* One frame of a joint that this body carries. The first bearing that will do counts, else the first pivot. */
+/* Candidate axis from one frame of a joint on this body: the first valid bearing, otherwise the first pivot. */
 static void offer(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const dmb_scene_frame *frame, int32_t kind, bool of_b)
 {
     double e[3];
@@ -177,14 +176,14 @@ static void offer_inertia(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
     }
 }
 
-/* The unit of spin in the frame of a joint: velocity of its origin, direction. */
+/* Unit spin in the frame of a joint: velocity of its origin, direction. */
 static void spin_at(const dmb_mesh_rotor *rotor, const dmb_scene_frame *frame, double out[6])
 {
     dmb_adjoint_inverse_apply(frame->M, frame->x, rotor->rotor.twist, out);
 }
 
-/* True if the frame of the joint may turn about the axis and its equations stay the same. Those that hold the direction
- * of the x axis need it along the axis of the spin, those that hold the place of the origin need that on it. */
+/* True if the equations of a joint are invariant when its frame rotates about the axis. Equations on the direction of
+ * the x axis require it along the spin axis; equations on the origin require it on that axis. */
 static bool stays(const dmb_mesh_rotor *rotor, const dmb_scene_frame *frame, int32_t kind, bool of_b)
 {
     double spin[6];
@@ -205,7 +204,7 @@ static bool stays(const dmb_mesh_rotor *rotor, const dmb_scene_frame *frame, int
     case DMB_JOINT_CYLINDRICAL:
     case DMB_JOINT_UNIVERSAL: return on_axis && along;
     case DMB_JOINT_KNIFE_EDGE: return false;
-    default: return true; /* clamps are read by both ends */
+    default: return true; /* clamps are checked at both ends */
     }
 }
 
@@ -216,7 +215,7 @@ static void compare(dmb_mesh_rotor *rotor, const dmb_scene_frame *frame, int32_t
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
-/* A chain of one node that is free, where there are joints, or free to turn about its reference point. */
+/* True for a chain of one node in a scene with joints that is free, or free to rotate about its reference point. */
 static bool may_spin(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
@@ -288,7 +287,7 @@ static void read_callbacks(const dmb_mesh *mesh)
     }
 }
 
-/* True if both ends of a clamp spin about the same line, or about parallel ones where that slides across. */
+/* True if both ends of a clamp spin about the same line, or about parallel lines if the clamp slides transversely. */
 static bool spin_alike(const dmb_mesh_rotor *a, const dmb_mesh_rotor *b, const dmb_scene_joint *joint)
 {
     double of_a[6], of_b[6];
@@ -303,8 +302,8 @@ static bool spin_alike(const dmb_mesh_rotor *a, const dmb_mesh_rotor *b, const d
     return true;
 }
 
-/* 1 if a clamp takes the axis from one of its ends. A node that is no body that may spin belongs to a string, or is
- * guided. */
+/* 1 if a clamp removes the axis of one of its ends. A node without a body that may spin belongs to a string, or has
+ * supports. */
 static int clamp(const dmb_mesh *mesh, const dmb_scene_joint *joint)
 {
     dmb_mesh_rotor *a = body_of(mesh, joint->a.node), *b = body_of(mesh, joint->b.node);
@@ -325,7 +324,7 @@ static void read_clamps(const dmb_mesh *mesh)
     }
 }
 
-/* The axis of a body whose reference point is held goes through that point. */
+/* The axis of a body whose reference point is constrained must pass through that point. */
 static void compare_support(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
 {
     const dmb_scene_frame point = {.M = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}};

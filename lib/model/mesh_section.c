@@ -25,7 +25,7 @@ static section_values of_wall(const dmb_wall_def *w)
         {0.5 * w->diameter, w->stiffness, w->restitution, w->damping, w->mu_static, w->mu_dynamic, 0.0}};
 }
 
-/* With a table of the wall its first coefficient is the static one of all sections, in proportion. */
+/* Static friction coefficient of a section; with a table of the wall, its first coefficient, in proportion. */
 static double static_of(const dmb_wall_def *wall, const dmb_hole_section *s)
 {
     if (wall->friction_table_count == 0) return or_wall(s->mu_static, wall->mu_static);
@@ -84,7 +84,7 @@ static int32_t check_place(const dmb_mesh *mesh, const dmb_hole_section *all, ui
 
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
 
-/* Goes along: what the values are and how fast they change. */
+/* Iteration along the hole: values and their slopes. */
 typedef struct section_iterator {
     dmb_mesh *mesh;
     section_values at; /* at the end of the last piece */
@@ -100,7 +100,7 @@ static int32_t push(section_iterator *iterator, const dmb_hole_piece *piece)
     return dmb_vector_append(&iterator->mesh->pieces, &iterator->mesh->model->allocator, &added, 1);
 }
 
-/* From the present values, changing by `slope` at first, to those with the slope `to` at h beyond. */
+/* Adds a parabola from the present values and `slope` to those with the slope `to` at h beyond. */
 static int32_t push_parabola(section_iterator *iterator, double h, const section_values *to)
 {
     dmb_hole_piece piece = {.depth = iterator->depth};
@@ -127,7 +127,7 @@ static int32_t push_straight(section_iterator *iterator, double end)
     return push(iterator, &piece);
 }
 
-/* Over the transition of a section with these values and slopes behind it. */
+/* Adds the transition to a section with these values and slopes. */
 static int32_t pass_transition(section_iterator *iterator, const dmb_hole_section *s, const section_values *values,
                                const section_values *slope)
 {
@@ -148,7 +148,7 @@ static int32_t pass_transition(section_iterator *iterator, const dmb_hole_sectio
     }
     int32_t status = push_parabola(iterator, h, &middle);
     if (status >= 0) status = push_parabola(iterator, h, slope);
-    iterator->at = end; /* without the rounding of the way */
+    iterator->at = end; /* removes the rounding of the path */
     return status;
 }
 
@@ -214,7 +214,7 @@ static int32_t check_fits(const dmb_mesh *mesh, const char *part, const char *fi
     return diameter <= hole ? DMB_OK : refuse_width(mesh, part, field, diameter, hole, where);
 }
 
-/* At one depth, where the part itself may cut the hole. */
+/* Checks the fit at one depth, where the part itself may widen the hole. */
 static int32_t check_fits_cut(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double depth,
                               double cut)
 {
@@ -232,7 +232,7 @@ static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_
                       fmax(from, to - def->joint_length), to);
 }
 
-/* Pipes that follow the hole all along, others at their near ends. */
+/* Checks pipes along the hole over their length, others at their near ends. */
 static int32_t check_string(const dmb_mesh *mesh, uint32_t string)
 {
     dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, string);

@@ -1,4 +1,4 @@
-/* Rings: their order along the strings, and the nodes that carry them. */
+/* Stabilisers: their order along the strings, and the nodes that carry them. */
 #include <math.h>
 #include <string.h>
 
@@ -54,7 +54,7 @@ static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
     return dmb_vector_append(&mesh->ring_order, &mesh->model->allocator, &ring, 1);
 }
 
-/* [m] from the middle of a ring to that of the next one on its string; they are few pipes apart, or far. */
+/* [m] Distance from the middle of a stabiliser to that of the next one on its string. */
 static double way_to_next(const dmb_mesh *mesh, const dmb_mesh_ring *ring, double enough)
 {
     double way = ring[1].along - ring->along;
@@ -109,7 +109,7 @@ uint32_t dmb_mesh_element_along(const dmb_mesh *mesh, const dmb_pipe_map *pipe, 
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
-/* The nearest node of the pipe, and the way from it along body x. The far node may stand behind the pipe, in its tool
+/* Nearest node of the pipe, and the distance from it along body x. The far node may be behind the pipe, in its tool
  * joint or in rigid pipes. */
 static dmb_mesh_place node_near(const dmb_mesh *mesh, const dmb_pipe_map *pipe, double along)
 {
@@ -127,7 +127,7 @@ static dmb_mesh_place node_near(const dmb_mesh *mesh, const dmb_pipe_map *pipe, 
     return (dmb_mesh_place){element->node + 1, (fraction - 1.0) * element->length - element->arm[1]};
 }
 
-/* A ring that has divided an element stands at its node but for rounding. */
+/* Arm of a stabiliser that has divided an element: 0 except for rounding. */
 static double arm_of(double arm)
 {
     return fabs(arm) < 1e-9 ? 0.0 : arm;

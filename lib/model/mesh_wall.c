@@ -39,33 +39,33 @@ int32_t dmb_mesh_hole(dmb_mesh *mesh)
     return status < 0 ? status : dmb_mesh_cuts(mesh);
 }
 
-/* Places that can meet the wall. Along a string they stand between the stretches from node to node (for rigid pipes:
- * from pipe end to pipe end), each for half of the two stretches it divides, so that refining the mesh does not change
- * the contact per metre. */
+/* Contact points along strings. They lie between the stretches from node to node (for rigid pipes: from pipe end to
+ * pipe end), and each represents half of its two stretches, so that refining the mesh does not change the contact force
+ * per metre. */
 
-/* The place between the last stretch and the next one. */
+/* The contact point between the last stretch and the next one. */
 typedef struct site_iterator {
     dmb_mesh *mesh;
     dmb_id part;
     uint32_t node;
     uint32_t pipe;   /* whose far end it is */
     double offset;   /* [m] from the node */
-    double diameter; /* [m] largest of what meets here */
-    double length;   /* [m] half of the stretches on both sides, as far as they are known */
+    double diameter; /* [m] largest diameter of the adjacent stretches */
+    double length;   /* [m] half of the adjacent stretches known so far */
     uint32_t string; /* index */
     uint32_t ring;   /* next one in rings */
-    double inside;   /* [m] of the next stretch that points inside its element stand for */
-    double joint;    /* [m] of it that its far end stands for alone */
+    double inside;   /* [m] part of the next stretch represented by points inside its element */
+    double joint;    /* [m] part of it represented by its far end alone */
 } site_iterator;
 
-/* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
+/* A contact point can move sideways if its node can, or if its node can tilt and the point is at an arm. */
 static bool moves_sideways(const dmb_mesh_node *node, double offset)
 {
     if ((node->free & DMB_FREE_SIDEWAYS) != 0) return true;
     return (node->free & DMB_FREE_TILTING) != 0 && fabs(offset) > 0.0;
 }
 
-/* As described; in a hole of sections it changes with the depth (dmb_site_clearance). */
+/* Described clearance; in a hole of sections it changes with the depth (dmb_site_clearance). */
 static double clearance_of(const dmb_mesh *mesh, const dmb_site *site)
 {
     const double depth = dmb_mesh_node_at(mesh, site->node)->depth + site->offset;
@@ -104,8 +104,8 @@ static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diamete
     return push_site(mesh, &site);
 }
 
-/* Rings on nodes up to that of the present place, which meet the wall first; an axial-torsional node rubs at their
- * diameter. */
+/* Stabilisers on nodes up to the present contact point, which touch the wall first; an axial-torsional node has contact
+ * at their diameter. */
 static int32_t pass_rings(site_iterator *iterator)
 {
     const dmb_mesh *mesh = iterator->mesh;
@@ -125,7 +125,7 @@ static int32_t pass_rings(site_iterator *iterator)
     return status;
 }
 
-/* Ends the present place. */
+/* Completes the present contact point. */
 static int32_t finish_place(site_iterator *iterator)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(iterator->mesh, iterator->node);
@@ -141,7 +141,7 @@ static int32_t finish_place(site_iterator *iterator)
     return moves_sideways(node, iterator->offset) ? push_site(iterator->mesh, &site) : DMB_OK;
 }
 
-/* Goes on over a stretch of the given length and diameter; the next place begins at its far end. */
+/* Adds a stretch of the given length and diameter; the next contact point starts at its far end. */
 static int32_t pass_stretch(site_iterator *iterator, double length, double diameter, uint32_t node, double offset,
                             uint32_t pipe)
 {
@@ -159,14 +159,14 @@ static int32_t pass_stretch(site_iterator *iterator, double length, double diame
     return status;
 }
 
-/* [-] of an element's length that its ends leave to the points inside. */
+/* [-] Fraction of an element's length represented by the points inside. */
 static double share_inside(const dmb_pipe_def *def)
 {
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
     return rule == NULL ? 0.0 : 1.0 - 2.0 * rule->weight[0];
 }
 
-/* The far node of a pipe may stand behind rigid pipes, and its end before it. */
+/* The far node of a pipe may be behind rigid pipes, beyond the end of the pipe. */
 static int32_t pass_elastic_pipe(site_iterator *iterator, const dmb_pipe_map *pipe, const dmb_pipe_def *def,
                                  uint32_t number)
 {
