@@ -162,7 +162,9 @@ class Reader:
             if "DMB_STATUS_LIST" in body:
                 continue
             members = [(name, int(value), words(text)) for name, value, text in
-                       re.findall(r"DMB_(\w+) = (-?\d+),?[ \t]*(/\*.*?\*/)?", body, re.S)]
+                       re.findall(r"DMB_(\w+) = (-?\d+)\s*(?:,|\Z|(?=/))[ \t]*(/\*.*?\*/)?", body, re.S)]
+            if len(members) != len(re.findall(r"\bDMB_\w+ =", without_comments(body))):
+                raise SystemExit(f"generate.py: a constant after {members and members[0][0]} is no plain whole number")
             for group in split_by_prefix(members):
                 found.append((enum_class(group[0][0], group), group))
         return found

@@ -58,7 +58,7 @@ class FieldTest(Refusals):
         self.assertEqual((error.field, error.bound), ("kind", "be PIPE_..."))
         error = self.refused(mbd.DriveDef, component=mbd.DRIVE_LOAD)
         self.assertEqual((error.field, error.bound), ("component", "be X .. RZ"))
-        self.assertEqual(mbd.StringDef(start_free=mbd.FREE_ALL & ~mbd.FREE_X).start_free, 62)
+        self.assertEqual(mbd.StringDef(start_free=mbd.FREE_ALL & ~mbd.FREE_X).start_free, mbd.FREE_YZ | mbd.FREE_SPHERICAL)
         self.assertEqual(mbd.ResponseOptions(axes=mbd.RESPONSE_AXES_AT_REST).axes, mbd.RESPONSE_AXES_AT_REST)
 
     def test_every_default_fits_its_field(self):

@@ -9,7 +9,7 @@ from case import Case, Row, case, picture
 PI = math.pi
 
 
-def beam(model, length, elements, stiffness, free=0, mass=None, inertia=(0.0, 0.0), **more):
+def beam(model, length, elements, stiffness, free=mbd.FREE_NONE, mass=None, inertia=(0.0, 0.0), **more):
     """A string of one beam from the origin along x; stiffness is EA, GA_y, GA_z, GJ, EI_y, EI_z. Its id."""
     place = {name: more.pop(name) for name in ("position", "rotation", "end_free", "velocity") if name in more}
     string = model.add_string(follows_hole=0, start_free=free, **place)
@@ -131,8 +131,8 @@ def lee_path(elements):
     e, points, kinds = 720.0, [], []
     stiffness = (6.0 * e, 5.0 * e / 2.6, 5.0 * e / 2.6, 2.0 * e, 2.0 * e, 2.0 * e)
     with weightless() as model:
-        post = beam(model, 120.0, elements, stiffness, free=1 << mbd.RY, rotation=(0.0, -0.5 * PI, 0.0))
-        top = model.add_string(follows_hole=0, start_free=mbd.FREE_ALL, end_free=1 << mbd.RY, position=(0.0, 0.0, 120.0))
+        post = beam(model, 120.0, elements, stiffness, free=mbd.FREE_RY, rotation=(0.0, -0.5 * PI, 0.0))
+        top = model.add_string(follows_hole=0, start_free=mbd.FREE_ALL, end_free=mbd.FREE_RY, position=(0.0, 0.0, 120.0))
         for length, part in ((24.0, elements // 5), (96.0, elements - elements // 5)):
             model.add_pipes(1, string=top, length=length, elements=part, outer_diameter=0.02, inner_diameter=0.0,
                             section_stiffness=stiffness)
@@ -186,7 +186,7 @@ def spin_up(elements, step, end=20.0):
     """Times and tip displacements (along, across) in the frame that turns with the axis."""
     table = []
     with weightless() as model:
-        string = beam(model, 10.0, elements, (2.8e7, 1e7, 1e7, 1e4, 1.4e4, 1.4e4), free=1 << mbd.RZ, mass=1.2,
+        string = beam(model, 10.0, elements, (2.8e7, 1e7, 1e7, 1e4, 1.4e4, 1.4e4), free=mbd.FREE_RZ, mass=1.2,
                       inertia=(1.2e-3, 6e-4))
         model.add_drive(component=mbd.RZ, part=string,
                         time_function=model.add_time_function(mbd.Segment(function=spun, provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)))

@@ -43,7 +43,7 @@ def hanging(wing, mass, behind):
     """Height [m] of the tip in the middle of its chord and twist [rad], with a mass at the tip behind the axis."""
     torsion, bending, edgewise, nodes = SECTIONS[wing]
     with mbd.Model() as model:
-        string = model.add_string(follows_hole=0, start_free=0)
+        string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
         for k, own in enumerate(masses_of(nodes)):
             length = NODES[k + 1] - NODES[k]
             model.add_pipes(1, string=string, length=length, elements=2, outer_diameter=0.02, inner_diameter=0.0,
@@ -71,7 +71,7 @@ def frequencies(wing, count=5):
     torsion, bending, edgewise, nodes = SECTIONS[wing]
     with mbd.Model() as model:
         model.set_environment(gravity=(0.0, 0.0, 0.0))
-        string = model.add_string(follows_hole=0, start_free=0)
+        string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
         shares = masses_of((*nodes[:-1], 0.0))
         for k, own in enumerate(shares):
             length = NODES[k + 1] - NODES[k]

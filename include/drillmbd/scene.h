@@ -65,18 +65,24 @@ DMB_API int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, d
                                      uint32_t *count);
 
 /* ---- Components of motion ----------------------------------------------------------------------------------------
- * Components of body-frame velocity, also bits of a mask. A set of free components must be closed under motion (the
- * subgroups of displacements along the axes, Herve 1978): these 22 with names. Others need a joint and are refused. */
+ * Component indices of body-frame velocity. */
 /* clang-format off */
+enum { DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5 };
+/* Sets of components are built from DMB_FREE_* only, by |. They share no bit with component indices, so a set that is
+ * built from those is refused, as is 0; DMB_FREE_NONE is the empty set and may be in any. A set of free components must
+ * be closed under motion (the subgroups of displacements along the axes, Herve 1978): these 22 with names. Others need
+ * a joint and are refused. */
 enum {
-    DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5,
-    DMB_FREE_NONE = 0, DMB_FREE_X = 1, DMB_FREE_RX = 8, DMB_FREE_RZ = 32, DMB_FREE_CYLINDRICAL = 9, /* X, RX */
-    DMB_FREE_SPHERICAL = 56, DMB_FREE_ALL = 63,
-    DMB_FREE_Y = 2, DMB_FREE_Z = 4, DMB_FREE_RY = 16,
-    DMB_FREE_XY = 3, DMB_FREE_XZ = 5, DMB_FREE_YZ = 6, DMB_FREE_TRANSLATIONS = 7,
-    DMB_FREE_CYLINDRICAL_Y = 18, DMB_FREE_CYLINDRICAL_Z = 36,                        /* Y, RY; Z, RZ */
-    DMB_FREE_PLANAR = 14, DMB_FREE_PLANAR_Y = 21, DMB_FREE_PLANAR_Z = 35,            /* normal x, y, z: Y, Z, RX ... */
-    DMB_FREE_SCHOENFLIES = 15, DMB_FREE_SCHOENFLIES_Y = 23, DMB_FREE_SCHOENFLIES_Z = 39 /* X, Y, Z with RX; RY; RZ */
+    DMB_FREE_X = 256, DMB_FREE_Y = 512, DMB_FREE_Z = 1024,
+    DMB_FREE_RX = 2048, DMB_FREE_RY = 4096, DMB_FREE_RZ = 8192, DMB_FREE_NONE = 16384,
+    DMB_FREE_XY = 768, DMB_FREE_XZ = 1280, DMB_FREE_YZ = 1536, DMB_FREE_TRANSLATIONS = 1792,
+    DMB_FREE_SPHERICAL = 14336, DMB_FREE_ALL = 16128,
+    DMB_FREE_CYLINDRICAL = 2304, /* along and about one axis: X, RX; _Y: Y, RY; _Z: Z, RZ */
+    DMB_FREE_CYLINDRICAL_Y = 4608, DMB_FREE_CYLINDRICAL_Z = 9216,
+    DMB_FREE_PLANAR = 3584, /* normal x: Y, Z, RX; _Y: X, Z, RY; _Z: X, Y, RZ */
+    DMB_FREE_PLANAR_Y = 5376, DMB_FREE_PLANAR_Z = 8960,
+    DMB_FREE_SCHOENFLIES = 3840, /* X, Y, Z with RX; _Y: with RY; _Z: with RZ */
+    DMB_FREE_SCHOENFLIES_Y = 5888, DMB_FREE_SCHOENFLIES_Z = 9984
 };
 /* clang-format on */
 
@@ -253,7 +259,7 @@ typedef struct dmb_string_def {
     double position[3];   /* [m] rig end, world frame, where follows_hole is 0 or there is no hole; shape (3) */
     double rotation[3];   /* [rad] rotation vector of the rig end's frame, as above; shape (3) */
     double velocity[6];   /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0; shape (6) */
-    int32_t start_free;   /* [-] mask of free components at the rig end; default DMB_FREE_CYLINDRICAL */
+    int32_t start_free;   /* [-] set of free components at the rig end; default DMB_FREE_CYLINDRICAL */
     int32_t end_free;     /* [-] the same at the far end; default DMB_FREE_ALL */
     char name[24];        /* for messages and look-up, ends with 0; default "" */
 } dmb_string_def;
@@ -480,10 +486,10 @@ typedef struct dmb_joint_def {
     double stop_high[6];   /* [m, rad] > stop_low; default 1e30, shape (6) */
     double stop_stiffness; /* [N/m, N m/rad] of the stops, > 0; default 1e6 */
     double stop_damping;   /* [N s/m, N m s] while in the stop, never pulling, >= 0; default 0 */
-    int32_t initial_mask;  /* [-] coordinates that are given below, bits 1 << DMB_X ...; they must be free, and no
+    int32_t initial_mask;  /* [-] set of coordinates that are given below, DMB_FREE_X ...; they must be free, and no
                               more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING,
                               none of a joint described locked; of one described open they count all the same;
-                              default 0 */
+                              default DMB_FREE_NONE */
     int32_t reserved;
     double initial_position[6]; /* [m, rad] at time 0, shape (6) */
     double initial_speed[6];    /* [m/s, rad/s] at time 0, shape (6) */

@@ -72,6 +72,7 @@ DMB_DEFINE_INIT(dmb_bit_def, 136, {
 
 DMB_DEFINE_INIT(dmb_joint_def, 656, {
     .kind = DMB_JOINT_FIXED,
+    .initial_mask = DMB_FREE_NONE,
     .axis_a = {1.0, 0.0, 0.0},
     .axis_b = {1.0, 0.0, 0.0},
     .state = DMB_JOINT_ACTIVE,

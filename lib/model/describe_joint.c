@@ -107,6 +107,19 @@ static void check_point_on_hole(dmb_check *check, const dmb_joint_def *def)
     check_bare(check, def);
 }
 
+/* A coordinate that the joint holds has no initial value. */
+static void check_initial_free(dmb_check *check, const dmb_joint_def *def)
+{
+    static const char *const names[] = {"X", "Y", "Z", "RX", "RY", "RZ"};
+    const uint32_t held = dmb_free_set(def->initial_mask) & ~dmb_joint_free_mask(def->kind);
+    dmb_message bound;
+    uint32_t k = 0;
+    if (held == 0) return;
+    while ((held >> k & 1) == 0) ++k;
+    dmb_message_set(&bound, "a set of coordinates that are free in this kind of joint, without DMB_FREE_%s", names[k]);
+    dmb_check_fail(check, DMB_ERR_VALUE, "initial_mask", def->initial_mask, bound.text);
+}
+
 /* The equations of a joint and its initial coordinates are put together at time 0 in the room of six rows. */
 static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
 {
@@ -114,7 +127,7 @@ static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
     dmb_message bound;
     if (def->state == DMB_JOINT_OPEN) rows = 0;
     if (def->state == DMB_JOINT_LOCKED) rows = DMB_ROWS_MAX;
-    for (uint32_t k = 0; k < 6; ++k) given += (uint32_t)def->initial_mask >> k & 1;
+    for (uint32_t k = 0; k < 6; ++k) given += dmb_free_set(def->initial_mask) >> k & 1U;
     if (rows + given <= DMB_ROWS_MAX) return;
     dmb_message_set(&bound, "of %u bits at most: with its %u equations no more than %d", DMB_ROWS_MAX - rows, rows,
                     DMB_ROWS_MAX);
@@ -124,7 +137,8 @@ static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
 static void check_initial(dmb_check *check, const dmb_joint_def *def)
 {
     if (check->status < 0) return; /* the kind may be none */
-    dmb_check_mask(check, "initial_mask", def->initial_mask, (int32_t)dmb_joint_free_mask(def->kind));
+    dmb_check_free_set(check, "initial_mask", def->initial_mask);
+    if (check->status >= 0) check_initial_free(check, def);
     if (check->status >= 0) check_initial_room(check, def);
     dmb_check_each_within(check, "initial_position", def->initial_position, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     dmb_check_each_within(check, "initial_speed", def->initial_speed, 6, -DMB_SPEED_MAX, DMB_SPEED_MAX);

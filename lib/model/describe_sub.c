@@ -245,11 +245,11 @@ static int32_t far_end(dmb_model *model, dmb_id string, dmb_place *place)
     if (status < 0) return status;
     status = check_string(model, string, 0.0, &b);
     if (status >= 0) status = check_end(model, b.string);
-    if (status >= 0 && b.def->end_free != DMB_FREE_ALL) {
+    if (status >= 0 && dmb_free_set(b.def->end_free) != DMB_SET_ALL) {
         dmb_message_set(&model->message,
-                        "sub: end_free = %d of string %u holds the end that the sub continues, must be %d "
-                        "(DMB_FREE_ALL); give it to the section",
-                        (int)b.def->end_free, b.string, (int)DMB_FREE_ALL);
+                        "sub: end_free of string %u holds the end that the sub continues, must be DMB_FREE_ALL; give "
+                        "it to the section",
+                        b.string);
         status = DMB_ERR_VALUE;
     }
     if (status >= 0) *place = dmb_station(dmb_model_id(model, DMB_PART_STRING, b.string), b.pipes - 1, 1.0);

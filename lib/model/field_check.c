@@ -95,10 +95,18 @@ void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field
     if (on_body) dmb_check_count(check, pipe.text, place->pipe, 0, 0);
 }
 
+void dmb_check_free_set(dmb_check *check, const char *field, int32_t mask)
+{
+    if (mask > 0 && (mask & ~(DMB_FREE_ALL | DMB_FREE_NONE)) == 0) return;
+    dmb_check_fail(check, DMB_ERR_VALUE, field, mask,
+                   "a set of DMB_FREE_..., e.g. DMB_FREE_X | DMB_FREE_RX, or DMB_FREE_NONE; DMB_X .. DMB_RZ are "
+                   "indices of components, not sets");
+}
+
 void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask)
 {
-    dmb_check_mask(check, field, mask, DMB_FREE_ALL);
-    if (dmb_mask_is_closed(mask)) return;
+    dmb_check_free_set(check, field, mask);
+    if (dmb_set_is_closed(dmb_free_set(mask))) return;
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, field, mask,
                    "a closed set, DMB_FREE_NONE, _ALL, _X, _Y, _Z, _XY, _XZ, _YZ, _TRANSLATIONS, _RX, _RY, _RZ, "
                    "_SPHERICAL, or _CYLINDRICAL, _PLANAR, _SCHOENFLIES (of x, y, z); hold others by a joint");

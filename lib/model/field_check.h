@@ -84,18 +84,32 @@ void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *
  * such a pipe is for the compile step to find out. */
 void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place);
 
-/* Sets of free components of motion. */
+/* Sets of free components of motion. Inside the library a set has bit 1 << DMB_X .. 1 << DMB_RZ for a component that is
+ * in it. DMB_FREE_... of the interface have these bits FREE_SHIFT further up, so that component indices, which are
+ * below 1 << FREE_SHIFT, are none of theirs; the descriptions keep them so. */
 
-enum { DMB_FREE_SIDEWAYS = 1 << DMB_Y | 1 << DMB_Z, DMB_FREE_TILTING = 1 << DMB_RY | 1 << DMB_RZ };
+enum {
+    DMB_FREE_SHIFT = 8,
+    DMB_SET_ALL = 63,
+    DMB_SET_SIDEWAYS = 1 << DMB_Y | 1 << DMB_Z,
+    DMB_SET_TILTING = 1 << DMB_RY | 1 << DMB_RZ,
+    DMB_SET_CYLINDRICAL = 1 << DMB_X | 1 << DMB_RX,
+    DMB_SET_SPHERICAL = 1 << DMB_RX | 1 << DMB_RY | 1 << DMB_RZ
+};
+
+/* The set inside the library of one of the interface that was checked. */
+static inline uint8_t dmb_free_set(int32_t mask)
+{
+    return (uint8_t)(mask >> DMB_FREE_SHIFT & DMB_SET_ALL);
+}
 
 /* True if the set is closed under motion (a group of displacements), so that it means the same at every instant. By the
  * brackets of the components, [Ri, Rj] = Rk, [Ri, Tj] = Tk, [Ti, Tj] = 0: any translations without rotation; one
  * rotation with both or none of the translations across it, that along it as one likes; three rotations with all
  * translations or none. Herve 1978. */
-static inline bool dmb_mask_is_closed(int32_t mask)
+static inline bool dmb_set_is_closed(int32_t set)
 {
-    const int32_t translations = mask & 7, rotations = mask >> 3;
-    if (mask < 0 || mask > DMB_FREE_ALL) return false;
+    const int32_t translations = set & 7, rotations = set >> 3;
     if (rotations == 0) return true;
     if (rotations == 7) return translations == 0 || translations == 7;
     const int32_t across = translations & ~rotations;
@@ -103,12 +117,14 @@ static inline bool dmb_mask_is_closed(int32_t mask)
 }
 
 /* True if the set means the same at any point of the body's x axis, so that a node anywhere on it will do. */
-static inline bool dmb_mask_is_axial(int32_t mask)
+static inline bool dmb_set_is_axial(int32_t set)
 {
-    return mask == DMB_FREE_ALL || (mask & ~DMB_FREE_CYLINDRICAL) == 0;
+    return set == DMB_SET_ALL || (set & ~DMB_SET_CYLINDRICAL) == 0;
 }
 
-/* DMB_ERR_VALUE for a mask with other bits than the six components, DMB_ERR_UNSUPPORTED for one that is not closed. */
+/* DMB_ERR_VALUE for a number that is no set of DMB_FREE_..., 0 and component indices among them. */
+void dmb_check_free_set(dmb_check *check, const char *field, int32_t mask);
+/* The same, and DMB_ERR_UNSUPPORTED for a set that is not closed. */
 void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask);
 
 /* Whether a mass distribution with the inertia that the caller gives exists. */

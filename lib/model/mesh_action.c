@@ -26,7 +26,7 @@ static uint32_t driven_node(const dmb_mesh *mesh, dmb_id part)
 /* An axial-torsional node has no other components than those along and about its axis. */
 static bool is_free(const dmb_mesh_node *node, int32_t component)
 {
-    const int32_t mask = node->size == DMB_NODE_AXIAL_TORSIONAL ? node->free & DMB_FREE_CYLINDRICAL : node->free;
+    const int32_t mask = node->size == DMB_NODE_AXIAL_TORSIONAL ? node->free & DMB_SET_CYLINDRICAL : node->free;
     return (mask >> component & 1) != 0;
 }
 

@@ -3,6 +3,7 @@
 #include "force/hole.h"
 #include "force/unilateral.h"
 #include "math/vec3.h"
+#include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/scene.h"
 
@@ -61,7 +62,7 @@ static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const int alone = node->string == DMB_NONE || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
     return alone && node->size == DMB_NODE_SIX_DOF && node->rigid_mass != DMB_NONE &&
-           dmb_free_rows(node) == DMB_FREE_ALL && dmb_prescribed_rows(node) == 0;
+           dmb_free_rows(node) == DMB_SET_ALL && dmb_prescribed_rows(node) == 0;
 }
 
 static uint32_t count_free_rigids(const dmb_mesh *mesh)

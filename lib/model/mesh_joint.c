@@ -251,7 +251,7 @@ static dmb_scene_joint joint_of(const dmb_joint_def *def)
                              .length = def->length,
                              .kind = def->kind,
                              .state = def->state,
-                             .initial_mask = def->initial_mask};
+                             .initial_mask = dmb_free_set(def->initial_mask)};
     dmb_vec6_copy(def->initial_position, joint.initial_position);
     dmb_vec6_copy(def->initial_speed, joint.initial_speed);
     memcpy(joint.name, def->name, sizeof joint.name);

@@ -140,7 +140,7 @@ static uint32_t push_node(string_iterator *iterator, uint8_t size, double at)
                                 .rigid_mass = DMB_NONE,
                                 .added_mass = DMB_NONE,
                                 .size = size,
-                                .free = DMB_FREE_ALL};
+                                .free = DMB_SET_ALL};
     (void)dmb_vector_append(&iterator->mesh->nodes, &iterator->mesh->model->allocator, &node, 1);
     return (uint32_t)iterator->mesh->nodes.count - 1;
 }
@@ -244,7 +244,7 @@ static void mesh_elastic_run(string_iterator *iterator, uint32_t run_index)
 static bool start_is_pinned(const string_iterator *iterator)
 {
     const dmb_model *model = iterator->mesh->model;
-    if (!dmb_mask_is_axial(dmb_mesh_string_def(iterator->mesh, iterator->string)->start_free)) return true;
+    if (!dmb_set_is_axial(dmb_free_set(dmb_mesh_string_def(iterator->mesh, iterator->string)->start_free))) return true;
     for (uint32_t i = 0; i < model->drives.count; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
         const bool on_body = dmb_model_part_index(model, drive->part, DMB_PART_BODY) != DMB_NONE;
@@ -256,7 +256,7 @@ static bool start_is_pinned(const string_iterator *iterator)
 
 static bool end_is_pinned(const string_iterator *iterator)
 {
-    return !dmb_mask_is_axial(dmb_mesh_string_def(iterator->mesh, iterator->string)->end_free);
+    return !dmb_set_is_axial(dmb_free_set(dmb_mesh_string_def(iterator->mesh, iterator->string)->end_free));
 }
 
 /* Position of the node of a stretch of rigid pipes: at a pinned end, because supports act at nodes; otherwise at the
@@ -356,8 +356,8 @@ static int32_t mesh_string(dmb_mesh *mesh, uint32_t string)
     map->end_node = iterator.node;
     map->end_arm = iterator.arm;
     map->length = iterator.at;
-    dmb_mesh_node_at(mesh, map->start_node)->free &= (uint8_t)def->start_free;
-    dmb_mesh_node_at(mesh, map->end_node)->free &= (uint8_t)def->end_free;
+    dmb_mesh_node_at(mesh, map->start_node)->free &= dmb_free_set(def->start_free);
+    dmb_mesh_node_at(mesh, map->end_node)->free &= dmb_free_set(def->end_free);
     return DMB_OK;
 }
 
@@ -378,7 +378,7 @@ static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def
                                 .rigid_mass = DMB_NONE,
                                 .added_mass = DMB_NONE,
                                 .size = DMB_NODE_SIX_DOF,
-                                .free = (uint8_t)def->free_mask,
+                                .free = dmb_free_set(def->free_mask),
                                 .rigid = 1};
     (void)dmb_vector_append(&mesh->nodes, &mesh->model->allocator, &node, 1); /* room was reserved */
     return (uint32_t)mesh->nodes.count - 1;

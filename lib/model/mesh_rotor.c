@@ -6,6 +6,7 @@
  *
  * The axis is that of a bearing of the body; without bearings the line from a pivot to the centre of mass, or else an
  * axis of inertia through the centre of mass. A body clamped in rotation to a part without such an axis has none. */
+#include "model/field_check.h"
 #include "model/mesh.h"
 
 #include <math.h>
@@ -220,9 +221,9 @@ static bool may_spin(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const bool alone = node->string == DMB_NONE || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
-    const bool is_free = node->free == DMB_FREE_ALL && mesh->clusters.count > 0;
+    const bool is_free = node->free == DMB_SET_ALL && mesh->clusters.count > 0;
     return alone && node->size == DMB_NODE_SIX_DOF && node->rigid_mass != DMB_NONE && node->prescribed == 0 &&
-           (is_free || node->free == DMB_FREE_SPHERICAL) && mass_of(mesh, i)->mass > 0.0;
+           (is_free || node->free == DMB_SET_SPHERICAL) && mass_of(mesh, i)->mass > 0.0;
 }
 
 static int32_t add_bodies(dmb_mesh *mesh)
@@ -232,7 +233,7 @@ static int32_t add_bodies(dmb_mesh *mesh)
     for (uint32_t i = 0; i < mesh->nodes.count && status >= 0; ++i) {
         dmb_mesh_rotor rotor = {.rotor = {.node = i}, .from = OF_NOTHING};
         if (!may_spin(mesh, i)) continue;
-        if (dmb_mesh_node_at(mesh, i)->free == DMB_FREE_SPHERICAL) offer_pivot(mesh, &rotor, origin);
+        if (dmb_mesh_node_at(mesh, i)->free == DMB_SET_SPHERICAL) offer_pivot(mesh, &rotor, origin);
         status = dmb_vector_append(&mesh->rotors, &mesh->model->allocator, &rotor, 1);
     }
     return status;
@@ -328,7 +329,7 @@ static void read_clamps(const dmb_mesh *mesh)
 static void compare_support(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
 {
     const dmb_scene_frame point = {.M = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}};
-    if (dmb_mesh_node_at(mesh, rotor->rotor.node)->free == DMB_FREE_ALL) return;
+    if (dmb_mesh_node_at(mesh, rotor->rotor.node)->free == DMB_SET_ALL) return;
     compare(rotor, &point, DMB_JOINT_SPHERICAL, true);
     dmb_vec3_zero(rotor->rotor.twist);
 }

@@ -61,8 +61,8 @@ typedef struct site_iterator {
 /* A contact point can move sideways if its node can, or if its node can tilt and the point is at an arm. */
 static bool moves_sideways(const dmb_mesh_node *node, double offset)
 {
-    if ((node->free & DMB_FREE_SIDEWAYS) != 0) return true;
-    return (node->free & DMB_FREE_TILTING) != 0 && fabs(offset) > 0.0;
+    if ((node->free & DMB_SET_SIDEWAYS) != 0) return true;
+    return (node->free & DMB_SET_TILTING) != 0 && fabs(offset) > 0.0;
 }
 
 /* Described clearance; in a hole of sections it changes with the depth (dmb_site_clearance). */

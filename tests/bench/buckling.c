@@ -70,7 +70,7 @@ static int32_t add_string(column *c, uint32_t i, uint32_t count)
     def.offset[1] = -(CLEARANCE + WEIGHT / WALL); /* where the wall carries the weight */
     def.start_depth = i * PIPE;
     def.start_free = i == 0 ? DMB_FREE_SPHERICAL : DMB_FREE_ALL;
-    if (i + count == c->pipes) def.end_free = 7; /* translations */
+    if (i + count == c->pipes) def.end_free = DMB_FREE_TRANSLATIONS;
     joint.place_a = dmb_station(c->last, 0, 1.0);
     int32_t status = dmb_model_add_string(c->model, &def, &pipe.string);
     if (status >= 0) status = dmb_model_add_pipes(c->model, &pipe, count, NULL);

@@ -133,7 +133,7 @@ static void limit_stick_slip(limit_scene *s)
     body.mass = 0.5;
     body.contact_diameter = 0.1;
     body.position[2] = -(2.0 + 1e-6);
-    body.free_mask = DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z;
+    body.free_mask = DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z;
     limit_note(s, dmb_model_add_body(s->model, &body, &drive.part));
     load.place = dmb_station(drive.part, 0, 0.0);
     load.force[2] = -1000.0;

@@ -150,7 +150,7 @@ static inline void scene_gears(joint_scene *c)
     for (int i = 0; i < 2; i++) {
         dmb_joint_def def = matched(DMB_JOINT_REVOLUTE, ground_id, scene_body(c, 0.0, 3.0 + i, 0.0));
         def.origin_a[1] = 3.0 + i;
-        def.initial_mask = i == 0 ? 1 << DMB_RX : 0;
+        def.initial_mask = i == 0 ? DMB_FREE_RX : DMB_FREE_NONE;
         def.initial_speed[DMB_RX] = 3.0;
         gear.joint[i] = scene_joint(c, &def);
     }

@@ -21,7 +21,7 @@ static scene pendulum(const dmb_sim_options *options)
 {
     scene s = {NULL, NULL};
     dmb_body_def body = dmb_body_def_default();
-    body.free_mask = 16; /* about y */
+    body.free_mask = DMB_FREE_RY;
     body.centre[0] = 1.0;
     assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
     assert_int_equal(dmb_model_add_body(s.model, &body, NULL), DMB_OK);

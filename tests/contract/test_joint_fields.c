@@ -177,8 +177,10 @@ static void joint_choices(void **state)
     TRY(match, -1, "match = -1, must be 0 .. 1");
     TRY(state, 3, "state = 3, must be 0 .. 2");
     TRY(state, -1, "state = -1, must be 0 .. 2");
-    TRY(initial_mask, 64, "initial_mask = 64, must be made of the bits of 63");
-    TRY(initial_mask, -1, "initial_mask = -1, must be made of the bits of 63");
+    TRY(initial_mask, 0, "initial_mask = 0, must be a set of DMB_FREE_...");
+    TRY(initial_mask, DMB_X | DMB_RX, "initial_mask = 3, must be a set of DMB_FREE_..., e.g. DMB_FREE_X | DMB_FREE_RX");
+    TRY(initial_mask, 1 << 15, "initial_mask = 32768, must be a set of DMB_FREE_...");
+    TRY(initial_mask, -1, "initial_mask = -1, must be a set of DMB_FREE_...");
     TRY(place_a.pipe, 1, "place_a.pipe = 1, must be 0 .. 0");
 #undef TRY
     finish(&s, 2, 0, 0);
@@ -187,6 +189,8 @@ static void joint_choices(void **state)
 /* Coordinates that a kind holds cannot be given. */
 static void initial_coordinates_must_be_free(void **state)
 {
+    static const char *const without[] = {"without DMB_FREE_X",  "without DMB_FREE_Y",  "without DMB_FREE_Z",
+                                          "without DMB_FREE_RX", "without DMB_FREE_RY", "without DMB_FREE_RZ"};
     static const int32_t free_mask[] = {0, 8, 1, 9, 48, 56, 14, 57, 0, 63, 63, 63, 63, 7, 6, 15};
     (void)state;
     for (int32_t kind = DMB_JOINT_FIXED; kind <= DMB_JOINT_SCHOENFLIES; ++kind) {
@@ -195,12 +199,12 @@ static void initial_coordinates_must_be_free(void **state)
         joint.kind = kind;
         if (kind == DMB_JOINT_POINT_ON_HOLE) memset(&joint.place_a, 0, sizeof joint.place_a);
         for (int32_t k = 0; k < 6; ++k) {
-            joint.initial_mask = 1 << k;
-            if ((free_mask[kind] & joint.initial_mask) != 0) continue;
-            refuse_joint(&s, &joint, DMB_ERR_VALUE, "initial_mask = ");
+            joint.initial_mask = DMB_FREE_X << k;
+            if ((free_mask[kind] >> k & 1) != 0) continue;
+            refuse_joint(&s, &joint, DMB_ERR_VALUE, without[k]);
         }
         joint.state = DMB_JOINT_OPEN;
-        joint.initial_mask = free_mask[kind];
+        joint.initial_mask = DMB_FREE_NONE | DMB_FREE_X * free_mask[kind];
         assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK);
         finish(&s, 3, 0, 0);
     }
@@ -219,9 +223,9 @@ static void initial_coordinates_have_room(void **state)
             int32_t bits = 0;
             for (int32_t k = 0; k < 6; ++k) bits += mask >> k & 1;
             joint.kind = kind;
-            joint.initial_mask = mask & free_mask[kind];
+            joint.initial_mask = DMB_FREE_NONE | DMB_FREE_X * (mask & free_mask[kind]);
             if (kind == DMB_JOINT_POINT_ON_HOLE) memset(&joint.place_a, 0, sizeof joint.place_a);
-            if (mask != joint.initial_mask) bits = 0; /* has been looked at */
+            if ((mask & ~free_mask[kind]) != 0) bits = 0; /* has been looked at */
             joint.state = DMB_JOINT_LOCKED;
             if (bits > 0) refuse_joint(&s, &joint, DMB_ERR_VALUE, ", must be of 0 bits at most: with its 6");
             joint.state = DMB_JOINT_ACTIVE;

@@ -90,7 +90,7 @@ static void initial_angle_out_of_reach(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id a = add_bar(&s, &crank), b = add_bar(&s, &rod);
     dmb_joint_def first = hinge_of("crank", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(a, -0.25));
-    first.initial_mask = 1 << DMB_RX;
+    first.initial_mask = DMB_FREE_RX;
     first.initial_position[DMB_RX] = 3.0; /* the far end of the crank is then 1.99 from the pin of the rod */
     (void)add_joint(&s, &first);
     (void)add_hinge(&s, "pin", DMB_JOINT_REVOLUTE, pin_on(a, 0.25), pin_on(b, -0.5));
@@ -107,11 +107,11 @@ static void initial_speeds_that_fight(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     const dmb_id body = add_bar(&s, &only);
     dmb_joint_def first = hinge_of("first", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(body, -0.5));
-    first.initial_mask = 1 << DMB_RX;
+    first.initial_mask = DMB_FREE_RX;
     first.initial_speed[DMB_RX] = 1.0;
     (void)add_joint(&s, &first);
     dmb_joint_def second = hinge_of("second", DMB_JOINT_FREE, pin_ground(0.0, 0.0), pin_on(body, -0.5));
-    second.initial_mask = 1 << DMB_RX;
+    second.initial_mask = DMB_FREE_RX;
     second.initial_speed[DMB_RX] = 2.0;
     (void)add_joint(&s, &second);
     expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "speed cannot be had");

@@ -130,7 +130,7 @@ static void told_of_every_kind(void **state)
     (void)state;
     must(dmb_model_create(NULL, &model));
     strcpy(string.name, "main");
-    string.start_free = 64;
+    string.start_free = 1 << 15;
     assert_int_equal(dmb_model_add_string(model, &string, NULL), DMB_ERR_VALUE);
     expect(dmb_model_message(model), "string 0 (main): start_free");
     string.start_free = DMB_FREE_CYLINDRICAL;

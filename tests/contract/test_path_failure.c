@@ -80,7 +80,7 @@ static void open_truss(subject *c)
     dmb_joint_def support = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
     string.rotation[1] = -atan2(2.0, 10.0);
-    string.start_free = 1 << DMB_RY;
+    string.start_free = DMB_FREE_RY;
     lay(c, string, beam_pipe(hypot(10.0, 2.0), 1, 1e6, 1e8, 1e8, 1e8));
     support.kind = DMB_JOINT_POINT_ON_LINE;
     support.place_b = c->place;

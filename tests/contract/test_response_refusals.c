@@ -216,7 +216,7 @@ static void drive_that_joints_hold(void **state)
     (void)state;
     scene s;
     memset(&s, 0, sizeof s);
-    describe_body(&s, 1 << DMB_RX, DMB_JOINT_FIXED, 1);
+    describe_body(&s, DMB_FREE_RX, DMB_JOINT_FIXED, 1);
     start(&s);
     s.input.kind = DMB_EXCITATION_DRIVE;
     s.input.place.part = s.drive;

@@ -124,7 +124,7 @@ static void limit_of_a_drive(void **state)
         dmb_segment term = dmb_segment_default();
         must(dmb_model_create(NULL, &model));
         body.mass = 2.0;
-        body.free_mask = 1 << DMB_Z;
+        body.free_mask = DMB_FREE_Z;
         must(dmb_model_add_body(model, &body, &drive.part));
         term.h0 = weak == 2 ? -0.1 : 0.1;
         must(dmb_model_add_time_function(model, &term, 1, &drive.time_function));

@@ -86,8 +86,8 @@ static void check_constrained(const dmb_sim *sim, dmb_id string, const dmb_pose 
             turn += 0.5 * (before->rotation[3 * i + b] * pose.rotation[3 * i + a] -
                            before->rotation[3 * i + a] * pose.rotation[3 * i + b]);
         }
-        if (held >> c & 1) assert_true(fabs(way) <= 1e-13);
-        if (held >> (3 + c) & 1) assert_true(fabs(turn) <= 1e-13);
+        if (held & DMB_FREE_X << c) assert_true(fabs(way) <= 1e-13);
+        if (held & DMB_FREE_RX << c) assert_true(fabs(turn) <= 1e-13);
     }
 }
 

@@ -312,7 +312,7 @@ static void bodies_turned_by_angles(void **state)
         body.centre[1] = 0.25;
         const dmb_place ground = dmb_station((dmb_id){0, 0}, 0, 0.0), place = dmb_station(add_body(&s, &body), 0, 0.0);
         dmb_joint_def ball = joint_between(DMB_JOINT_SPHERICAL, ground, place);
-        ball.initial_mask = 7 << DMB_RX;
+        ball.initial_mask = DMB_FREE_SPHERICAL;
         for (int i = 0; i < 3; i++) ball.initial_position[DMB_RX + i] = angle[i];
         const dmb_id joint = add_joint(&s, &ball);
         for (int i = 0; i < 3; i++) (void)constant_drive(&s, DMB_DRIVE_MOTION, joint, DMB_RX + i, i == k ? speed : 0.0);

@@ -67,7 +67,7 @@ static inline void draw_more_pipe(byte_source *s, dmb_pipe_def *pipe)
 static inline void draw_more_body(byte_source *s, dmb_body_def *body)
 {
     draw_name(s, body->name);
-    if (draw_chance(s, 80)) body->free_mask = (int32_t)draw_below(s, 64);
+    if (draw_chance(s, 80)) body->free_mask = DMB_FREE_NONE | DMB_FREE_X * (int32_t)draw_below(s, 64);
     if (draw_chance(s, 80)) body->centre[draw_below(s, 3)] = draw_number(s, -0.5, 0.5);
     if (draw_chance(s, 80)) body->rotation[draw_below(s, 3)] = draw_number(s, -4.0, 4.0);
     if (draw_chance(s, 80)) body->inertia[3 + draw_below(s, 3)] = draw_number(s, -1e-3, 1e-3);
@@ -134,7 +134,7 @@ static inline void draw_more_joint(byte_source *s, dmb_joint_def *joint)
     if (draw_chance(s, 60)) joint->normal_a[draw_below(s, 3)] = draw_number(s, -1.0, 1.0);
     if (draw_chance(s, 60)) joint->rest[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
     if (draw_chance(s, 60)) {
-        joint->initial_mask = (int32_t)draw_below(s, 64);
+        joint->initial_mask = DMB_FREE_NONE | DMB_FREE_X * (int32_t)draw_below(s, 64);
         joint->initial_position[draw_below(s, 6)] = draw_number(s, -0.5, 0.5);
         joint->initial_speed[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
     }

@@ -34,7 +34,7 @@ typedef struct random_scene {
     dmb_id input[DRAW_INPUTS], event, any[DRAW_ANY]; /* any: of all kinds, to ask about */
     uint32_t time_functions, strings, bodies, bits, drives, pipes, inputs, events, anys;
     uint32_t pipes_of[DRAW_STRINGS + 1];
-    int32_t free_of[DRAW_STRINGS + 1];
+    int32_t free_of[DRAW_STRINGS + 1]; /* bit k: component k is free at the rig end */
     int32_t has_wall;
     int32_t callback_status;
     uint32_t evaluations; /* left for the statics of this input */
@@ -230,7 +230,7 @@ static inline void draw_sub(random_scene *scene)
     (void)keep_id(scene, 0, sub.before);
     (void)keep_id(scene, 0, sub.after);
     (void)keep_id(scene, 0, sub.section);
-    scene->free_of[scene->strings] = DMB_FREE_ALL;
+    scene->free_of[scene->strings] = DMB_FREE_ALL / DMB_FREE_X;
     scene->string[scene->strings] = sub.section;
     draw_pipes(scene, scene->strings++);
     if (def.after != NULL && joint.kind == DMB_JOINT_REVOLUTE) draw_motor(scene, sub.after);
@@ -238,16 +238,9 @@ static inline void draw_sub(random_scene *scene)
 
 static inline void draw_strings(random_scene *scene)
 {
-    static const int32_t masks[] = {DMB_FREE_CYLINDRICAL,
-                                    DMB_FREE_ALL,
-                                    DMB_FREE_NONE,
-                                    DMB_FREE_X,
-                                    DMB_FREE_RX,
-                                    DMB_FREE_SPHERICAL,
-                                    DMB_FREE_RZ,
-                                    7,
-                                    35,
-                                    3};
+    static const int32_t masks[] = {DMB_FREE_CYLINDRICAL, DMB_FREE_ALL,       DMB_FREE_NONE, DMB_FREE_X,
+                                    DMB_FREE_RX,          DMB_FREE_SPHERICAL, DMB_FREE_RZ,   DMB_FREE_TRANSLATIONS,
+                                    DMB_FREE_PLANAR_Z,    DMB_FREE_XY};
     byte_source *s = &scene->source;
     const uint32_t count = draw_chance(s, 250) ? 1 + draw_below(s, DRAW_STRINGS) : 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -260,7 +253,7 @@ static inline void draw_strings(random_scene *scene)
         if (draw_chance(s, 60)) def.velocity[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
         draw_spoil(s, &def.start_depth, 15);
         if (has_more(scene)) draw_name(s, def.name);
-        scene->free_of[scene->strings] = def.start_free;
+        scene->free_of[scene->strings] = (def.start_free & DMB_FREE_ALL) / DMB_FREE_X;
         if (dmb_model_add_string(scene->model, &def, &scene->string[scene->strings]) < 0) continue;
         (void)keep_id(scene, 0, scene->string[scene->strings]);
         draw_pipes(scene, scene->strings++);

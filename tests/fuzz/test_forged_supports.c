@@ -83,7 +83,7 @@ static void bodies_stay_on_their_supports(void **state)
         assert_int_equal(restore(&s), DMB_OK); /* as it came from the run, far from where it began */
         for (int c = 0; c < 6; c++) {
             shift(&s, c, c < 3 ? 1e-3 : 0.3);
-            if (sets[k] >> c & 1) {
+            if (sets[k] & DMB_FREE_X << c) {
                 if (restore(&s) < 0) fail_msg("mask %d, component %d: %s", sets[k], c, dmb_sim_message(s.sim));
                 memcpy(s.forged, s.sound, s.size);
                 assert_int_equal(restore(&s), DMB_OK);

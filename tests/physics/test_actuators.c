@@ -56,7 +56,7 @@ static void describe(turner *t, dmb_drive_def *def)
         joint.kind = DMB_JOINT_REVOLUTE;
         joint.place_b = dmb_station(t->body, 0, 0.0);
         joint.stiffness[DMB_RX] = t->spring;
-        joint.initial_mask = 1 << DMB_RX;
+        joint.initial_mask = DMB_FREE_RX;
         joint.initial_position[DMB_RX] = t->wound;
         must(dmb_model_add_joint(t->model, &joint, NULL));
     }

@@ -162,7 +162,7 @@ static double frequency_error(double N, uint32_t elements, uint32_t pair)
     pipe.section_mass = m;
     pipe.section_inertia[0] = 1e-2;
     pipe.section_inertia[1] = 1e-8;
-    const dmb_id string = lay_string(&s, &pipe, 1, DMB_FREE_SPHERICAL, 7);
+    const dmb_id string = lay_string(&s, &pipe, 1, DMB_FREE_SPHERICAL, DMB_FREE_TRANSLATIONS);
     load.place = dmb_station(string, 0, 1.0);
     load.force[0] = N;
     (void)add_load(&s, &load);

@@ -7,8 +7,8 @@
 enum {
     PINNED = 0,
     CLAMPED = 1,
-    CLAMPED_ROLLER = 1,
-    FREE_TO_MOVE = 7
+    CLAMPED_ROLLER = DMB_FREE_X,
+    FREE_TO_MOVE = DMB_FREE_TRANSLATIONS
 }; /* ends of columns; degrees_of_freedom of strings */
 
 static dmb_id add_push(rig *s, dmb_place place)

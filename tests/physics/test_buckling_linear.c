@@ -5,7 +5,7 @@
 
 #include "rig.h"
 
-enum { FREE_TO_MOVE = 7 };
+enum { FREE_TO_MOVE = DMB_FREE_TRANSLATIONS };
 #define PIPE 1.5 /* [m] in the hole, of four elements */
 
 typedef struct half {

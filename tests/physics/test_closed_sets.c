@@ -42,7 +42,7 @@ static void all_that_are_closed(void **state)
         dmb_string_def string = dmb_string_def_default();
         dmb_id made;
         rig_open(&s, 0.0, 0.0, 0.0);
-        body.free_mask = string.start_free = string.end_free = mask;
+        body.free_mask = string.start_free = string.end_free = DMB_FREE_NONE | DMB_FREE_X * mask;
         const int32_t want = closed(mask) ? DMB_OK : DMB_ERR_UNSUPPORTED;
         assert_int_equal(dmb_model_add_body(s.model, &body, &made), want);
         if (want < 0) assert_non_null(strstr(dmb_model_message(s.model), "_SCHOENFLIES (of x, y, z); hold others by"));
@@ -51,6 +51,28 @@ static void all_that_are_closed(void **state)
         rig_close(&s);
     }
     assert_int_equal(count, 22);
+}
+
+/* Every combination of component indices, 0 .. 63, as the set of a part: refused, the message shows how to write it. */
+static void indices_are_no_sets(void **state)
+{
+    (void)state;
+    rig s;
+    dmb_id made;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    for (int32_t mask = -1; mask < 256; mask++) {
+        dmb_body_def body = dmb_body_def_default();
+        dmb_string_def start = dmb_string_def_default(), far = dmb_string_def_default();
+        body.free_mask = start.start_free = far.end_free = mask;
+        assert_int_equal(dmb_model_add_body(s.model, &body, &made), DMB_ERR_VALUE);
+        assert_int_equal(dmb_model_add_string(s.model, &far, &made), DMB_ERR_VALUE);
+        assert_int_equal(dmb_model_add_string(s.model, &start, &made), DMB_ERR_VALUE);
+        if (mask != (DMB_X | DMB_RX)) continue;
+        assert_non_null(strstr(dmb_model_message(s.model), "start_free = 3, must be a set of DMB_FREE_..., e.g. "
+                                                           "DMB_FREE_X | DMB_FREE_RX"));
+    }
+    assert_int_equal(dmb_model_clear_refused(s.model), DMB_OK);
+    rig_close(&s);
 }
 
 /* ---- How they move ----------------------------------------------------------------------------------------------- */
@@ -86,7 +108,7 @@ static outcome run(int32_t mask, int32_t kind, uint32_t steps, double R[9])
     body.mass = 4.0;
     memcpy(body.inertia, inertia, sizeof inertia);
     memcpy(body.rotation, tilt, sizeof tilt);
-    if (kind < 0) body.free_mask = mask;
+    if (kind < 0) body.free_mask = DMB_FREE_NONE | DMB_FREE_X * mask;
     const dmb_id id = add_body(&s, &body);
     load.place = dmb_station(id, 0, 0.0);
     memcpy(load.force, force, sizeof force);
@@ -151,10 +173,10 @@ static void closed_forms(void **state)
         (void)snprintf(what, sizeof what, "mask %d", (int)mask);
         compare(what, mask, -1);
     }
-    compare("joint: translational", DMB_FREE_TRANSLATIONS, DMB_JOINT_TRANSLATIONAL);
-    compare("joint: cross slide", DMB_FREE_YZ, DMB_JOINT_CROSS_SLIDE);
-    compare("joint: Schoenflies", DMB_FREE_SCHOENFLIES, DMB_JOINT_SCHOENFLIES);
-    compare("joint: planar", DMB_FREE_PLANAR, DMB_JOINT_PLANAR);
+    compare("joint: translational", DMB_FREE_TRANSLATIONS / DMB_FREE_X, DMB_JOINT_TRANSLATIONAL);
+    compare("joint: cross slide", DMB_FREE_YZ / DMB_FREE_X, DMB_JOINT_CROSS_SLIDE);
+    compare("joint: Schoenflies", DMB_FREE_SCHOENFLIES / DMB_FREE_X, DMB_JOINT_SCHOENFLIES);
+    compare("joint: planar", DMB_FREE_PLANAR / DMB_FREE_X, DMB_JOINT_PLANAR);
 }
 
 /* ---- A string on such an end ------------------------------------------------------------------------------------- */
@@ -184,6 +206,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_that_are_closed),
+        cmocka_unit_test(indices_are_no_sets),
         cmocka_unit_test(closed_forms),
         cmocka_unit_test(supportd_end),
     };

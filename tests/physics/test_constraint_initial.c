@@ -23,7 +23,7 @@ static four_bar four_bar_of(double angle, double speed, int32_t *status, const d
     m.bar[1] = add_bar(&m.s, &rod);
     m.bar[2] = add_bar(&m.s, &rocker);
     dmb_joint_def def = hinge_of("crank", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(m.bar[0], -0.2));
-    def.initial_mask = 1 << DMB_RX;
+    def.initial_mask = DMB_FREE_RX;
     def.initial_position[DMB_RX] = angle;
     def.initial_speed[DMB_RX] = speed;
     m.hinge[0] = add_joint(&m.s, &def);
@@ -162,7 +162,7 @@ static void turns_at_the_start(void **state)
     dmb_joint_def def = dmb_joint_def_default();
     dmb_id body, joint;
     def.kind = DMB_JOINT_REVOLUTE;
-    def.initial_mask = 1 << DMB_RX;
+    def.initial_mask = DMB_FREE_RX;
     def.initial_position[DMB_RX] = 20.0;
     def.stiffness[DMB_RX] = 1.0;
     def.rest[DMB_RX] = 20.5;
@@ -182,7 +182,7 @@ static void universal_coordinates(void **state)
     dmb_joint_def def = dmb_joint_def_default();
     dmb_id body, joint;
     def.kind = DMB_JOINT_UNIVERSAL;
-    def.initial_mask = 1 << DMB_RY | 1 << DMB_RZ;
+    def.initial_mask = DMB_FREE_RY | DMB_FREE_RZ;
     def.initial_position[DMB_RY] = a;
     def.initial_position[DMB_RZ] = b;
     def.initial_speed[DMB_RY] = da;

@@ -478,7 +478,7 @@ static void gear_that_has_slipped(void **state)
         body[i] = add_bar(&s, &disc);
         dmb_joint_def def = hinge_of(i == 0 ? "pinion" : "wheel", DMB_JOINT_REVOLUTE,
                                      pin_ground(3.0 * i + 0.5 * length, 0.0), pin_on(body[i], 0.0));
-        def.initial_mask = i == 0 ? 1 << DMB_RX : 0;
+        def.initial_mask = i == 0 ? DMB_FREE_RX : DMB_FREE_NONE;
         def.initial_speed[DMB_RX] = 2.0;
         joint[i] = gear.joint[i] = add_joint(&s, &def);
     }

@@ -16,7 +16,7 @@ typedef struct flight {
 static void drop(flight *f, double tolerance)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e10, 1.0, e);
-    const dmb_body_def ball = scene_ball(1.0, 1.0, 1 << DMB_Z);
+    const dmb_body_def ball = scene_ball(1.0, 1.0, DMB_FREE_Z);
     dmb_sim_options options = dmb_sim_options_default();
     options.tolerance_translation = tolerance;
     options.step_min = 1e-12;
@@ -123,7 +123,7 @@ static double largest_energy(int32_t law, double radius, double per_period)
     const double stiffness = 1e6, mass = 1.0, h = per_period / sqrt(stiffness / mass);
     dmb_sim_options options = dmb_sim_options_default();
     dmb_wall_def wall = scene_wide_wall(law, stiffness, 1.0, 0.4);
-    dmb_body_def ball = scene_ball(mass, 0.0, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(mass, 0.0, DMB_FREE_Z);
     double most = 0.0;
     rig scene;
     options.spectral_radius = radius;

@@ -49,7 +49,7 @@ static impact fly(const dmb_wall_def *wall, double mass, double speed)
 {
     const double depth = depth_scale(wall, mass, speed);
     const dmb_sim_options options = fine_options(depth, speed);
-    dmb_body_def ball = scene_ball(mass, 2.0 * depth, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(mass, 2.0 * depth, DMB_FREE_Z);
     rig scene;
     impact result = {0.0, 0.0, 0.0, 0.0};
     double entry = 0.0, d0 = -2.0 * depth, v0 = speed, t0 = 0.0;
@@ -253,7 +253,7 @@ static void stiffness_times_length(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, i == 0 ? 1e7 : 2e7, 1.5, 0.5);
-        dmb_body_def ball = scene_ball(1.0, 1e-3, 1 << DMB_Z);
+        dmb_body_def ball = scene_ball(1.0, 1e-3, DMB_FREE_Z);
         rig scene;
         ball.contact_length = i == 0 ? 1.0 : 0.5;
         ball.velocity[2] = -1.0;
@@ -300,7 +300,7 @@ static double ratio_of(const default_impact *c)
     const double depth = depth_scale(&wall, c->mass, c->speed), unit = depth / c->speed;
     const double stretch = c->restitution > 0.1 ? 1.0 : 0.1 / fmax(c->restitution, 1e-3);
     dmb_sim_options options = fine_options(depth, c->speed);
-    dmb_body_def ball = scene_ball(c->mass, 1.005 * depth, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(c->mass, 1.005 * depth, DMB_FREE_Z);
     double out = 0.0;
     int touched = 0, left = 0;
     rig scene;

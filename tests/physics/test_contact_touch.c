@@ -50,7 +50,7 @@ static double next_length(double h, int uneven, int i)
 static double dropped(double gap, double end, double h, int uneven, double radius)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_KELVIN_VOIGT, k, 1.0, 1.0);
-    const dmb_body_def ball = scene_ball(m, gap, 1 << DMB_Z);
+    const dmb_body_def ball = scene_ball(m, gap, DMB_FREE_Z);
     dmb_sim_options options = dmb_sim_options_default();
     rig scene;
     wall.damping = c;
@@ -102,7 +102,7 @@ static void second_order(void **state)
 static void snapshot_at_touch(void **state)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_KELVIN_VOIGT, k, 1.0, 1.0);
-    const dmb_body_def ball = scene_ball(m, 0.0105, 1 << DMB_Z);
+    const dmb_body_def ball = scene_ball(m, 0.0105, DMB_FREE_Z);
     static unsigned char block[1 << 20];
     size_t size = 0;
     uint64_t whole = 0, restored = 0;

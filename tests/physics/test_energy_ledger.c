@@ -188,7 +188,7 @@ static void linear_bar_keeps_energy(void **state)
 static void friction_work(void **state)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, 1e8, 1.0, 0.5);
-    dmb_body_def body = scene_ball(1.0, -9.81e-8, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(1.0, -9.81e-8, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_load_def load = dmb_load_def_default();
     rig scene;
     (void)state;
@@ -220,7 +220,7 @@ static void impact_loss(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e7, 1.5, asked[k]);
-        dmb_body_def ball = scene_ball(2.0, 0.01, 1 << DMB_Z);
+        dmb_body_def ball = scene_ball(2.0, 0.01, DMB_FREE_Z);
         dmb_sim_options options = dmb_sim_options_default();
         rig scene;
         options.tolerance_translation = 1e-12;
@@ -251,7 +251,7 @@ static void drive_work(void **state)
     rig scene;
     (void)state;
     body.mass = 3.0;
-    body.free_mask = 1 << DMB_Z;
+    body.free_mask = DMB_FREE_Z;
     scene_open(&scene, 9.81);
     drive.part = add_body(&scene, &body);
     drive.component = DMB_Z;

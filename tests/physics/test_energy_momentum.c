@@ -107,7 +107,7 @@ static void falls_on_a_parabola(void **state)
 static void impulse_of_the_wall(void **state)
 {
     const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e7, 1.0, 0.6);
-    dmb_body_def ball = scene_ball(2.0, 0.01, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(2.0, 0.01, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_sim_options options = dmb_sim_options_default();
     rig scene;
     (void)state;
@@ -132,7 +132,7 @@ static void impulse_of_the_wall(void **state)
 static void friction_couples_spin_and_travel(void **state)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, 1e7, 1.0, 0.5);
-    dmb_body_def ring = scene_ball(2.0, -2.0 * 9.81 / 1e7, 1 << DMB_Y | 1 << DMB_Z | DMB_FREE_RX);
+    dmb_body_def ring = scene_ball(2.0, -2.0 * 9.81 / 1e7, DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX);
     rig scene;
     (void)state;
     wall.friction_law = DMB_FRICTION_COULOMB;

@@ -96,7 +96,7 @@ enum { BODY_RADIUS_MM = 40, CLEARANCE_MM = 8 };
 static double run_whirl(double h, double mu, int32_t law, int32_t friction, dmb_energy *e)
 {
     dmb_wall_def wall = dmb_wall_def_default();
-    dmb_body_def body = scene_ball(30.0, 0.0, 1 << DMB_Y | 1 << DMB_Z | DMB_FREE_RX);
+    dmb_body_def body = scene_ball(30.0, 0.0, DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX);
     dmb_drive_def drive = dmb_drive_def_default();
     rig scene;
     double turns = 0.0, last = 0.0;

@@ -30,7 +30,7 @@ static dmb_id body_with(scene *s, int32_t component, const dmb_drive_def *drive,
     dmb_body_def body = dmb_body_def_default();
     dmb_id id = {0, 0};
     if (s->model == NULL) must(dmb_model_create(NULL, &s->model));
-    body.free_mask = 1 << component;
+    body.free_mask = DMB_FREE_X << component;
     body.mass = 2.0;
     for (int i = 0; i < 3; i++) body.inertia[i] = 0.5;
     must(dmb_model_add_body(s->model, &body, &s->body));
@@ -134,7 +134,7 @@ static void oscillator_through_zero(void **state)
     spring.kind = DMB_JOINT_PRISMATIC;
     spring.place_b = dmb_station(s.body, 0, 0.0);
     spring.stiffness[0] = 2.0 * 49.0; /* w = 7 rad/s */
-    spring.initial_mask = 1;
+    spring.initial_mask = DMB_FREE_X;
     spring.initial_position[0] = 1.0;
     dmb_id joint;
     must(dmb_model_add_joint(s.model, &spring, &joint));

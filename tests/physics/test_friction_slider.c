@@ -9,7 +9,7 @@ static const double stiffness = 1e8;
 static dmb_id block(rig *scene, dmb_wall_def *wall, double slope, double v, const dmb_sim_options *options)
 {
     dmb_environment_def environment = dmb_environment_def_default();
-    dmb_body_def body = scene_ball(1.0, -g * cos(slope) / stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(1.0, -g * cos(slope) / stiffness, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     wall->diameter = 4.1;
     wall->normal_law = DMB_NORMAL_HUNT_CROSSLEY;
     wall->stiffness = stiffness;

@@ -68,7 +68,7 @@ static dmb_sim_options fine_options(double tolerance)
 static void build_block(rotor *r, const dmb_wall_def *wall, const dmb_sim_options *options)
 {
     const double press = sliding / wall->mu_dynamic;
-    dmb_body_def body = scene_ball(inertia, -press / wall->stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(inertia, -press / wall->stiffness, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     scene_open(&r->scene, 0.0);
@@ -266,7 +266,7 @@ static void falling_branch(void **state)
     const double V = 0.02, v_s = 0.01, N = 4.0, s = N * 0.1 / v_s * exp(-V / v_s) / (2.0 * inertia);
     const double w = sqrt(spring / inertia - s * s), t = 0.6, disturbance = 1e-6 * V;
     dmb_wall_def wall = friction(DMB_FRICTION_STRIBECK, v_s, 1e-12);
-    dmb_body_def body = scene_ball(inertia, -N / wall.stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(inertia, -N / wall.stiffness, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_sim_options options = fine_options(1e-13);

@@ -71,7 +71,7 @@ static void leaves_the_axis(void **state)
 static void through_the_axis(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
-    dmb_body_def body = ring(0.073, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = ring(0.073, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     rig scene;
     (void)state;
     wall.restitution = 1.0;
@@ -97,7 +97,7 @@ static void pinned(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         dmb_wall_def wall = dmb_wall_def_default();
-        dmb_body_def body = ring(0.094, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+        dmb_body_def body = ring(0.094, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
         rig scene;
         const double w = sqrt(1e7 / 2.0), quarter = 0.5 * PI / w;
         wall.restitution = 1.0;
@@ -121,7 +121,7 @@ static void pinned(void **state)
 static void pinned_under_weight(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
-    dmb_body_def body = ring(0.094, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = ring(0.094, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     rig scene;
     (void)state;
     wall.normal_law = DMB_NORMAL_KELVIN_VOIGT;

@@ -18,7 +18,7 @@ static double kinetic_of(double v)
 static double bounce(double h, double steps)
 {
     const dmb_wall_def wall = wall_of(1e6); /* the contact lasts 3 ms */
-    dmb_body_def ball = scene_ball(1.0, steps * h, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(1.0, steps * h, DMB_FREE_Z);
     rig scene;
     ball.velocity[2] = -1.0;
     scene_open(&scene, 0.0);
@@ -52,7 +52,7 @@ static void on_step_boundary(void **state)
 
 static dmb_id add_ball_at(rig *scene, double x, double gap, double speed)
 {
-    dmb_body_def ball = scene_ball(1.0, gap, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(1.0, gap, DMB_FREE_Z);
     ball.position[0] = x;
     ball.velocity[2] = -speed;
     return add_body(scene, &ball);
@@ -130,7 +130,7 @@ static void grazing(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         const dmb_wall_def wall = wall_of(1e7);
-        dmb_body_def ball = scene_ball(1.0, 1e-12, 1 << DMB_Z);
+        dmb_body_def ball = scene_ball(1.0, 1e-12, DMB_FREE_Z);
         rig scene;
         ball.velocity[2] = -1e-12;
         scene_open(&scene, 0.0);
@@ -154,7 +154,7 @@ static void grazing(void **state)
 static void grazing_flight(void **state)
 {
     const dmb_wall_def wall = wall_of(1e7);
-    dmb_body_def ball = scene_ball(1.0, 1e-13, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(1.0, 1e-13, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     rig scene;
     (void)state;
     ball.velocity[0] = 3.0;
@@ -179,7 +179,7 @@ static void accumulation(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         const dmb_wall_def wall = wall_of(1e7);
-        const dmb_body_def ball = scene_ball(1.0, 0.01, 1 << DMB_Z);
+        const dmb_body_def ball = scene_ball(1.0, 0.01, DMB_FREE_Z);
         rig scene;
         dmb_step_report report = dmb_step_report_default();
         uint32_t rejected = 0;
@@ -217,7 +217,7 @@ static void no_tunnelling(void **state)
     for (int k = 0; k < 4; k++)
         for (int phase = 0; phase < 20; phase++) {
             const dmb_wall_def wall = wall_of(stiffness[k]);
-            dmb_body_def ball = scene_ball(1.0, 0.1 + 0.005 * phase + 1e-4, 1 << DMB_Z);
+            dmb_body_def ball = scene_ball(1.0, 0.1 + 0.005 * phase + 1e-4, DMB_FREE_Z);
             rig scene;
             ball.velocity[2] = -10.0;
             scene_open(&scene, 0.0);
@@ -252,7 +252,7 @@ static void narrow_hole(void **state)
         ball.contact_diameter = 0.073;
         ball.position[2] = 0.0005 * phase - 0.005;
         ball.velocity[2] = -10.0;
-        ball.free_mask = DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z;
+        ball.free_mask = DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z;
         scene_open(&scene, 9.81);
         add_wall(&scene, &wall);
         add_body(&scene, &ball);

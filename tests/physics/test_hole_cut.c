@@ -261,7 +261,7 @@ static dmb_id drill_under_a_ball(rig *s, int32_t with_ball)
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, floor_stiffness, 1.0, 1.0);
     dmb_pipe_def pipe = s1_pipe();
     dmb_bit_def bit = cutter(0.22);
-    dmb_body_def ball = scene_ball(ball_mass, 0.0, 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(ball_mass, 0.0, DMB_FREE_Y | DMB_FREE_Z);
     dmb_segment turn = dmb_segment_default();
     dmb_id id = {0, 0};
     rig_open(s, 0.0, 0.0, -g);

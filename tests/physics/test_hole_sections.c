@@ -27,7 +27,7 @@ static void add_sections(const rig *scene, const dmb_hole_section *sections, uin
 static dmb_id block(rig *scene, const dmb_wall_def *wall, const dmb_hole_section *sections, uint32_t count, double v,
                     double tolerance)
 {
-    dmb_body_def body = scene_ball(1.0, -g / wall->stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(1.0, -g / wall->stiffness, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_sim_options options = dmb_sim_options_default();
     options.tolerance_translation = tolerance;
     options.newton_tolerance = 1e-11;
@@ -72,7 +72,7 @@ static void friction_input_acts_in_sections(void **state)
     dmb_wall_def wall = floor_of(1e8);
     dmb_hole_section rough = section(-1.0);
     dmb_input_def input = dmb_input_def_default();
-    dmb_body_def body = scene_ball(1.0, -g / wall.stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(1.0, -g / wall.stiffness, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     dmb_sim_options options = dmb_sim_options_default();
     dmb_id id = {0, 0};
     rig scene;
@@ -132,7 +132,7 @@ static void ring_wider_than_the_next_section_is_stopped(void **state)
     (void)state;
     narrow.diameter = 3.9; /* R 1.95: the ring of the block is made of 3.94 m here */
     narrow.transition = 0.4;
-    dmb_body_def body = scene_ball(1.0, 0.0, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
+    dmb_body_def body = scene_ball(1.0, 0.0, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z);
     body.contact_diameter = 3.94;
     body.position[2] = -0.08;
     body.velocity[0] = 0.5;

@@ -87,7 +87,7 @@ static void the_other_axis_turns_on(void **state)
     (void)state;
     arm described = describe_arm(0.0, 0.0, 0.0);
     dmb_joint_def def = arm_joint(&described, DMB_JOINT_UNIVERSAL);
-    def.initial_mask = 1 << DMB_RY;
+    def.initial_mask = DMB_FREE_RY;
     def.initial_speed[DMB_RY] = 3.0;
     const dmb_sim_options options = sharp_options(1.0, 1e-10);
     described.joint = add_joint(&described.s, &def);

@@ -72,7 +72,7 @@ static void spatial_slider_crank(system_under_test *m)
     const dmb_id crank = add_link(m, foot, tip, 0.12), rod = add_link(m, tip, slide, 0.5);
     const dmb_id slider = add_link(m, slide, slide, 2.0);
     dmb_joint_def pivot = joint_in_world(DMB_JOINT_REVOLUTE, ground_id, zero, crank, foot, x);
-    pivot.initial_mask = 1 << DMB_RX;
+    pivot.initial_mask = DMB_FREE_RX;
     pivot.initial_speed[DMB_RX] = 6.0;
     (void)note_joint(m, &pivot);
     const dmb_joint_def ball = joint_in_world(DMB_JOINT_SPHERICAL, crank, middle[0], rod, tip, x);
@@ -124,7 +124,7 @@ static void flexible_loop(system_under_test *m)
     const dmb_joint_def b = joint_in_world(DMB_JOINT_REVOLUTE, side[0], middle[0], coupler, tip[0], y);
     dmb_joint_def c = joint_in_world(DMB_JOINT_SPHERICAL, side[1], middle[1], coupler, end, y);
     c.place_b = dmb_station(coupler, 0, 1.0);
-    a.initial_mask = 1 << DMB_RX;
+    a.initial_mask = DMB_FREE_RX;
     a.initial_speed[DMB_RX] = 1.0;
     (void)note_joint(m, &a);
     (void)note_joint(m, &d);

@@ -48,7 +48,7 @@ static void add_bars(fourbar *m, const shape *f)
         {{0.0, 0.0}, {b[0], b[1]}, 1.0}, {{b[0], b[1]}, {c[0], c[1]}, 2.0}, {{f->feet, 0.0}, {c[0], c[1]}, 1.5}};
     for (int i = 0; i < 3; i++) {
         dmb_body_def body = bar_body(bars + i);
-        if (f->planar) body.free_mask = 1 << DMB_X | 1 << DMB_Z | 1 << DMB_RY;
+        if (f->planar) body.free_mask = DMB_FREE_X | DMB_FREE_Z | DMB_FREE_RY;
         m->bars[i] = add_body(&m->s, &body);
     }
 }
@@ -73,7 +73,7 @@ static void add_joints(fourbar *m, const shape *f, double speed)
         if (f->kinds[i] == DMB_JOINT_UNIVERSAL) turn_universal(&def);
         if (i == 2) def.origin_b[1] = f->off;
         if (i == 0) {
-            def.initial_mask = 1 << DMB_RX;
+            def.initial_mask = DMB_FREE_RX;
             def.initial_position[DMB_RX] = f->angle;
             def.initial_speed[DMB_RX] = speed;
         }

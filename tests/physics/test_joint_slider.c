@@ -42,7 +42,7 @@ static void add_joints(slider_crank *m, const dimensions *d)
 {
     dmb_joint_def pivot = hinge_of("pivot", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(m->crank, -0.5 * d->r));
     dmb_joint_def support = dmb_joint_def_default();
-    pivot.initial_mask = 1 << DMB_RX;
+    pivot.initial_mask = DMB_FREE_RX;
     pivot.initial_position[DMB_RX] = d->angle;
     pivot.initial_speed[DMB_RX] = d->speed;
     m->pivot = add_joint(&m->s, &pivot);

@@ -139,7 +139,7 @@ static void open_lying(rig *s, int32_t friction_law)
     body.mass = 2.0;
     body.contact_diameter = 0.2;
     body.position[2] = -1.9;
-    body.free_mask = DMB_FREE_X | 2 | 4;
+    body.free_mask = DMB_FREE_TRANSLATIONS;
     (void)add_body(s, &body);
     rig_start(s, NULL);
     (void)find_equilibrium(s, NULL);

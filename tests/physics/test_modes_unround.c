@@ -18,7 +18,7 @@ static dmb_id open_disc(rig *s, double along_y, double along_z)
     dmb_joint_def springs = dmb_joint_def_default();
     rig_open(s, 0.0, 0.0, 0.0);
     disc.mass = MASS;
-    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    disc.free_mask = DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX;
     disc.velocity[3] = SPEED;
     const dmb_id body = add_body(s, &disc);
     springs.kind = DMB_JOINT_FREE;

@@ -4,7 +4,7 @@
 
 #include "rig.h"
 
-enum { FREE_TO_MOVE = 7 };
+enum { FREE_TO_MOVE = DMB_FREE_TRANSLATIONS };
 
 /* The points of a path. */
 typedef struct tale {
@@ -163,7 +163,7 @@ static void pinned_column_with_a_joint(void **state)
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
-    def.start_free = 1 << DMB_RZ; /* in the x-y plane, and not free to turn about itself */
+    def.start_free = DMB_FREE_RZ; /* in the x-y plane, and not free to turn about itself */
     beam.string = add_string(&s, &def);
     const dmb_id string = add_pipes(&s, &beam, 1);
     support.kind = DMB_JOINT_POINT_ON_LINE;
@@ -216,7 +216,7 @@ static void truss_snaps_through(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
     def.rotation[1] = -atan2(h, b); /* upwards */
-    def.start_free = 1 << DMB_RY;
+    def.start_free = DMB_FREE_RY;
     bar.string = add_string(&s, &def);
     const dmb_id string = add_pipes(&s, &bar, 1);
     support.kind = DMB_JOINT_POINT_ON_LINE;
@@ -319,13 +319,13 @@ static dmb_path_report follow_frame(uint32_t elements, tale *t)
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
     def.rotation[1] = -0.5 * PI; /* upwards */
-    def.start_free = 1 << DMB_RY;
+    def.start_free = DMB_FREE_RY;
     post.string = add_string(&s, &def);
     (void)add_pipes(&s, &post, 1);
     def.rotation[1] = 0.0;
     def.position[2] = 120.0;
     def.start_free = DMB_FREE_ALL;
-    def.end_free = 1 << DMB_RY;
+    def.end_free = DMB_FREE_RY;
     near.string = far.string = add_string(&s, &def);
     (void)add_pipes(&s, &near, 1);
     (void)add_pipes(&s, &far, 1);

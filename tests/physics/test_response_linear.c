@@ -101,7 +101,7 @@ static void spinning_rotor(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     dmb_body_def disc = dmb_body_def_default();
     disc.mass = m;
-    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    disc.free_mask = DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX;
     disc.velocity[3] = W;
     const dmb_id body = add_body(&s, &disc);
     dmb_joint_def shaft = dmb_joint_def_default();
@@ -228,7 +228,7 @@ static void controlled_mass(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     dmb_body_def def = dmb_body_def_default();
     def.mass = 7.0;
-    def.free_mask = 1 << DMB_X;
+    def.free_mask = DMB_FREE_X;
     const dmb_id body = add_body(&s, &def);
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = DMB_DRIVE_CONTROL;
@@ -492,7 +492,7 @@ static void drive_of_a_part_with_joints(void **state)
     dmb_body_def chuck = dmb_body_def_default();
     dmb_joint_def jaws = dmb_joint_def_default();
     chuck.mass = 40.0;
-    chuck.free_mask = 1 << DMB_RX;
+    chuck.free_mask = DMB_FREE_RX;
     def.follows_hole = 0;
     def.start_free = DMB_FREE_ALL;
     pipe.damping_time = 1e-4;
@@ -534,7 +534,7 @@ static void peaks_and_sums(void **state)
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     dmb_body_def mass = dmb_body_def_default();
-    mass.free_mask = 1 << DMB_X;
+    mass.free_mask = DMB_FREE_X;
     const dmb_id body = add_body(&s, &mass);
     dmb_joint_def spring = dmb_joint_def_default();
     spring.kind = DMB_JOINT_FREE;

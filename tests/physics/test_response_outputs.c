@@ -265,7 +265,7 @@ static dmb_id open_bearing(rig *s, double target, double pull, double frequency,
     pipe.string = add_string(s, &def);
     (void)add_pipes(s, &pipe, 3);
     chuck.mass = 40.0;
-    chuck.free_mask = 1 << DMB_RX;
+    chuck.free_mask = DMB_FREE_RX;
     parts[0] = add_body(s, &chuck);
     bearing.kind = DMB_JOINT_REVOLUTE;
     bearing.place_a = part(parts[0]);

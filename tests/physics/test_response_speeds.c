@@ -46,7 +46,7 @@ static dmb_place open_measured_rotor(rig *s)
     rig_open(s, 0.0, 0.0, 0.0);
     dmb_body_def disc = dmb_body_def_default();
     disc.mass = 50.0;
-    disc.free_mask = 1 << DMB_Y;
+    disc.free_mask = DMB_FREE_Y;
     dmb_joint_def shaft = dmb_joint_def_default();
     shaft.kind = DMB_JOINT_FREE;
     shaft.place_b = dmb_station(add_body(s, &disc), 0, 0.0);
@@ -203,7 +203,7 @@ static int32_t ask(int flags, double eta, double low, double high, dmb_speeds_re
     uint32_t count = 1;
     rig_open(&s, 0.0, 0.0, 0.0);
     disc.mass = 50.0;
-    disc.free_mask = 1 << DMB_Y;
+    disc.free_mask = DMB_FREE_Y;
     shaft.kind = DMB_JOINT_FREE;
     shaft.place_b = dmb_station(add_body(&s, &disc), 0, 0.0);
     shaft.stiffness[1] = 1e6;

@@ -383,7 +383,7 @@ static void oscillator_that_meets_a_stop(void **state)
         rig_open(&s, 0.0, 0.0, 0.0);
         dmb_body_def mass = dmb_body_def_default();
         mass.mass = 2.0;
-        mass.free_mask = 1 << DMB_X;
+        mass.free_mask = DMB_FREE_X;
         const dmb_id body = add_body(&s, &mass);
         dmb_joint_def spring = dmb_joint_def_default();
         spring.kind = DMB_JOINT_FREE;

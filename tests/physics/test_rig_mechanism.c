@@ -146,7 +146,7 @@ static void ring_against_its_quarter(void **state)
         rig_open(&q, 0.0, 0.0, 0.0);
         def.follows_hole = 0;
         def.start_free = DMB_FREE_NONE;
-        def.end_free = 7;
+        def.end_free = DMB_FREE_TRANSLATIONS;
         const dmb_id quarter = add_arc(&q, &def, &pipe);
         add_push(&q, dmb_station(quarter, 0, 1.0), 0.5 * push[k], ground_id);
         (void)rig_start(&q, NULL);

@@ -79,7 +79,7 @@ static drift pushed(double spin, double force, double time, double step)
     drift d;
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id id = add_assembly(&s, 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX, 1.0, velocity, walk);
+    const dmb_id id = add_assembly(&s, DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX, 1.0, velocity, walk);
     load.place = dmb_station(id, 0, 0.0);
     load.force[1] = force;
     must_model(&s, dmb_model_add_load(s.model, &load, NULL));

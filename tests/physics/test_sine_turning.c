@@ -27,7 +27,7 @@ static void open_blade(blade *b, int32_t component, double mean, double shake, d
     dmb_segment terms[2] = {dmb_segment_default(), dmb_segment_default()};
     rig_open(&b->rig, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
-    def.start_free = 1 << component;
+    def.start_free = DMB_FREE_X << component;
     pipe.section_mass = MASS;
     pipe.section_inertia[0] = 2e-3;
     pipe.section_inertia[1] = 1e-3;

@@ -533,7 +533,7 @@ static scene mixed_of(const char *kinds, int32_t start_free)
 static void rigid_pipes_merge(void **state)
 {
     static const char *const to[] = {"RRFR", "FRFR", "RFRFR", "FR", "RRRRFR"};
-    static const int32_t support[] = {DMB_FREE_ALL, DMB_FREE_CYLINDRICAL, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z};
+    static const int32_t support[] = {DMB_FREE_ALL, DMB_FREE_CYLINDRICAL, DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z};
     (void)state;
     for (int k = 0; k < 15; k++) {
         const char *kinds = to[k % 5];

@@ -23,7 +23,7 @@ static dmb_static_report judge(const choice *c)
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     string.follows_hole = 0;
-    string.start_free = 1 << DMB_RX;
+    string.start_free = DMB_FREE_RX;
     string.end_free = c->end_free;
     pipe.section_mass = MASS;
     pipe.section_inertia[0] = 2e-4;

@@ -59,7 +59,7 @@ static void open_blade(blade *b, const blade_choice *c)
     dmb_pipe_def pipe = blade_pipe(c);
     rig_open(&b->rig, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
-    def.start_free = 1 << c->component;
+    def.start_free = DMB_FREE_X << c->component;
     memcpy(def.rotation, c->turn, sizeof def.rotation);
     b->string = pipe.string = add_string(&b->rig, &def);
     add_hub(b, c);

@@ -457,7 +457,7 @@ static void refusals(void **state)
     string.end_free = DMB_FREE_NONE;
     pipe.string = def.string = add_string(&s, &string);
     add_pipes(&s, &pipe, 1);
-    refused(&s, &def, DMB_ERR_VALUE, "end_free = 0 of string 2");
+    refused(&s, &def, DMB_ERR_VALUE, "end_free of string 2");
     string.end_free = DMB_FREE_ALL;
     bit.string = pipe.string = def.string = add_string(&s, &string);
     add_pipes(&s, &pipe, 1);

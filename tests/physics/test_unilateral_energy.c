@@ -69,7 +69,7 @@ static bouncing open_rod(rig *s, int between, double ratio, double radius)
     hinge.stop_high[DMB_RX] = play;
     hinge.stop_stiffness = stiffness;
     hinge.stop_damping = 2.0 * ratio * sqrt(stiffness * reduced);
-    hinge.initial_mask = 1 << DMB_RX;
+    hinge.initial_mask = DMB_FREE_RX;
     hinge.initial_speed[DMB_RX] = speed;
     (void)add_joint(s, &hinge);
     (void)mechanism_start(s, &options);

@@ -61,7 +61,7 @@ static void open_ball(rig *scene, const law *of, double radius, int spins)
 {
     const dmb_sim_options options = options_of(radius);
     dmb_wall_def wall = wall_of(of);
-    dmb_body_def ball = scene_ball(mass, 0.0, 1 << DMB_Z);
+    dmb_body_def ball = scene_ball(mass, 0.0, DMB_FREE_Z);
     ball.position[2] = 0.0;
     ball.velocity[2] = -speed;
     if (spins) {
@@ -214,7 +214,7 @@ static void open_pipes(rig *scene, const law *of, double radius)
     wall.damping = 2.0 * of->ratio * sqrt(wall.stiffness * 10.0);
     scene_open(scene, gravity);
     add_wall(scene, &wall);
-    string.start_free = DMB_FREE_X | DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX | DMB_FREE_RY | DMB_FREE_RZ;
+    string.start_free = DMB_FREE_ALL;
     must_model(scene, dmb_model_add_string(scene->model, &string, &id));
     pipe.string = id;
     pipe.length = 1.0;

@@ -48,7 +48,7 @@ dmb_id open_rotor(rig *s, double speed)
     rig_open(s, 0.0, 0.0, 0.0);
     disc.mass = 50.0;
     disc.centre[1] = 1e-4;
-    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    disc.free_mask = DMB_FREE_Y | DMB_FREE_Z | DMB_FREE_RX;
     disc.velocity[3] = speed;
     const dmb_id body = add_body(s, &disc);
     shaft.kind = DMB_JOINT_FREE;

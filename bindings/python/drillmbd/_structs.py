@@ -364,7 +364,7 @@ class StringDef(Sized):
         "position": ("m", "rig end, world frame, where follows_hole is 0 or there is no hole; shape (3)"),
         "rotation": ("rad", "rotation vector of the rig end's frame, as above; shape (3)"),
         "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0; shape (6)"),
-        "start_free": ("-", "mask of free components at the rig end; default FREE_CYLINDRICAL"),
+        "start_free": ("-", "set of free components at the rig end; default FREE_CYLINDRICAL"),
         "end_free": ("-", "the same at the far end; default FREE_ALL"),
         "name": ("", "for messages and look-up, ends with 0; default \"\""),
     }
@@ -3154,7 +3154,7 @@ class JointDef(Sized):
         "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
         "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
         "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
-        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
+        "initial_mask": ("-", "set of coordinates that are given below, FREE_X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default FREE_NONE"),
         "initial_position": ("m, rad", "at time 0, shape (6)"),
         "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
     }

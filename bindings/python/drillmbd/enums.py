@@ -208,49 +208,48 @@ RZ = Component.RZ
 class Free(IntFlag):
     """Bits DMB_FREE_... of the headers.
 
-    CYLINDRICAL: X, RX
-    CYLINDRICAL_Z: Y, RY; Z, RZ
-    PLANAR_Z: normal x, y, z: Y, Z, RX ...
-    SCHOENFLIES_Z: X, Y, Z with RX; RY; RZ
+    CYLINDRICAL: along and about one axis: X, RX; _Y: Y, RY; _Z: Z, RZ
+    PLANAR: normal x: Y, Z, RX; _Y: X, Z, RY; _Z: X, Y, RZ
+    SCHOENFLIES: X, Y, Z with RX; _Y: with RY; _Z: with RZ
     """
-    NONE = 0
-    X = 1
-    RX = 8
-    RZ = 32
-    CYLINDRICAL = 9
-    SPHERICAL = 56
-    ALL = 63
-    Y = 2
-    Z = 4
-    RY = 16
-    XY = 3
-    XZ = 5
-    YZ = 6
-    TRANSLATIONS = 7
-    CYLINDRICAL_Y = 18
-    CYLINDRICAL_Z = 36
-    PLANAR = 14
-    PLANAR_Y = 21
-    PLANAR_Z = 35
-    SCHOENFLIES = 15
-    SCHOENFLIES_Y = 23
-    SCHOENFLIES_Z = 39
+    X = 256
+    Y = 512
+    Z = 1024
+    RX = 2048
+    RY = 4096
+    RZ = 8192
+    NONE = 16384
+    XY = 768
+    XZ = 1280
+    YZ = 1536
+    TRANSLATIONS = 1792
+    SPHERICAL = 14336
+    ALL = 16128
+    CYLINDRICAL = 2304
+    CYLINDRICAL_Y = 4608
+    CYLINDRICAL_Z = 9216
+    PLANAR = 3584
+    PLANAR_Y = 5376
+    PLANAR_Z = 8960
+    SCHOENFLIES = 3840
+    SCHOENFLIES_Y = 5888
+    SCHOENFLIES_Z = 9984
 
 
-FREE_NONE = Free.NONE
 FREE_X = Free.X
-FREE_RX = Free.RX
-FREE_RZ = Free.RZ
-FREE_CYLINDRICAL = Free.CYLINDRICAL
-FREE_SPHERICAL = Free.SPHERICAL
-FREE_ALL = Free.ALL
 FREE_Y = Free.Y
 FREE_Z = Free.Z
+FREE_RX = Free.RX
 FREE_RY = Free.RY
+FREE_RZ = Free.RZ
+FREE_NONE = Free.NONE
 FREE_XY = Free.XY
 FREE_XZ = Free.XZ
 FREE_YZ = Free.YZ
 FREE_TRANSLATIONS = Free.TRANSLATIONS
+FREE_SPHERICAL = Free.SPHERICAL
+FREE_ALL = Free.ALL
+FREE_CYLINDRICAL = Free.CYLINDRICAL
 FREE_CYLINDRICAL_Y = Free.CYLINDRICAL_Y
 FREE_CYLINDRICAL_Z = Free.CYLINDRICAL_Z
 FREE_PLANAR = Free.PLANAR

@@ -11,7 +11,7 @@ static void open_scene(rig *s, double breakpoint)
     dmb_body_def body = dmb_body_def_default();
     dmb_segment term = dmb_segment_default();
     rig_open(s, 0.0, 0.0, 0.0);
-    body.free_mask = 1 << DMB_X;
+    body.free_mask = DMB_FREE_X;
     const dmb_id id = add_body(s, &body);
     term.kind = DMB_SEGMENT_TABLE;
     term.table_time = time;

@@ -325,7 +325,7 @@ static void masks(void **state)
         dmb_string_def string = dmb_string_def_default();
         bool expected = false;
         for (size_t i = 0; i < sizeof closed / sizeof closed[0]; ++i) expected = expected || closed[i] == mask;
-        string.end_free = mask;
+        string.end_free = DMB_FREE_NONE | DMB_FREE_X * mask;
         assert_int_equal(dmb_model_add_string(model, &string, NULL), expected ? DMB_OK : DMB_ERR_UNSUPPORTED);
         found += expected;
         dmb_model_destroy(&model);

@@ -166,7 +166,7 @@ static void joints(void **state)
     assert_near(j.friction_speed, 1e-3, 0.0);
     assert_near(j.stop_stiffness, 1e6, 0.0);
     assert_near(j.stop_damping, 0.0, 0.0);
-    assert_int_equal(j.initial_mask, 0);
+    assert_int_equal(j.initial_mask, DMB_FREE_NONE);
     for (int k = 0; k < 6; ++k) {
         assert_near(j.stiffness[k] + j.damping[k] + j.rest[k] + j.friction[k], 0.0, 0.0);
         assert_near(j.stop_low[k], -1e30, 0.0);

@@ -145,7 +145,7 @@ static void laws(void **state)
     joint.rest[DMB_RX] = 0.1;
     joint.stop_high[DMB_Z] = 0.2;
     joint.friction[DMB_RZ] = 3.0;
-    joint.initial_mask = 1 << DMB_X;
+    joint.initial_mask = DMB_FREE_X;
     joint.initial_position[DMB_X] = 1.5;
     joint.initial_speed[DMB_X] = -2.5;
     memcpy(joint.name, "spring", 7);

@@ -445,7 +445,7 @@ static void free_body_masks_and_drives(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     const dmb_scene *scene;
     (void)state;
-    body.free_mask = 1 << DMB_X | 1 << DMB_Z | 1 << DMB_RY;
+    body.free_mask = DMB_FREE_X | DMB_FREE_Z | DMB_FREE_RY;
     body.velocity[4] = 2.5;
     assert_ok(dmb_model_add_body(model, &body, NULL));
     assert_ok(dmb_model_add_body(model, &body, &drive.part));

@@ -73,7 +73,7 @@ static void supportd_rig_end_has_none(void **state)
         int32_t mask;
         uint32_t sites;
     } cases[] = {
-        {DMB_FREE_NONE, 3}, {DMB_FREE_CYLINDRICAL, 3}, {DMB_FREE_SPHERICAL, 3}, {1 << DMB_Z, 4}, {DMB_FREE_ALL, 4}};
+        {DMB_FREE_NONE, 3}, {DMB_FREE_CYLINDRICAL, 3}, {DMB_FREE_SPHERICAL, 3}, {DMB_FREE_Z, 4}, {DMB_FREE_ALL, 4}};
     (void)state;
     for (size_t i = 0; i < 5; ++i) {
         dmb_model *model = new_model();

@@ -109,7 +109,7 @@ static void four_bars(machine *m)
 {
     uint32_t crank = add_machine_bar(m, 0.0, 0.0, 0.0, 1.0);
     dmb_joint_def foot = hinge_of("foot", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), on(m, crank, -0.5));
-    foot.initial_mask = 1 << DMB_RX;
+    foot.initial_mask = DMB_FREE_RX;
     foot.initial_position[DMB_RX] = 0.5 * PI;
     foot.initial_speed[DMB_RX] = -3.0;
     m->joints[m->joint_count++] = add_joint(&m->s, &foot);
@@ -163,7 +163,7 @@ static void mixture(machine *m)
     must_model(&m->s, dmb_model_add_drive(m->s.model, &drive, NULL));
     const bar slider = {{14.0, 2.0}, {15.0, 2.0}, 3.0};
     dmb_body_def body = bar_body(&slider);
-    body.free_mask = 1 << DMB_X | 1 << DMB_Z | 1 << DMB_RY;
+    body.free_mask = DMB_FREE_X | DMB_FREE_Z | DMB_FREE_RY;
     m->bars[m->bar_count++] = add_body(&m->s, &body);
     connect(m, DMB_JOINT_DISTANCE, on(m, 14, 0.0), on(m, m->bar_count - 1, 0.0));
 }

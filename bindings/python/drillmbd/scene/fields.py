@@ -100,7 +100,7 @@ def word_of(member: Any) -> str:
 def words_of(enum: Any) -> dict[str, int]:
     """The words for an enumeration, with their values."""
     if enum is enums.Free:
-        return {word_of(member): 1 << member.value for member in enums.Component}
+        return {word_of(member): int(enums.Free[member.name]) for member in enums.Component}
     return {word_of(member): int(member.value) for member in enum.__members__.values() if word_of(member) != "count"}
 
 
@@ -165,7 +165,8 @@ def _single(field: Field, value: Any, unit: str) -> Any:
             listed = len(words) <= MOST_WORDS and not near.startswith("; possible")
             raise ValueProblem("must be one of the words" + (f" {', '.join(words)}" if listed else " of this key") + near)
         return words[value]
-    return _flags(value, words)
+    mask = _flags(value, words)
+    return int(enums.Free.NONE) if field.enum is enums.Free and not mask else mask
 
 
 def _flags(value: Any, words: dict[str, int]) -> int:

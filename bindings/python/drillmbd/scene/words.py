@@ -56,7 +56,7 @@ def _bears_thrust(calls: dict[str, list[tuple[Any, ...]]]) -> bool:
     if any(one.get("component", enums.X) == enums.X for one, in calls.get("add_drive", [])):
         return True
     free = [DEFINITIONS["string"](**one) for one, in calls.get("add_string", [])]
-    return any(not one.start_free & 1 << enums.X or not one.end_free & 1 << enums.X for one in free)
+    return any(not one.start_free & enums.FREE_X or not one.end_free & enums.FREE_X for one in free)
 
 
 def _calls(scene: Scene) -> dict[str, list[tuple[Any, ...]]]:

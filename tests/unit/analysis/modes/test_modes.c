@@ -95,9 +95,10 @@ static void modes_are_orthonormal(void **state)
 static void sturm_counts_agree(void **state)
 {
     (void)state;
-    for (int32_t free_mask = DMB_FREE_NONE; free_mask <= DMB_FREE_CYLINDRICAL; free_mask += DMB_FREE_CYLINDRICAL) {
+    static const int32_t masks[] = {DMB_FREE_NONE, DMB_FREE_CYLINDRICAL};
+    for (size_t i = 0; i < 2; i++) {
         rig s;
-        open_string(&s, free_mask);
+        open_string(&s, masks[i]);
         dmb_linear *linear = linearise(s.sim);
         dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 60);
         for (uint32_t k = 5; k < 59; k++) {
