@@ -1,5 +1,6 @@
-/* The step's kernels over runs of equal parts. Every build holds them in several widths: how many elements or nodes
- * side by side. All widths give the same bits (math/real.h); the compile step takes the widest the processor has. */
+/* The step's kernels over runs of equal parts. Every build contains them in several widths, the number of elements or
+ * nodes processed in lanes. All widths give the same bits (math/real.h); the compile step selects the widest one
+ * supported by the processor. */
 #ifndef DMB_KERNEL_KERNELS_H
 #define DMB_KERNEL_KERNELS_H
 
@@ -12,15 +13,15 @@
 #include "force/normal_law.h"
 #include "math/block_tridiagonal.h"
 
-/* The part of a node that comes from the last element of a run, where the next element belongs to another run that is
- * made at the same time. */
+/* Contribution to a node from the last element of a run, if the next element belongs to another run computed
+ * concurrently. */
 typedef struct dmb_seam {
     double residual[6], scale[6], stiffness[36], inertia[36];
 } dmb_seam;
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them six-DOF. Pointers are to the
  * run's first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written
- * between them, where elements are the first to add something. */
+ * between them, because elements are the first terms there. */
 typedef struct dmb_beam_args {
     uint32_t count;  /* elements */
     uint32_t failed; /* out: the first element that turned too far */
@@ -33,9 +34,9 @@ typedef struct dmb_beam_args {
     const double *increment;               /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger;
-    int32_t apart;            /* 1: nothing is added to the first node yet, it is written */
+    int32_t apart;            /* 1: the first node has no contributions yet and is written */
     int32_t damped, arms;     /* 1: some element of the scene has a damping time, rigid arms */
-    int32_t curved;           /* 1: all elements of the run have the mass of bent ones */
+    int32_t curved;           /* 1: all elements of the run have the mass of curved elements */
     const double *gravity;    /* [m/s2] times the load factor, shape (3); NULL: none acts. Read if curved. */
     double *residual, *scale; /* shape (count + 1, 6) */
     double *strain;           /* written, shape (count, 6); NULL: it is not wanted */
@@ -75,7 +76,7 @@ typedef struct dmb_node_args {
  * block. */
 typedef struct dmb_node_force_args {
     uint32_t count;                     /* nodes */
-    uint32_t first;                     /* number of the first one, by which rigid_masses name theirs */
+    uint32_t first;                     /* index of the first node, for the indices in rigid_masses */
     const dmb_rigid_mass *rigid_masses; /* in the order of their nodes, none before the run; those behind it are left */
     uint32_t rigid_mass_count;          /* 0 in statics */
     int32_t dynamic, tangent;           /* as in dmb_evaluation, as are: */
@@ -98,16 +99,16 @@ typedef struct dmb_site_fields {
     int32_t *sticks;
 } dmb_site_fields;
 
-/* Sites whose touch and release a step does not resolve: they bounce, or, met slower than the step falls under its
- * weight, stay where they are: what the wall has stored is lost when they open. */
+/* Contact points whose touch and release a step does not resolve: COARSE ones bounce; PLASTIC ones, met slower than the
+ * step's free fall, stay in contact: the energy stored in the wall is lost when they open. */
 enum { DMB_SITE_COARSE = 1, DMB_SITE_PLASTIC = 2 };
 
-/* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
+/* Contact points at the wall. Pointers are to the scene's first contact point, node, row or block. */
 typedef struct dmb_wall_args {
     uint32_t count;   /* sites */
-    int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
+    int32_t bristles; /* 1: the friction law has bristles; otherwise their fields are empty */
     int32_t touches;  /* 1: the damping of the wall jumps at touch; else the fields of touch are empty */
-    int32_t bounces;  /* 1: rings have mean forces in the step: those with a mode, and coarse ones that meet the wall */
+    int32_t bounces; /* 1: contact points have mean forces in the step: those with a mode, and coarse ones that touch */
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;
@@ -117,16 +118,17 @@ typedef struct dmb_wall_args {
     const double *displacement, *quaternion, *velocity; /* of the trial */
     const double *now_quaternion, *now_velocity;        /* of the last accepted instant, and: */
     dmb_site_fields now;                                /* read */
-    const double *site_history; /* of rings that the history of the step was changed for; else 0. > 0 [m/s]: it opens in
-                                   the step and left the wall so fast; < 0: less the mean force [N] in the history */
-    const uint8_t *mode, *coarse; /* read where rings have mean forces */
+    const double
+        *site_history; /* of contact points with a changed history of the step; else 0. > 0 [m/s]: it opens in the step
+                          and leaves the wall at that speed; < 0: less the mean force [N] in the history */
+    const uint8_t *mode, *coarse; /* read if contact points have mean forces */
     dmb_site_fields trial;        /* written */
     uint8_t *presses;             /* written there: 1: with a force > 0 */
     double slip[2];               /* [m/s, rad/s] in statics */
     double softer;                /* [-] stiffness of sections is divided by it */
-    /* [m2/N] depth that rings go back by a mean force of 1 N/m, in the first evaluation of a step; else 0 */
+    /* [m2/N] penetration reduced by a mean force of 1 N/m, in the first evaluation of a step; else 0 */
     double yield;
-    double slows;                             /* [m2/(N s)] speed that they lose by it there */
+    double slows;                             /* [m2/(N s)] speed reduced by it there */
     double step, velocity_factor, own_factor; /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent;
     double *residual, *scale;                     /* added to */
@@ -147,7 +149,7 @@ static inline void dmb_site_fields_skip(const dmb_wall_args *args, uint32_t coun
     fields->bristle += 2 * (size_t)count;
     fields->sticks += count;
 }
-/* The fields of sites go on to the one that stands so many behind the first. */
+/* Advances the fields of contact points by that many. */
 static inline void dmb_wall_args_skip(dmb_wall_args *args, uint32_t count)
 {
     args->site_history += count;
@@ -158,7 +160,7 @@ static inline void dmb_wall_args_skip(dmb_wall_args *args, uint32_t count)
     dmb_site_fields_skip(args, count, &args->trial);
 }
 
-/* Turns of six-DOF nodes about their own x axes. */
+/* Rotation angles of six-DOF nodes about their own x axes. */
 typedef struct dmb_turn_args {
     uint32_t count;
     uint32_t reserved;
@@ -218,7 +220,7 @@ typedef struct dmb_matrix_args {
     double *stiffness;       /* K in, the block out; shape (count, 36) */
 } dmb_matrix_args;
 
-/* Frequencies of a response that are solved side by side, in groups of this size on every processor. */
+/* Number of frequencies of a response solved together, the same on every processor. */
 #define DMB_FREQUENCIES 8
 
 /* Blocks of M, C and K at the same offsets. */
@@ -230,7 +232,7 @@ typedef struct dmb_response_blocks {
 typedef struct dmb_response_job {
     uint32_t first, count; /* blocks of the chain, count >= 1 */
     uint32_t used;         /* frequencies, at most DMB_FREQUENCIES */
-    uint32_t columns;      /* right-hand sides of each frequency, and those that there is room for: */
+    uint32_t columns;      /* right-hand sides of each frequency, and their capacity: */
     uint32_t stride;
     uint32_t bad; /* out: one bit for each frequency at which a pivot is 0 or of rounding size: no x there */
     const dmb_block_layout *layout;
@@ -242,7 +244,7 @@ typedef struct dmb_response_job {
     double *work;  /* shape (numbers in the chain's `upper`, 2, DMB_FREQUENCIES) */
 } dmb_response_job;
 
-/* Sums of squares that are made side by side: of four six-DOF nodes, of twelve axial-torsional nodes. */
+/* Sums of squares computed in lanes: of four six-DOF nodes, of twelve axial-torsional nodes. */
 #define DMB_SQUARES 24
 
 typedef struct dmb_kernels {
@@ -274,7 +276,7 @@ typedef struct dmb_kernels {
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                   double *rhs);
     /* The same in parts: 0 from the first block, 1 from the last, both up to the neighbours of the middle one, then 2
-     * these and the middle; a solution goes away from there in the parts 0 and 1 again. */
+     * the neighbours and the middle; back substitution proceeds from there in parts 0 and 1. */
     int64_t (*factor_part)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                            int32_t part);
     void (*towards_part)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
@@ -283,14 +285,14 @@ typedef struct dmb_kernels {
                       int32_t part, double *rhs);
     /* Forces and, if asked for, tangent blocks. */
     void (*node_forces)(dmb_node_force_args *args);
-    /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
+    /* Forces of touching contact points and, if requested, tangent blocks; contact fields of the trial. */
     void (*walls)(dmb_wall_args *args);
     void (*responses)(dmb_response_job *args);
 } dmb_kernels;
 
-/* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */
+/* The kernels of 1, 2, 4 or 8 lanes; NULL if the build or the processor does not support that width. */
 const dmb_kernels *dmb_kernels_of(uint32_t lanes);
-/* The widest there are. */
+/* The widest kernels supported. */
 const dmb_kernels *dmb_kernels_widest(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Making and unmaking a model, its ids, its message. */
+/* Creation and destruction of a model, its ids and message. */
 #include "model/model.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include "model/field_check.h"
 #include "model/scene.h"
 
-/* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
+/* Stamps are unique within a process (up to 2^32 models), so that an id of another model is recognised. */
 uint32_t dmb_new_stamp(void)
 {
     static atomic_uint last;
@@ -86,13 +86,13 @@ void dmb_model_hold(dmb_model *model)
 void dmb_model_release(dmb_model *model)
 {
     const dmb_allocator allocator = model->allocator;
-    /* whoever lets go last must see what the others wrote before they let go */
+    /* the last holder must see the writes of the others */
     if (atomic_fetch_sub_explicit(&model->holders, 1u, memory_order_acq_rel) != 1u) return;
     release_parts(model);
     dmb_release(&allocator, model, sizeof *model);
 }
 
-/* The caller has one hold, however many copies of the handle there are. From then on the model is no handle for
+/* Releases the caller's reference, of which there is one for all copies of the handle. The model is then no handle for
  * callers, though sims may keep it alive. */
 static void give_up(dmb_model *model)
 {

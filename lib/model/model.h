@@ -1,4 +1,4 @@
-/* The user's description, as it was given; dmb_model_compile turns it into a dmb_scene. */
+/* The user's description as given; dmb_model_compile turns it into a dmb_scene. */
 #ifndef DMB_MODEL_MODEL_H
 #define DMB_MODEL_MODEL_H
 
@@ -15,7 +15,7 @@
 
 /* ---- Parts that were refused ------------------------------------------------------------------------------------- */
 
-/* Of the first ones all is known; of more only the number. */
+/* The first refused parts are stored; of further ones only the number. */
 enum { DMB_REFUSED_KEPT = 8, DMB_REFUSED_BYTES = 768 };
 
 typedef struct dmb_refusal {
@@ -33,7 +33,7 @@ typedef struct dmb_refusals {
     dmb_refusal first[DMB_REFUSED_KEPT];
 } dmb_refusals;
 
-/* One call that adds a part: its kind, what it was given, how it ended. */
+/* One call that adds a part: kind, definition, result. */
 typedef struct dmb_described {
     const char *part;
     const void *definition; /* NULL with size 0: one such part a model */
@@ -43,23 +43,23 @@ typedef struct dmb_described {
 
 void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int32_t status,
                           const dmb_message *message);
-/* The part was added: the oldest refusal of the same part is forgotten. It is the same part if both definitions have
- * the same name; without names, if they differ in no more than one field. Of a part that a model has once (wall,
- * environment) all refusals are forgotten. */
+/* A part was added: removes the oldest refusal of the same part. It is the same part if both definitions have the same
+ * name; without names, if they differ in no more than one field. For parts that a model has once (wall, environment)
+ * all refusals are removed. */
 void dmb_refused_added(dmb_refusals *refused, const dmb_described *given);
 /* DMB_OK, or the status and the message of the oldest refusal. */
 int32_t dmb_refused_check(const dmb_refusals *refused, dmb_message *message);
 
 /* ---- The description --------------------------------------------------------------------------------------------- */
 
-/* A string and how far it has been built. */
+/* A string and its description so far. */
 typedef struct dmb_string_plan {
     dmb_string_def def;
-    uint32_t pipes;     /* that its runs have so far */
+    uint32_t pipes;     /* number of pipes of its runs so far */
     uint32_t continued; /* 1 + number of the string that continues it after a sub; 0: none */
 } dmb_string_plan;
 
-/* DMB_OK where nothing continues the string yet, DMB_ERR_ORDER with a message about `part` where a sub does. */
+/* DMB_OK if no string continues this one, DMB_ERR_ORDER with a message about `part` if a sub does. */
 int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string);
 
 /* One call of dmb_model_add_pipes. */
@@ -86,7 +86,7 @@ dmb_coupled_coordinate dmb_coupled_coordinate_of(const dmb_coupling_def *def, ui
 
 /* A spring and its law; the table is the model's own copy. */
 typedef struct dmb_spring_plan {
-    dmb_spring_def def; /* its pointers count for nothing */
+    dmb_spring_def def; /* its pointers are not used */
     dmb_spring_law law;
     dmb_spring_point *points; /* shape (law.count); NULL without a table */
 } dmb_spring_plan;
@@ -99,65 +99,65 @@ typedef struct dmb_list {
 
 struct dmb_model {
     uint32_t magic;
-    uint32_t stamp;      /* generation of the ids it gives out, never 0 */
+    uint32_t stamp;      /* generation of its ids, never 0 */
     atomic_uint holders; /* the caller and every live sim */
-    atomic_uint owned;   /* 1 until the caller destroys it: a copied handle gives nothing up a second time */
-    uint32_t busy;       /* 1 while a call describes or compiles it */
+    atomic_uint owned;   /* 1 until the caller destroys it: later calls with a copied handle have no effect */
+    uint32_t busy;       /* 1 during a call that describes or compiles it */
     dmb_allocator allocator;
     dmb_log_fn log;
     void *log_context;
     dmb_error_handler on_error;
     dmb_message message;
     dmb_environment_def environment;
-    dmb_wall_def wall;            /* survey points to the model's own copy */
-    uint32_t wall_count;          /* 0 or 1 */
-    dmb_list sections;            /* dmb_hole_section, in the order of their depths */
-    dmb_list time_functions;      /* dmb_time_function, segments and tables are the model's own copies */
-    dmb_list names;               /* dmb_time_function_name, of time functions that were given one */
-    dmb_list strings;             /* dmb_string_plan */
-    dmb_list runs;                /* dmb_pipe_run, in the order they were added */
-    dmb_list bodies;              /* dmb_body_def */
-    dmb_list bits;                /* dmb_bit_def */
-    dmb_list drives;              /* dmb_drive_def */
-    dmb_list loads;               /* dmb_load_def */
-    dmb_list joints;              /* dmb_joint_def */
-    dmb_list couplings;           /* dmb_coupling_def */
-    dmb_list constraints;         /* dmb_constraint_def */
-    dmb_list inputs;              /* dmb_input_def */
-    dmb_list springs;             /* dmb_spring_plan */
-    dmb_list events;              /* dmb_event_def */
-    dmb_list forces;              /* dmb_force_def */
-    dmb_list stuck;               /* dmb_stuck_def */
-    dmb_list rings;               /* dmb_stabiliser_def */
-    dmb_refusals refused;         /* parts that were refused and not added since */
-    dmb_scene *scene;             /* NULL until compiled, then never changed */
-    uint32_t sparse_nodes;        /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
-    uint32_t placed_without_hole; /* 1: what is behind a string that follows the hole was placed without one */
+    dmb_wall_def wall;       /* survey points to the model's own copy */
+    uint32_t wall_count;     /* 0 or 1 */
+    dmb_list sections;       /* dmb_hole_section, in the order of their depths */
+    dmb_list time_functions; /* dmb_time_function, segments and tables are the model's own copies */
+    dmb_list names;          /* dmb_time_function_name, of named time functions */
+    dmb_list strings;        /* dmb_string_plan */
+    dmb_list runs;           /* dmb_pipe_run, in the order they were added */
+    dmb_list bodies;         /* dmb_body_def */
+    dmb_list bits;           /* dmb_bit_def */
+    dmb_list drives;         /* dmb_drive_def */
+    dmb_list loads;          /* dmb_load_def */
+    dmb_list joints;         /* dmb_joint_def */
+    dmb_list couplings;      /* dmb_coupling_def */
+    dmb_list constraints;    /* dmb_constraint_def */
+    dmb_list inputs;         /* dmb_input_def */
+    dmb_list springs;        /* dmb_spring_plan */
+    dmb_list events;         /* dmb_event_def */
+    dmb_list forces;         /* dmb_force_def */
+    dmb_list stuck;          /* dmb_stuck_def */
+    dmb_list rings;          /* dmb_stabiliser_def */
+    dmb_refusals refused;    /* refused parts that were not added later */
+    dmb_scene *scene;        /* NULL until compiled, then never changed */
+    uint32_t sparse_nodes;   /* smallest number of nodes of a sparse component: DMB_SPARSE_NODES, except in tests */
+    uint32_t placed_without_hole; /* 1: parts behind a string that follows the hole were placed without a hole */
 };
 
-/* In an id's index: kind in the bits from here on. */
+/* In the index of an id: first bit of the kind. */
 enum { DMB_KIND_SHIFT = 24 };
-/* Parts of a kind described so far. */
+/* Number of parts of a kind described so far. */
 uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind);
-/* The parts of an id, or DMB_NONE when it does not name a part of that kind of this model. */
+/* The parts of an id, or DMB_NONE if it is not a part of that kind of this model. */
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind);
-/* A sim takes hold of a compiled model, and lets go. */
+/* A sim adds, and releases, a reference to a compiled model. */
 void dmb_model_hold(dmb_model *model);
 void dmb_model_release(dmb_model *model);
-/* The message of a call that a callback of another call of the same model makes. */
+/* Message of a call made by a callback of another call on the same model. */
 void dmb_model_refuse_re_entry(dmb_model *model);
 
-/* The part that all dmb_model_add_ functions share: refuse wrong objects, read the caller's struct, append, give out an
- * id, tell the log. */
+/* Common steps of all dmb_model_add_ functions: check the objects, read the caller's struct, append, create an id,
+ * report to the log. */
 
 /* DMB_OK for a model that may still be described and a definition that is there; the model is busy then until
  * dmb_describe_close. Errors: DMB_ERR_NULL, _HANDLE; _ORDER for a busy model, and for a compiled one, whose message
  * stays because other threads may be reading it. */
 int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def);
-/* Ends a call: a refusal without a message gets one, `part` before the text of the status, and the log is told. */
+/* Ends a call: a failure without a message gets one, `part` before the text of the status, and is reported to the log.
+ */
 int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status);
-/* Ends a call that adds a part: the same, and a refusal is remembered, or forgotten where the part was added after
- * all. */
+/* Ends a call that adds a part: the same, and a refusal is stored, or removed if the part was added. */
 int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t status);
 /* Of a kind with one definition a part; the size is that of the whole struct. */
 static inline int32_t dmb_describe_end(dmb_model *model, const char *part, const void *definition, size_t size,
@@ -177,15 +177,15 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index);
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
                             dmb_id *id);
 
-/* Public calls that fail and leave the model as it is: threads share a compiled model, which never changes, so each has
+/* Failing public calls that do not change the model: threads share a compiled model, which never changes, so each has
  * the failure of its own last call. */
 
-/* A number of its own: of a model for its ids, of a sim for its calls. Never 0. */
+/* A unique number: of a model for its ids, of a sim for its calls. Never 0. */
 uint32_t dmb_new_stamp(void);
 dmb_failed_object dmb_failed_model(const dmb_model *model);
-/* A call fails, with that text, or NULL for that of the status; the model may be none. Returns status. */
+/* Failure of a call with that text, or NULL for that of the status; the model may be NULL. Returns status. */
 int32_t dmb_model_fail(const dmb_model *model, int32_t status, const char *call, const char *text);
-/* The same for a call that asks; passes on what is no failure. */
+/* The same for a query; a status that is no failure is returned unchanged. */
 static inline int32_t dmb_model_told(const dmb_model *model, const char *call, int32_t status)
 {
     return status >= 0 ? status : dmb_model_fail(model, status, call, NULL);

@@ -1,4 +1,4 @@
-/* Parts of a model: ids, lists that grow, the beginning and the end of each description. */
+/* Parts of a model: ids, lists that grow, start and end of each description. */
 #include "model/model.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 
 void dmb_model_refuse_re_entry(dmb_model *model)
 {
-    if (model->message.text[0] != '\0') return; /* what the call under way says */
+    if (model->message.text[0] != '\0') return; /* message of the present call */
     dmb_message_set(&model->message, "model: in a call of its own, whose allocator or log function may not change it; "
                                      "do so when that call has returned");
 }
@@ -125,7 +125,7 @@ int32_t dmb_model_clear_refused(dmb_model *model)
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_fail(model, DMB_ERR_HANDLE, "model", NULL);
     if (model->scene != NULL) return refuse_compiled(model, "model");
     if (model->busy) return dmb_model_fail(model, DMB_ERR_ORDER, "model", model->message.text);
-    model->refused.kept = model->refused.further = 0; /* the message stays: the refusal is why this is called */
+    model->refused.kept = model->refused.further = 0; /* keeps the message: the refusal caused this call */
     return DMB_OK;
 }
 

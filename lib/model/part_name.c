@@ -1,4 +1,4 @@
-/* Names of parts: where each kind keeps them, what they may be, how messages tell them. */
+/* Names of parts: their storage by kind, permitted names, and their use in messages. */
 #include "model/model.h"
 
 #include <string.h>

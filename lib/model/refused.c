@@ -1,5 +1,5 @@
-/* Parts that were refused. A caller who overlooks a refusal would compile another scene than the one described, so the
- * model remembers each until it is added after all or the caller lets it go. */
+/* Refused parts. A caller who overlooks a refusal would compile another scene than the one described, so the model
+ * stores each refusal until the part is added or the caller discards it. */
 #include "model/model.h"
 
 #include <stdbool.h>
@@ -95,12 +95,12 @@ static const wide_field wide_fields[] = {
     FIELD("event", dmb_event_def, output),
 };
 
-/* A part of each kind fits; what does not would only be compared in its beginning. */
+/* The largest definition fits; of a larger one only the beginning would be compared. */
 typedef char joints_fit[sizeof(dmb_joint_def) <= DMB_REFUSED_BYTES ? 1 : -1];
 typedef char constraints_fit[sizeof(dmb_constraint_def) <= DMB_REFUSED_BYTES ? 1 : -1];
 typedef char pipes_fit[sizeof(dmb_pipe_def) <= DMB_REFUSED_BYTES ? 1 : -1];
 
-/* The field of a definition that begins at or before `offset` and goes beyond it. */
+/* The field of a definition that starts at or before `offset` and extends beyond it. */
 static wide_field field_at(const char *part, size_t offset)
 {
     wide_field field = {part, offset, offset + 8 - offset % 8, 0};
@@ -125,7 +125,7 @@ static const wide_field *name_of(const char *part)
     return NULL;
 }
 
-/* Two definitions of one size: by their names, or field by field where one has none. */
+/* Compares two definitions of one size: by their names, or field by field if one has none. */
 static bool is_same_part(const dmb_refusal *refusal, const dmb_described *given)
 {
     const unsigned char *a = refusal->definition, *b = given->definition;
@@ -161,7 +161,7 @@ void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int
     if (refusal->size > 0) memcpy(refusal->definition, given->definition, refusal->size);
 }
 
-/* A model has one such part: all refusals of its kind are of it. */
+/* Removes all refusals of a kind that a model has once. */
 static void forget_kind(dmb_refusals *refused, const dmb_described *given)
 {
     uint32_t kept = 0;

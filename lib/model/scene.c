@@ -15,7 +15,8 @@ static void add_pull(dmb_scene *scene, uint32_t node, double pull, double lever)
     scene->flow_node[2 * (size_t)node + 1] += pull * lever;
 }
 
-/* Of an element as of a uniform load on the cubic shape: halves with the moments +- w L^2/12, w L/2 times L/6. */
+/* Forces of mud on elements as a uniform load on the cubic shape: halves with the moments +- w L^2/12, w L/2 times L/6.
+ */
 void dmb_scene_fill_pulls(dmb_scene *scene)
 {
     memset(scene->flow_element, 0, scene->element_count * sizeof(double));
@@ -64,7 +65,7 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
            fabs(x[2]) <= same_point;
 }
 
-/* Name of the support or joint that holds the ring: "its support", a joint by name, or NULL. */
+/* Name of the support or joint that constrains the contact point: "its support", a joint by name, or NULL. */
 static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_message *text)
 {
     if (body->supported_ring) return "the support (free_mask; start_free or end_free of its string)";
@@ -135,7 +136,7 @@ static int fits(const dmb_scene *scene)
     return 1;
 }
 
-/* The struct and what differs from the scene; all else is the scene's. */
+/* The struct and the arrays that differ from the scene; all others are the scene's. */
 static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *scene)
 {
     dmb_scene nowhere;
@@ -195,7 +196,7 @@ static double mass_beside(const dmb_scene *scene, uint32_t node)
     return mass;
 }
 
-/* By node, in whose order they stand; NULL: none. */
+/* Rigid mass on a node; they are ordered by node; NULL: none. */
 static const dmb_rigid_mass *rigid_mass_on(const dmb_scene *scene, uint32_t node)
 {
     uint32_t low = 0, high = scene->rigid_mass_count;
@@ -209,8 +210,8 @@ static const dmb_rigid_mass *rigid_mass_on(const dmb_scene *scene, uint32_t node
     return low < scene->rigid_mass_count && scene->rigid_masses[low].node == node ? scene->rigid_masses + low : NULL;
 }
 
-/* 1/m, m being half of the elements beside the node and what is rigid on it; inside an element half of that. Bodies
- * turn, too: a^2/J at the distance a from the node. */
+/* 1/m, m being half of the elements beside the node and what is rigid on it; inside an element half of that. For bodies
+ * plus a^2/J for their rotation, at the distance a from the node. */
 double dmb_site_mobility(const dmb_scene *scene, uint32_t s)
 {
     const dmb_site *site = scene->sites + s;

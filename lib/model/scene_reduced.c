@@ -27,7 +27,7 @@ static int32_t has_cluster(const dmb_scene *scene, const dmb_chain *chain)
     return 0;
 }
 
-/* Dense clusters have the first blocks. */
+/* Blocks of dense components come first. */
 static void number_clusters(dmb_scene *scene)
 {
     scene->block_count = scene->sparse_count = scene->reduced_count = 0;
@@ -38,7 +38,7 @@ static void number_clusters(dmb_scene *scene)
     }
 }
 
-/* The other nodes of jointed chains have one each. */
+/* Each of the other nodes of jointed chains has a block. */
 static void number_blocks(dmb_scene *scene)
 {
     for (uint32_t c = 0; c < scene->chain_count; ++c) {
@@ -72,7 +72,7 @@ static int32_t add_edge(const dmb_allocator *allocator, uint32_t a, uint32_t b, 
     return dmb_vector_append(edges, allocator, &edge, 1);
 }
 
-/* Elements, and constraints of sparse clusters. */
+/* Edges of the graph: elements, and constraints of sparse components. */
 static int32_t list_edges(const dmb_scene *scene, const dmb_allocator *allocator, dmb_vector *edges)
 {
     int32_t status = dmb_vector_reserve(edges, allocator, scene->reduced_count);
@@ -89,7 +89,7 @@ static int32_t list_edges(const dmb_scene *scene, const dmb_allocator *allocator
     return status;
 }
 
-/* A dense cluster's block has room for its multipliers too. */
+/* Capacity of blocks; that of a dense component includes its multipliers. */
 static void fill_capacity(const dmb_scene *scene, uint32_t *capacity)
 {
     for (uint32_t c = 0; c < scene->cluster_count; ++c) {
@@ -115,7 +115,7 @@ static uint32_t last_block(const dmb_scene *scene, const dmb_block_pattern *patt
 
 /* Multipliers are eliminated with a node before which all other nodes of their constraint are, so that their pivots are
  * those of -B S^-1 B^T; of bridges, and of the drives of such joints, already with the node beyond: what is there moves
- * as one with the bridge open, so that no equation before can hold what the bridge does. */
+ * as one with the bridge open, so that no earlier equation can constrain the motion that the bridge constrains. */
 static void place_multipliers(const dmb_scene *scene, const dmb_block_pattern *pattern, const uint32_t *beyond,
                               uint32_t *capacity)
 {
@@ -129,7 +129,7 @@ static void place_multipliers(const dmb_scene *scene, const dmb_block_pattern *p
     }
 }
 
-/* The order of elimination does not depend on capacities: it is made first, then room for the multipliers. */
+/* The order of elimination does not depend on capacities: it is computed first, then storage for the multipliers. */
 static int32_t make_room(dmb_scene *scene, const dmb_allocator *allocator, uint32_t *capacity, const dmb_vector *edges)
 {
     dmb_vector beyond = dmb_vector_of(sizeof(uint32_t));
@@ -194,7 +194,7 @@ int32_t dmb_scene_number_blocks(dmb_scene *scene, const dmb_allocator *allocator
 typedef struct graph {
     const dmb_scene *scene;
     uint32_t *start, *edge; /* constraints of each vertex; shape (n + 2), (2 (ends)) */
-    uint32_t *next;         /* (n + 1) edge to be looked at next */
+    uint32_t *next;         /* (n + 1) edge to be visited next */
     uint32_t *number, *low; /* (n + 1) in the order of the walk, 0: not yet; lowest that is reached from beyond */
     uint32_t *path, *by;    /* (n + 1) vertices from the root to here; constraint that led to a vertex */
 } graph;
@@ -211,7 +211,7 @@ static int is_joint(const dmb_constraint *c)
     return c->kind == DMB_OF_JOINT;
 }
 
-/* All six of its rows are solved for; others are held by the ground. */
+/* True if all six rows of a node are unknowns; other nodes are connected to the ground. */
 static int moves_freely(const dmb_scene *scene, uint32_t node)
 {
     if (scene->layout.size[node] != DMB_NODE_SIX_DOF) return 0;
@@ -220,8 +220,8 @@ static int moves_freely(const dmb_scene *scene, uint32_t node)
     return 1;
 }
 
-/* Whether the ground has a part in it: beside a single node, in equations that need not stay the same when all their
- * nodes move as one, and by a node that it holds. */
+/* True if the ground is part of a constraint: beside a single node, in equations that may change when all their nodes
+ * move as one, and at a supported node. */
 static int on_ground(const dmb_scene *scene, const dmb_constraint *c)
 {
     if (c->node_count < 2 || !is_joint(c)) return 1;
@@ -274,8 +274,8 @@ static int is_bridge_kind(const dmb_scene *scene, uint32_t c)
            moves_freely(scene, scene->constraints[c].node[0]);
 }
 
-/* v is done with: what it reaches is reached from the vertex before it; nothing else is, so what led here is a
- * bridge. */
+/* Leaves v: vertices reached from it are reached from the vertex before it; if nothing further back is, the edge to v
+ * is a bridge. */
 static void leave(graph *g, uint32_t before, uint32_t v, uint32_t *beyond)
 {
     if (g->low[v] < g->low[before]) g->low[before] = g->low[v];

@@ -10,7 +10,7 @@ static double given_or(double given, double otherwise)
     return given > 0.0 ? given : otherwise;
 }
 
-/* Differences of powers as products: no digits are lost for thin walls. */
+/* Differences of powers as products, so that thin walls lose no digits. */
 double dmb_ring_area(double outer, double inner)
 {
     return 0.25 * DMB_PI * (outer - inner) * (outer + inner);
@@ -251,8 +251,9 @@ void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_
 /* Along and around: (1 - s/2) consistent (1/3, 1/6) + s/2 lumped (1/2, 0) mass, 5/12 and 1/12 at s = 1. Straight shapes
  * are too stiff by EA h^2/12 times the integral of u''^2; the lumped part is too heavy by s rho A h^2/12 times that of
  * u'^2. Waves longer than a pipe have EA u'' = -w^2 rho A u in the element, and EA u'^2 = w^2 (rho A + mass of the
- * joints per length) u^2 on average: the two cancel where s is the element's share in what moves with the pipe, and
- * frequencies are of fourth order (without joints: Goudreau 1970; blending of quadratures, Ainsworth, Wajid 2010). */
+ * joints per length) u^2 on average: the two errors cancel if s is the element's fraction of the mass that moves with
+ * the pipe, and frequencies are of fourth order (without joints: Goudreau 1970; blending of quadratures, Ainsworth,
+ * Wajid 2010). */
 static void straight_mass(double total, double share, double out[2])
 {
     out[0] = total * (4.0 + share) / 12.0;
@@ -264,12 +265,12 @@ void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const doub
     const double *K = section->stiffness;
     straight_mass(section->mass * length, share[0], mass->axial);
     straight_mass(section->inertia[0] * length, share[1], mass->torsion);
-    /* u_y goes with the moment about z, u_z with that about y */
+    /* u_y is coupled with the moment about z, u_z with that about y */
     bending_mass(section->mass, section->inertia[1], dmb_shear_ratio(K[5], K[1], length), length, mass->bending[0]);
     bending_mass(section->mass, section->inertia[1], dmb_shear_ratio(K[4], K[2], length), length, mass->bending[1]);
 }
 
-/* [-] of a pipe without its joint in the mass and in the inertia about the axis that move with it. */
+/* [-] Fractions of a pipe without its joint in the mass and in the inertia about the axis that move with it. */
 static void shares_of(const dmb_pipe_def *def, const dmb_pipe_section *section, double share[2])
 {
     const double length = dmb_pipe_body_length(def);

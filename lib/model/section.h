@@ -21,8 +21,8 @@ typedef struct dmb_rigid_part {
 double dmb_ring_area(double outer, double inner);
 double dmb_ring_second_moment(double outer, double inner);
 
-/* Tube: A = pi (D^2 - d^2)/4, I = pi (D^4 - d^4)/64, J = 2 I, G = E/(2 (1 + nu)), GA = kappa G A; what the definition
- * gives itself goes first. */
+/* Tube: A = pi (D^2 - d^2)/4, I = pi (D^4 - d^4)/64, J = 2 I, G = E/(2 (1 + nu)), GA = kappa G A; values given in the
+ * definition take precedence. */
 void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section);
 
 /* [m] of a pipe without its rigid tool joint. */
@@ -46,25 +46,25 @@ typedef struct dmb_mud {
     double outside, inside; /* [kg/m3] inside < 0: the same */
 } dmb_mud;
 
-/* [-] share of the weight of a pipe's body, or of its tool joint, that is left in the mud, with that of the mud inside:
- * 1 - rho_o/rho + (rho_i - rho_o) A_i/m, m the mass per metre; 1 - rho_o/rho where both are the same. */
+/* [-] fraction of the weight of a pipe's body, or of its tool joint, in mud including the mud inside: 1 - rho_o/rho +
+ * (rho_i - rho_o) A_i/m, m the mass per metre; 1 - rho_o/rho where both are the same. */
 double dmb_buoyancy_factor(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud);
-/* [kg] that gravity acts on of a pipe and its tool joint. */
+/* [kg] Mass of a pipe and its tool joint after buoyancy. */
 double dmb_weighing_mass(const dmb_pipe_def *def, const dmb_mud *mud);
 /* [m3] inside of the pipe's body or tool joint, per metre. */
 double dmb_inner_area(const dmb_pipe_def *def, int in_tool_joint);
-/* [kg/m] of mud that goes along sideways with a pipe's body: that inside, and `added` times what pipe and tool joint
- * displace; added < 0: that of the annulus to a hole of this diameter [m]. */
+/* [kg/m] Transverse added mass of a pipe's body: mud inside, and `added` times the mud displaced by pipe and tool
+ * joint; added < 0: that of the annulus to a hole of this diameter [m]. */
 double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole);
-/* Mud that goes along with a rigid pipe, tool joint spread over it, with a ring, by what it displaces beyond the pipe
- * or tool joint of that outer diameter, and with kilograms given along and across at a place; x [m] of the middle from
- * the node, hole [m]: diameter, for added_mass < 0. */
+/* Added mass of mud on a rigid pipe (tool joint spread over it), on a stabiliser (displacement beyond the pipe or tool
+ * joint of that outer diameter), and of masses given along and across at a place; x [m] of the middle from the node,
+ * hole [m]: diameter, for added_mass < 0. */
 void dmb_rigid_pipe_mud(const dmb_pipe_def *def, const dmb_environment_def *e, double hole, double x,
                         dmb_added_mass *sum);
 void dmb_ring_mud(const dmb_stabiliser_def *def, double pipe_diameter, const dmb_environment_def *e, double hole,
                   double x, dmb_added_mass *sum);
 void dmb_given_mud(const double mass[2], double x, dmb_added_mass *sum);
-/* [kg/m] sideways more in the mass of an element. */
+/* Adds a transverse mass [kg/m] to the mass of an element. */
 void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_type *type);
 
 /* Constants of a flexible element: stiffness and mass. */

@@ -1,5 +1,5 @@
-/* A string's state over its length, quantity by quantity: what dmb_query_pose, _motion, _section and _contact tell of
- * one place, and loads over limits by the pipe's definition. */
+/* Profile: state of a string over its length, quantity by quantity: the results of dmb_query_pose, _motion, _section
+ * and _contact at each station, and loads over limits of the pipe's definition. */
 #include "query/query.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ enum { STATIONS_MAX = 1 << 24 };
 
 /* ---- Stations ---------------------------------------------------------------------------------------------------- */
 
-/* A run of equal pipes of the string, and where it begins. */
+/* A run of equal pipes of the string, and its start. */
 typedef struct station_iterator {
     const dmb_sim *sim;
     const dmb_pipe_run *runs;
@@ -35,7 +35,7 @@ static void rewind_iterator(station_iterator *iterator)
     to_run_from(iterator, 0);
 }
 
-/* Next run of the string; 0 where this is the last one. */
+/* Next run of the string; 0 after the last one. */
 static int to_next_run(station_iterator *iterator)
 {
     const uint32_t here = iterator->run;
@@ -74,7 +74,7 @@ static double distance_of(const dmb_profile *profile, uint32_t station, double l
 
 /* ---- Values of a station ----------------------------------------------------------------------------------------- */
 
-/* All that a profile can tell of one station, by DMB_PROFILE_. */
+/* Quantities of one station, by DMB_PROFILE_. */
 typedef struct station {
     const dmb_sim *sim;
     const dmb_pipe_run *run;
@@ -110,7 +110,7 @@ static int in_tool_joint(const station *at)
     return at->point.beyond > 0.0;
 }
 
-/* Of the mud outside and inside, at rest or as it flows. */
+/* Pressures of the mud outside and inside, at rest or flowing. */
 static dmb_mud_pressure pressures(const station *at)
 {
     const uint32_t string = dmb_model_part_index(at->sim->model, at->place.part, DMB_PART_STRING);
@@ -140,8 +140,8 @@ static const dmb_pipe_map *pipe_of(const station *at)
     return &scene->pipes[scene->strings[at->run->string].first_pipe + at->place.pipe];
 }
 
-/* Bending by its moment: the strain of an element is its mean. Axial-torsional pipes have none of their own; they take
- * the curvature of the hole that they lie in. */
+/* Bending from the moment, because the strain of an element is a mean. Axial-torsional pipes have the curvature of the
+ * hole instead. */
 static void bending_values(station *at, const double force[6])
 {
     double *v = at->values;
@@ -156,7 +156,7 @@ static void bending_values(station *at, const double force[6])
     }
 }
 
-/* The true axial force where the position is there, which the pressures are of. */
+/* Section forces; the true axial force requires the position, for the pressures. */
 static void section_values(station *at, int32_t groups)
 {
     double force[6], *v = at->values;
@@ -179,7 +179,7 @@ static double weight_per_metre(const station *at)
     return dmb_weighing_mass(&at->run->def, &mud) / at->run->def.length;
 }
 
-/* 1: beyond the middle of the stretch between the element's nodes, rigid arms included. */
+/* 1: the station is beyond the middle of the stretch between the element's nodes, rigid arms included. */
 static int beyond_middle(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -188,7 +188,7 @@ static int beyond_middle(const station *at)
     return along >= 0.5 * (type->arm[0] + type->length + type->arm[1]);
 }
 
-/* The ring whose length the station is on; DMB_NONE: none that meets the wall. */
+/* Contact point of the stabiliser at the station; DMB_NONE: none with wall contact. */
 static uint32_t ring_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -208,7 +208,7 @@ static uint32_t ring_site(const station *at)
                                                                            : scene->bodies[scene->rings[low].body].site;
 }
 
-/* The point inside the element for whose length the station is; DMB_NONE: it is of the ends. */
+/* Contact point inside the element that represents the station; DMB_NONE: one of its ends does. */
 static uint32_t inside_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
@@ -234,7 +234,7 @@ static uint32_t inside_site(const station *at)
     return DMB_NONE;
 }
 
-/* The site that stands for the length of string that the station is on: that of a ring there, else the nearest one. */
+/* Contact point that represents the station: that of a stabiliser there, otherwise the nearest one. */
 static uint32_t nearest_site(const station *at)
 {
     uint32_t element = ring_site(at);
@@ -348,7 +348,8 @@ static int32_t check_quantities(const dmb_profile *profile, int32_t *groups)
     return DMB_OK;
 }
 
-/* Two values never share a place: one stride passes over all that the other one reaches. */
+/* Checks that the strides of two quantities never address the same memory: one stride exceeds the extent of the other.
+ */
 static int32_t check_strides(dmb_profile *profile)
 {
     const uint64_t most = SIZE_MAX / sizeof(double) / STATIONS_MAX;
@@ -381,7 +382,7 @@ static int32_t find_string(const dmb_sim *sim, dmb_id *string, uint32_t *index)
     return *index < sim->scene->string_count ? DMB_OK : DMB_ERR_ID;
 }
 
-/* sim, place and run are set. */
+/* Sets sim, place and run of a station. */
 static int32_t take_station(station *at, double distance, int32_t groups)
 {
     const int32_t status = dmb_material_point_of(at->sim, at->place, &at->point);

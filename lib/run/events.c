@@ -1,8 +1,8 @@
-/* Stops where outputs cross levels. A crossing shows at the end of a step that goes over it; the step is taken back and
- * taken again, shorter, until the crossing is bracketed within its tolerance. Of several in a step the first is looked
- * for: the function of the step's length is whether any of them has crossed, and each gives a guess by false position
- * (Illinois: Dowell, Jarratt, BIT 11, 1971), the least of which is tried; where that does not halve the bracket in two
- * tries, its middle is. */
+/* Events: stops at crossings of levels by outputs. A crossing is detected at the end of the step that contains it; the
+ * step is reverted and repeated with shorter lengths until the crossing is bracketed within its tolerance. Of several
+ * crossings in a step the first is located: each of them gives an estimate by false position (Illinois: Dowell,
+ * Jarratt, BIT 11, 1971), and the smallest is tried; if two tries have not halved the bracket, its midpoint is tried.
+ */
 #include <float.h>
 #include <math.h>
 
@@ -20,7 +20,7 @@ DMB_DEFINE_INIT(dmb_event_report, 32, {.count = 0})
 
 enum { MARGIN = 100, SLOW = 2, HALVINGS = 20 };
 
-/* Outputs less their levels, so that beyond is > 0 in the direction of each. */
+/* Outputs less their levels, with the sign of their direction: > 0 is beyond. */
 typedef struct gaps {
     double value[DMB_EVENTS_MAX];
 } gaps;
@@ -75,7 +75,7 @@ static double side_of(double gap)
     return gap > 0.0 ? 1.0 : gap < 0.0 ? -1.0 : 0.0;
 }
 
-/* From the side it was on last to the other; of a direction, from not beyond to beyond. */
+/* 1: the output crosses: EITHER from its last side to the other; RISING or FALLING from not beyond to beyond. */
 static int crosses(const dmb_sim *sim, uint32_t i, double before, double after)
 {
     if (!is_either(sim, i)) return !(before > 0.0) && after > 0.0;
@@ -93,7 +93,8 @@ static uint64_t crossings(const hunt *h, const gaps *after)
 
 /* ---- Memory of what is held -------------------------------------------------------------------------------------- */
 
-/* At the beginning of a call: what is beyond already, and not held since a crossing, waits until it comes back. */
+/* At the start of a call: outputs beyond their level, and not held since a crossing, count only after they have
+ * returned. */
 static void look_around(dmb_sim *sim, const gaps *now)
 {
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
@@ -105,7 +106,7 @@ static void look_around(dmb_sim *sim, const gaps *now)
     }
 }
 
-/* [s] The first time at which a hold ends; INFINITY if none is under way. */
+/* [s] Time at which the first hold ends; INFINITY if none is active. */
 static double hold_end(const dmb_sim *sim)
 {
     double first = (double)INFINITY;
@@ -114,7 +115,7 @@ static double hold_end(const dmb_sim *sim)
     return first;
 }
 
-/* After a step: crossings begin to hold, what came back does not, and what has been held for long enough is told. */
+/* After a step: crossings start their hold, outputs that returned end it, and outputs held long enough are reported. */
 static uint64_t take(hunt *h, const gaps *now, uint64_t crossed)
 {
     dmb_sim *sim = h->sim;
@@ -138,7 +139,7 @@ static uint64_t take(hunt *h, const gaps *now, uint64_t crossed)
 
 /* ---- Location ---------------------------------------------------------------------------------------------------- */
 
-/* [s] The least tolerance of those that cross, but not below the rounding of time. */
+/* [s] Smallest tolerance of the crossing outputs, not below the rounding of time. */
 static double tolerance_of(const hunt *h, uint64_t crossed)
 {
     double least = 1.0;
@@ -147,7 +148,7 @@ static double tolerance_of(const hunt *h, uint64_t crossed)
     return fmax(least, 8.0 * DBL_EPSILON * h->sim->clock->time);
 }
 
-/* The step that went over the crossing once more, which was the bracket's end to the last. */
+/* End of the original step, used if the bracket still ends there. */
 static dmb_step_end whole_step(const hunt *h, const dmb_clock *reached)
 {
     dmb_step_end end = dmb_step_end_at(h->sim, reached->time);
@@ -157,8 +158,7 @@ static dmb_step_end whole_step(const hunt *h, const dmb_clock *reached)
     return end;
 }
 
-/* Steps from the state set aside to a length after it, or as before where `reached` says. Work that is taken back
- * counts as done in vain. */
+/* Repeats the step from the stored state with a length, or to the end `reached`. Reverted work counts as rejected. */
 static int32_t step_again(hunt *h, double length, const dmb_clock *reached, gaps *found)
 {
     dmb_sim *sim = h->sim;
@@ -178,17 +178,17 @@ static int32_t step_again(hunt *h, double length, const dmb_clock *reached, gaps
     return ask(sim, found);
 }
 
-/* The bracket of the first crossing, as lengths of the step. */
+/* Bracket of the first crossing, in lengths of the step. */
 typedef struct bracket {
     double low, high;
-    gaps at_low, at_high; /* for guesses: halved where an end stays */
+    gaps at_low, at_high; /* for estimates: halved at an end that stays */
     uint64_t crossed;     /* within it */
-    int32_t last;         /* -1, 1: which end the last try has moved */
-    int32_t slow;         /* tries that have not halved it, in a row */
+    int32_t last;         /* -1, 1: end moved by the last try */
+    int32_t slow;         /* number of consecutive tries that did not halve it */
 } bracket;
 
-/* [s] Earliest guess of those that cross within the bracket. One that begins on its level, as the force of a contact
- * that is open, tells nothing: the middle. */
+/* [s] Smallest estimate of the outputs that cross within the bracket. An output that starts on its level, such as the
+ * force of an open contact, gives no information: the midpoint. */
 static double guess(const hunt *h, const bracket *b, double tolerance)
 {
     const double width = b->high - b->low;
@@ -220,8 +220,8 @@ static void narrow(const hunt *h, bracket *b, double at, const gaps *tried)
     b->slow = b->high - b->low > 0.5 * width ? b->slow + 1 : 0;
 }
 
-/* A step of a length within the bracket. Newton may fail there although it converges for the whole step, as where a
- * contact closes shortly before: then a step half as long beyond the bracket's low end is tried, and so on. */
+/* A step of a length within the bracket. Newton may fail there although it converges for the whole step, for example if
+ * a contact closes shortly before: then half the distance from the bracket's lower end is tried, repeatedly. */
 static int32_t try_length(hunt *h, const bracket *b, double *length, gaps *tried)
 {
     int32_t status = step_again(h, *length, NULL, tried);
@@ -232,9 +232,9 @@ static int32_t try_length(hunt *h, const bracket *b, double *length, gaps *tried
     return status;
 }
 
-/* Takes the step that went over a crossing back and ends on the first one; `found`: the outputs there. If a length
- * fails and a shorter step does not reach the crossing, it ends with that step, before the crossing, and the next step
- * of the advance goes on from there. */
+/* Reverts the step that contains a crossing and ends at the first one; `found`: the outputs there. If a length fails
+ * and a shorter step does not reach the crossing, it ends with that step, before the crossing, and the next step
+ * continues from there. */
 static int32_t locate(hunt *h, gaps *found)
 {
     const dmb_clock reached = *h->sim->clock;
@@ -268,7 +268,7 @@ static int32_t locate(hunt *h, gaps *found)
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */
 
-/* One step towards the end or that of a hold, and on to the first crossing in it. */
+/* One step towards the end of the call or of a hold, and location of the first crossing in it. */
 static int32_t go(hunt *h)
 {
     dmb_sim *sim = h->sim;

@@ -1,7 +1,7 @@
-/* Fingerprints of scenes and states by FNV-1a with 64 bits (Fowler, Noll, Vo), which finds mistakes, not forgery. */
+/* Fingerprints of scenes and states by FNV-1a with 64 bits (Fowler, Noll, Vo), which detects mistakes, not forgery. */
 #include "run/run.h"
 
-/* Members one by one: padding and pointers stay out. */
+/* Hashes member by member, without padding and pointers. */
 #define DMB_NUMBERS(hash, array) dmb_fnv_numbers((hash), (array), sizeof(array) / sizeof(double))
 
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
@@ -258,7 +258,7 @@ static uint64_t add_stuck(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-/* As of constraints, the content of the functions cannot be told. */
+/* As for constraints, the content of callbacks cannot be hashed. */
 static uint64_t add_forces(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->force_count; ++i) {
@@ -282,7 +282,7 @@ static uint64_t add_flow(uint64_t h, const dmb_scene *s)
     if (s->flow_count == 0) return h;
     h = dmb_fnv_numbers(h, s->flow_element, s->element_count);
     h = dmb_fnv_number(h, dmb_nozzle_thrust(&s->flow));
-    if (s->has_flow_input) { /* at another rate these say what follows from it */
+    if (s->has_flow_input) { /* with an input of the flow rate, these depend on it */
         const double mud[] = {s->flow.consistency, s->flow.exponent, s->flow.yield_stress, s->flow.eccentricity,
                               s->flow.nozzle_area, s->flow.inside,   s->flow.outside};
         h = DMB_NUMBERS(h, mud);
@@ -345,7 +345,7 @@ static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-/* The content of the caller's functions cannot be told from their addresses. */
+/* The content of the caller's functions cannot be derived from their addresses. */
 static uint64_t add_callbacks(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->callback_count; ++i) {
@@ -359,7 +359,7 @@ static uint64_t add_callbacks(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-/* Constraints and clusters follow from what they are of; their order is checked all the same. */
+/* Constraints and components are derived from other parts; their order is hashed nevertheless. */
 static uint64_t add_constraints(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->constraint_count; ++i) {

@@ -1,5 +1,4 @@
-/* Inputs that the caller sets between steps: a constant in the place of a drive's time function, the state of a joint.
- */
+/* Inputs that the caller sets between steps: a constant that replaces a drive's time function, the state of a joint. */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +23,7 @@ static int32_t refuse(dmb_sim *sim, int32_t status, const char *why)
     return status;
 }
 
-/* The force of the drive jumps: without accelerations that fit it, the steps after would be of first order only. */
+/* The force of the drive jumps: without consistent accelerations, later steps would be of first order only. */
 static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
 {
     const double before = sim->drive_input[index];
@@ -35,7 +34,7 @@ static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
     return status;
 }
 
-/* The input whose set point is this drive's: one of them moves it. */
+/* Fails if an input prescribes the target of this drive: only one of them may. */
 static int32_t refuse_input(dmb_sim *sim, uint32_t drive)
 {
     dmb_message name;
@@ -67,12 +66,14 @@ static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
                           "finite, or NaN for the time function");
         return DMB_ERR_NOT_FINITE;
     }
-    if (fabs(value) > DMB_FORCE_MAX) { /* as what is described: beyond it work and power overflow */
+    if (fabs(value) > DMB_FORCE_MAX) { /* limit as in descriptions: beyond it work and power overflow */
         dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
                           "from -1e30 to 1e30, or NaN for the time function");
         return DMB_ERR_VALUE;
     }
-    return jump_to(sim, index, isnan(value) ? (double)NAN : value); /* one NaN, so that equal states hash alike */
+    return jump_to(sim, index,
+                   isnan(value) ? (double)NAN
+                                : value); /* a single NaN pattern, so that equal states have equal hashes */
 }
 
 int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
@@ -81,7 +82,7 @@ int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
     return status < 0 ? status : dmb_sim_leave(sim, set_drive(sim, drive, value));
 }
 
-/* The caller's hand on a joint. */
+/* Sets the state of a joint for the caller. */
 
 static int32_t set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
 {
@@ -105,9 +106,9 @@ int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
 
 /* ---- Inputs ------------------------------------------------------------------------------------------------------ */
 
-/* Inputs set between steps: all or none, with accelerations that fit what jumps. */
+/* Inputs set between steps: all or none, with consistent accelerations after jumps. */
 
-/* The values that a call sets: arrays of the caller's, or records of a log. */
+/* Values set by a call: the caller's arrays, or records of a log. */
 typedef struct settings {
     const dmb_id *inputs;
     const double *values;
@@ -172,7 +173,7 @@ static int32_t check(dmb_sim *sim, settings *given)
     return DMB_OK;
 }
 
-/* Limits of controlled drives, once all is set. */
+/* Checks the limits of controlled drives after all values are set. */
 static int32_t check_limits(dmb_sim *sim)
 {
     dmb_message name;
@@ -198,7 +199,7 @@ static void keep(dmb_sim *sim)
     memcpy(sim->input_before + count, sim->input_begin, 3 * count * sizeof(double));
 }
 
-/* Places whose input is 1 are stuck; where they are so from now on, in the present pose. */
+/* Makes places stuck whose input is 1; newly stuck ones in the present pose. */
 static void set_stuck(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
@@ -212,11 +213,11 @@ static void put_back(dmb_sim *sim)
     const size_t count = sim->scene->input_count;
     memcpy(sim->input_value, sim->input_before, count * sizeof(double));
     memcpy(sim->input_begin, sim->input_before + count, 3 * count * sizeof(double));
-    if (sim->scene->stuck_count) dmb_state_restore(sim); /* with the poses that places got stuck in */
+    if (sim->scene->stuck_count) dmb_state_restore(sim); /* including the poses of stuck places */
     dmb_own_scene_update(sim);
 }
 
-/* The way to the new value begins where the old one is. A value without limits is there at once. */
+/* Starts the transition to a new value at the present one. A value without limits changes at once. */
 static int32_t aim(dmb_sim *sim, uint32_t i, double value)
 {
     const dmb_scene_input *input = input_at(sim, i);
@@ -246,7 +247,7 @@ static int has_changed(const dmb_sim *sim, uint32_t i)
     return !isnan(sim->input_value[i]) && !(sim->input_value[i] == sim->input_before[i]);
 }
 
-/* Of several values for one input the last counts: all of them begin where it is now. */
+/* Assigns values; of several values for one input the last is used, and all start from the present one. */
 static int32_t assign(dmb_sim *sim, const settings *given, int32_t *changed, int32_t *forget)
 {
     int32_t status = DMB_OK;

@@ -1,4 +1,4 @@
-/* Creating and destroying a sim, its time, and what a compiled model tells of itself. */
+/* Creation and destruction of a sim, its time, and information on a compiled model. */
 #include <math.h>
 
 #include "base/build.h"
@@ -18,8 +18,8 @@
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
-/* Arguments of a create, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model
- * for the calling thread. */
+/* Arguments of a create, checked. There is no sim yet to hold a message: a failure is reported to the log, and to the
+ * model for the calling thread. */
 typedef struct creation {
     dmb_sim_options options;
     dmb_allocator allocator;
@@ -35,7 +35,7 @@ static void tell(const dmb_sim_options *options, int32_t status, const dmb_messa
                  message->text[0] != '\0' ? message->text : dmb_status_text(status));
 }
 
-/* Ends a call that failed, whose model is one. */
+/* Ends a failed call with a valid model. */
 static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int32_t status, const dmb_message *message)
 {
     (void)dmb_model_fail(model, status, "sim", message->text);
@@ -43,7 +43,7 @@ static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int3
     return status;
 }
 
-/* The caller's log, even where the rest of the options is refused; none where the struct itself cannot be read. */
+/* Reports to the caller's log even if other options are invalid; not if the struct itself cannot be read. */
 static void report_refusal(const dmb_sim_options *given, int32_t status, const dmb_message *message)
 {
     dmb_sim_options read;
@@ -102,7 +102,7 @@ int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *optio
     return status;
 }
 
-/* Gives everything back. The stamp goes first: the block may be the caller's and outlive the sim. */
+/* Releases everything. The stamp is cleared first, because the block may be the caller's and outlive the sim. */
 static void give_back(dmb_sim *sim)
 {
     const dmb_allocator allocator = sim->allocator;
@@ -118,13 +118,13 @@ static void give_back(dmb_sim *sim)
     dmb_model_release(model);
 }
 
-/* The drives follow their time functions until dmb_sim_set_drive says otherwise. */
+/* Drives use their time functions until dmb_sim_set_drive replaces them. */
 static void release_drives(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
 }
 
-/* Makes the sim in a block and sets it to time 0. The hold on the model, taken before, becomes the sim's. */
+/* Creates the sim in a block at time 0. The reference to the model, taken before, becomes the sim's. */
 static int32_t begin(const creation *c, dmb_model *model, void *block, size_t size, int32_t owns_memory, dmb_sim **out)
 {
     dmb_sim *sim = dmb_sim_carve(model->scene, block, size);
@@ -152,7 +152,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     }
     dmb_model_failure_forget(model);
     tell(&sim->options, status, &sim->message);
-    sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
+    sim->magic = DMB_HANDLE_SIM; /* set last: callbacks and log may know the block */
     const int32_t asked = dmb_events_check(sim);
     if (asked < 0) {
         (void)fail(model, &sim->options, asked, &sim->message);
@@ -227,7 +227,7 @@ double dmb_sim_time(const dmb_sim *sim)
     return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->clock->time : (double)NAN;
 }
 
-/* Counts of a compiled model. They stand here because one of them is the size of a sim. */
+/* Counts of a compiled model; here because one of them is the size of a sim. */
 
 DMB_DECLARE_STRUCT(dmb_model_info)
 
@@ -242,7 +242,7 @@ static uint32_t joint_rows(const dmb_scene_joint *joint)
     return joint->state == DMB_JOINT_LOCKED ? DMB_CONSTRAINT_ROWS : dmb_joint_row_count(joint->kind);
 }
 
-/* Equations at time 0: those of open joints, and on their coordinates, do not count. */
+/* Active equations at time 0: without those of open joints and of their coordinates. */
 static uint32_t active_rows(const dmb_scene *scene)
 {
     uint32_t rows = 0;

@@ -1,4 +1,4 @@
-/* The inside of a life: events, what a snapshot must fit, state transfer, as sources of this folder call each other. */
+/* Internal functions of this folder: events, requirements of a snapshot, state transfer. */
 #ifndef DMB_RUN_RUN_H
 #define DMB_RUN_RUN_H
 
@@ -11,22 +11,23 @@
 
 /* ---- Events ------------------------------------------------------------------------------------------------------ */
 
-/* Of a new sim: none is held. */
+/* Initial state of events of a new sim: none is held. */
 void dmb_events_begin(dmb_sim *sim);
-/* All outputs can be asked of the present state; else the query's error, with a message. */
+/* Checks that all outputs of events exist in the present state; otherwise the error of the query, with a message. */
 int32_t dmb_events_check(dmb_sim *sim);
 
 /* ---- Snapshots --------------------------------------------------------------------------------------------------- */
 
-#define DMB_ROTATION_ROUNDING 1e-6 /* [-] of lengths and products of unit vectors: more than a run ever gathers */
+#define DMB_ROTATION_ROUNDING \
+    1e-6 /* [-] of lengths and products of unit vectors: larger than the rounding accumulated in a run */
 
-/* Checks the fields as they stand in a snapshot, from `from` on, one after the other. The sim lends scratch memory and
- * takes the message. DMB_OK or DMB_ERR_VALUE. O(bytes). */
+/* Checks the fields as they stand in a snapshot, from `from` on, one after the other. Uses scratch memory of the sim
+ * and writes its message. DMB_OK or DMB_ERR_VALUE. O(bytes). */
 int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, const unsigned char *from);
-/* Checks how the fields of `now` and the memory fit together, once each of them has passed. The sim takes the message.
- * DMB_OK or DMB_ERR_VALUE. O(size of the state). run/snapshot_relations */
+/* Checks relations between the fields of `now` and the memory, after each field has passed. Writes the message of the
+ * sim. DMB_OK or DMB_ERR_VALUE. O(size of the state). run/snapshot_relations */
 int32_t dmb_snapshot_relations(dmb_sim *sim);
-/* 1: something that is held stands elsewhere than its support leaves it, as described. O(held rows). */
+/* 1: a constrained component deviates from its described support. O(constrained rows). */
 int dmb_is_off_supports(const dmb_sim *sim);
 
 /* ---- Fingerprints ------------------------------------------------------------------------------------------------ */
@@ -74,7 +75,7 @@ static inline uint64_t dmb_fnv_numbers(uint64_t hash, const double *values, size
     return hash;
 }
 
-/* Fingerprint that a snapshot must fit: the numbers of the compiled scene and of the options, without addresses and
+/* Fingerprint required of a snapshot: the numbers of the compiled scene and of the options, without addresses and
  * stamps, so that the same description compiled in another process has the same fingerprint. */
 
 /* O(number of nodes and elements). Callbacks of time functions count as equal. */
@@ -83,33 +84,33 @@ uint64_t dmb_options_fingerprint(const dmb_sim_options *options);
 
 /* ---- State transfer ---------------------------------------------------------------------------------------------- */
 
-/* Parts of dmb_sim_transfer_state. Strings are numbered from their rig ends, where pipes come and go, so pipes and
- * nodes of two scenes are matched by counting from the far end. */
+/* Parts of dmb_sim_transfer_state. Strings are numbered from their rig ends, where pipes are added and removed, so
+ * pipes and nodes of two scenes are matched by counting from the far end. */
 
-/* Pipes and nodes that a string of one scene and the same string of another have in common. */
+/* Matching pipes and nodes of a string in two scenes. */
 typedef struct dmb_common_string {
     uint32_t pipes;    /* matched */
     uint32_t nodes;    /* matched */
-    uint32_t to, from; /* first matched node in the scene of the sim and in that it comes from */
+    uint32_t to, from; /* first matched node in the scene of the sim, and in the source scene */
 } dmb_common_string;
 
 /* The scenes must have passed dmb_state_transfer_check, or at least its part on pipes. O(1). */
 dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *from, uint32_t string);
 
-/* Is sim the same as from but for pipes at the rig ends? DMB_ERR_VALUE with a message where not.
+/* Checks that sim and from differ in pipes at the rig ends only. DMB_ERR_VALUE with a message if they do not.
  * run/state_transfer_check */
 int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
 
-/* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message where axial-torsional pipes would have to
- * leave their line. run/state_transfer_nodes */
+/* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message if axial-torsional pipes would leave their
+ * line. run/state_transfer_nodes */
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from);
 enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_BRISTLES = 1 };
-/* Memory of the wall contacts; or only of the bristles, once contacts that have no past have been evaluated: where no
- * time passes, a bristle that slips at its limit cannot be told from one that holds there. run/state_transfer_sites */
+/* Memory of the wall contacts; or only of the bristles, after new contacts have been evaluated: without elapsed time, a
+ * bristle sliding at its limit is indistinguishable from one sticking there. run/state_transfer_sites */
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 
-/* [m] from the node's place in `from` to that in the scene, along body x: rigid pipes that are added or taken off move
- * the node of the body they are part of. Both nodes of string `string`, matched. */
+/* [m] Offset of a node in `from` to that in the scene, along body x: rigid pipes added or removed move the node of
+ * their body. Both nodes are of string `string`, matched. */
 double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old,
                               uint32_t string);
 

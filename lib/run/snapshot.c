@@ -13,11 +13,11 @@
 
 /* ---- Is this a state of the scene? ------------------------------------------------------------------------------- */
 
-/* A snapshot is somebody's bytes, and its checksum can be made to fit: every index, count and enumeration in it is held
- * against the scene, and every number must be finite, before anything is restored; then how they fit together
- * (run/snapshot_relations). */
+/* A snapshot is untrusted input, and its checksum can be forged: before anything is restored, every index, count and
+ * enumeration in it is checked against the scene, and every number must be finite; then relations between fields are
+ * checked (run/snapshot_relations). */
 
-/* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
+/* Fields of integers and structs require a check: a line of sim/sim.h without one does not compile. */
 #define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
 #define DMB_NAMES_BOUND(type, name, count, check)                                                                  \
     _Static_assert(DMB_DOUBLES(type) ==                                                                            \
@@ -85,7 +85,7 @@ static int32_t check_set_inputs(const probe *p)
         const int described = isnan(input->initial) != 0;
         if (input->target == DMB_TARGET_STUCK && value > 0.0 && value < 1.0) return refuse(p, i, value, "0 or 1");
         if (isnan(value) && described && dmb_input_is_time_function(input->target)) continue;
-        /* what is described may lie outside the bounds of what is set */
+        /* described values may be outside the bounds of set values */
         if (value >= input->low && value <= input->high) continue;
         if (described && value == dmb_described_setting(p->sim, i)) continue;
         return refuse(p, i, value, "within the bounds of its input");
@@ -123,8 +123,8 @@ static int32_t check_ranks(const probe *p)
     return DMB_OK;
 }
 
-/* A permutation of 0 .. count - 1, `first` being where it begins; cluster_scratch, which has more than a byte for each,
- * is where those seen are marked. */
+/* A permutation of 0 .. count - 1, starting at `first`; values seen are marked in cluster_scratch, which has more than
+ * a byte for each. */
 static int32_t check_order(const probe *p, uint32_t first, uint32_t count)
 {
     uint8_t *seen = (uint8_t *)(void *)p->sim->cluster_scratch;
@@ -148,7 +148,7 @@ static int32_t check_orders(const probe *p, int32_t of_columns)
     return status;
 }
 
-/* The newest of count samples stands at head, in a ring of the bit's capacity; without one both are 0. */
+/* The newest of count samples is at head, in a circular buffer of the bit's capacity; without one both are 0. */
 static int32_t check_heads(const probe *p)
 {
     for (uint32_t k = 0; k < p->sim->scene->bit_count; k++) {
@@ -187,8 +187,8 @@ static int32_t check_counters(const probe *p)
     return DMB_OK;
 }
 
-/* The factors themselves may be of another matrix: corrections by them have to lower the residual (integrator/newton).
- */
+/* The factors themselves may belong to another matrix: corrections by them must reduce the residual
+ * (integrator/newton). */
 static int32_t check_factors(const probe *p)
 {
     dmb_factor_reuse kept;
@@ -209,7 +209,7 @@ static int32_t check_prediction(const probe *p)
     return DMB_OK;
 }
 
-/* Frames of the nodes where the factors were made; zeros where none are kept, by which they are not of use either. */
+/* Frames of the nodes in which the factors were made; zeros without factors. */
 static int32_t check_frames(const probe *p)
 {
     const int32_t status = check_numbers(p, 0, p->field->bytes / sizeof(double));
@@ -270,8 +270,8 @@ int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, 
 
 /* ---- Saving and restoring ---------------------------------------------------------------------------------------- */
 
-/* Saving and restoring all that changes. A snapshot is a header and the fields of the accepted configuration, the
- * memory and the reused factors one after the other, without gaps. */
+/* Saving and restoring the state. A snapshot is a header and the fields of the accepted configuration, the memory and
+ * the reused factors, without gaps. */
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
@@ -281,9 +281,9 @@ typedef struct snapshot_header {
     uint64_t magic;
     uint64_t version;
     uint64_t size;  /* [byte] of the whole snapshot */
-    uint64_t scene; /* fingerprints of what it fits */
+    uint64_t scene; /* fingerprints of the required scene and options */
     uint64_t options;
-    uint64_t content; /* hash of what follows: a damaged snapshot is refused, a forged one by what it says */
+    uint64_t content; /* hash of the contents: detects damage; forgery is detected by the checks of fields */
 } snapshot_header;
 
 static size_t saved_fields(const dmb_sim *sim, dmb_field fields[DMB_FIELD_MAX])

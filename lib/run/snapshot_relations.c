@@ -29,8 +29,8 @@
 #include "sim/own_scene.h"
 #include "system/constrain/constrain.h"
 
-#define DMB_REST_ROUNDING 1e-9   /* [-] of the largest speed, that is none */
-#define DMB_RADIUS_ROUNDING 1e-9 /* [-] of a radius, that is none */
+#define DMB_REST_ROUNDING 1e-9   /* [-] rounding relative to the largest speed */
+#define DMB_RADIUS_ROUNDING 1e-9 /* [-] rounding relative to a radius */
 #define DMB_TIME_LEEWAY 1e-5     /* [-] of the time: a breakpoint that a step nearly reached counts as reached */
 
 static int32_t refuse(dmb_sim *sim, const char *field, size_t item, double value, const char *bound)
@@ -65,7 +65,7 @@ static int32_t check_lengths(dmb_sim *sim, const char *field, const double *vect
     return DMB_OK;
 }
 
-/* [-] how far the rows are from unit vectors that form a right-handed frame. */
+/* [-] Deviation of the rows from a right-handed frame of unit vectors. */
 static double rotation_error(const double R[9])
 {
     double most = 0.0, cross[3];
@@ -121,7 +121,7 @@ static int32_t check_at_rest(dmb_sim *sim, const char *field, const double *rows
     return DMB_OK;
 }
 
-/* A number that the support of a node does not leave free, against the described pose. */
+/* A number fixed by the support of a node, with its described value. */
 typedef struct misfit {
     const char *field;
     size_t item;
@@ -135,8 +135,8 @@ static int differs(misfit *found, const char *field, size_t item, double value, 
     return 1;
 }
 
-/* Free components are closed under motion, so the others stay 0 in the axes of the described pose: of the way, and of
- * the rotation all or all but one. */
+/* 1: a node violates its support. Free components are closed under motion, so the others are 0 in the axes of the
+ * described pose: of the displacement, and of the rotation in all or all but one components. */
 static int is_off_support(const dmb_sim *sim, uint32_t node, misfit *found)
 {
     const dmb_scene *scene = sim->scene;
@@ -172,7 +172,7 @@ int dmb_is_off_supports(const dmb_sim *sim)
     return any_off_support(sim, &unused);
 }
 
-/* Supports stand where they are described, but where a state transfer has taken them along. */
+/* Supports are at their described positions, unless a state transfer has moved them. */
 static int32_t check_supports(dmb_sim *sim)
 {
     misfit found;
@@ -207,7 +207,7 @@ static int32_t check_clock(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Samples of a delay: sorted, as searches in them ask, and none of the future. */
+/* Samples of a delay: sorted, as searches in them require, and none in the future. */
 static int32_t check_line(dmb_sim *sim, uint32_t line)
 {
     const size_t first = 2 * (size_t)DMB_DELAY_SAMPLES * line;
@@ -239,7 +239,7 @@ static int32_t check_times(dmb_sim *sim)
 
 /* ---- Settings ---------------------------------------------------------------------------------------------------- */
 
-/* Of drives that dmb_sim_set_drive refuses. */
+/* Values that dmb_sim_set_drive would reject. */
 static int32_t check_drives(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -255,7 +255,7 @@ static int32_t check_drives(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* As the input of that target says, or as described. */
+/* Limit by the input of that target, or as described. */
 static double limit_of(const dmb_sim *sim, uint32_t drive, int32_t target)
 {
     const dmb_scene_drive *described = sim->model->scene->drives + drive;
@@ -286,7 +286,7 @@ static int32_t check_sides(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* A place is held as its input says; a joint is held on the axis of the hole where it is locked. */
+/* A stuck place must agree with its input; a joint is fixed on the axis of the hole if it is locked. */
 static int32_t check_marks(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -315,7 +315,7 @@ static int32_t check_settings(dmb_sim *sim)
 
 /* ---- Cut holes --------------------------------------------------------------------------------------------------- */
 
-/* No station is wider than the widest cutter leaves it. */
+/* No station is wider than the widest cutter. */
 static int32_t check_widening(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -330,7 +330,7 @@ static int32_t check_widening(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Samples fill the ring before they go round it, and their angles increase. */
+/* Samples fill the circular buffer before it wraps, and their angles increase. */
 static int32_t check_history(dmb_sim *sim, uint32_t k)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k;

@@ -1,4 +1,4 @@
-/* Going on in a sim of another model: the string opens at the rig, pipes come in between or go, and it closes again. */
+/* Transfer of the state to a sim of another model: pipes are added or removed at the rig end of a string. */
 #include "run/run.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "system/solve/solve.h"
 #include "system/system.h"
 
-/* [m, -] violation of a joint at the carried poses that is no longer rounding; as for dmb_sim_set_joint. */
+/* [m, -] violation of a joint at the transferred poses beyond rounding; as for dmb_sim_set_joint. */
 #define DMB_TRANSFER_VIOLATION 1e-6
 
 /* Arrays of equal length in both sims. */
@@ -54,7 +54,7 @@ static void transfer_counters(dmb_sim *sim, const dmb_sim *from)
     memset(sim->site_history, 0, sim->scene->site_count * sizeof(double));
 }
 
-/* Constraints are sorted by cluster, and clusters may be numbered otherwise. */
+/* Constraints are sorted by component, and components may be numbered differently. */
 static void transfer_rows(dmb_sim *sim, uint32_t to, const dmb_sim *from, uint32_t old)
 {
     const dmb_constraint *a = sim->scene->constraints + to, *b = from->scene->constraints + old;
@@ -83,8 +83,8 @@ static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
 
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */
 
-/* The rock stays where it is: advances count from the described pose, and the angle of the cut surface goes with the
- * turn of the bit. */
+/* The rock does not move: advances are relative to the described pose, and the angle of the cut surface follows the
+ * rotation of the bit. */
 static void transfer_bit(dmb_sim *sim, uint32_t k, const dmb_sim *from)
 {
     const dmb_scene_bit *bit = sim->scene->bits + k, *was = from->scene->bits + k;
@@ -103,7 +103,7 @@ static void transfer_bit(dmb_sim *sim, uint32_t k, const dmb_sim *from)
         sim->history_surface[bit->history_first + i] += moved;
 }
 
-/* Where a bit is on the axis, the gathering of its forces tells. */
+/* Positions of bits on the axis are found by the evaluation of their forces. */
 static void transfer_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = sim->scene;
@@ -118,7 +118,7 @@ static void transfer_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *eva
 
 /* ---- The hole ---------------------------------------------------------------------------------------------------- */
 
-/* [m] wider than described at a depth */
+/* [m] Increase of the radius over the described one at a depth. */
 static double widening_at(const dmb_sim *sim, double depth)
 {
     double widening[3] = {0.0, 0.0, 0.0};
@@ -181,7 +181,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
 }
 
-/* Joints that hold must fit the poses as they are carried; the partition is chosen anew by the restart. */
+/* Closed joints must satisfy the transferred poses; the partition is chosen by the restart. */
 static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     uint32_t row;
@@ -202,7 +202,7 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
     return DMB_ERR_GEOMETRY;
 }
 
-/* A place that is held must be the same point of the string. */
+/* A stuck place must be the same point of the string. */
 static int32_t transfer_stuck(dmb_sim *sim, const dmb_sim *from)
 {
     dmb_message name;
@@ -235,10 +235,11 @@ static double stored(const dmb_sim *sim)
            dmb_contact_energy(sim->scene, &sim->now);
 }
 
-/* Energy gained since the start stays as it was: the start takes up what pipes brought in or took along. */
+/* The energy error since the start is preserved: the energy at the start is changed by that of added or removed pipes.
+ */
 static void transfer_ledger(dmb_sim *sim, const dmb_sim *from)
 {
-    if (!sim->options.energy_ledger || !from->options.energy_ledger) return; /* what there is begins now */
+    if (!sim->options.energy_ledger || !from->options.energy_ledger) return; /* the ledger starts now */
     const double gained = stored(from) - from->ledger->start;
     DMB_COPY(ledger, 1);
     DMB_COPY(drive_work, sim->scene->drive_count);
@@ -268,7 +269,7 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     return status;
 }
 
-/* The largest of all calls stays in the statistics; what this one did is told. */
+/* The statistics keep the largest value of all calls; this call's value is reported. */
 static int32_t keep_projection(dmb_sim *sim, const dmb_sim *from)
 {
     double *most = sim->counters->projection;
@@ -304,7 +305,7 @@ static int32_t with_both(dmb_sim *sim, dmb_sim *from)
     }
     int32_t status = dmb_sim_check(from);
     if (status < 0) return status;
-    const int32_t busy = from->busy; /* not free where this is called from a callback of its own */
+    const int32_t busy = from->busy; /* busy if this is called from one of its callbacks */
     from->busy = DMB_BUSY_READABLE;
     status = transfer_state(sim, from);
     from->busy = busy;

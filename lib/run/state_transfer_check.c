@@ -1,4 +1,4 @@
-/* Two scenes compared: the same but for pipes at the rig ends of their strings? */
+/* Comparison of two scenes that may differ in pipes at the rig ends of their strings only. */
 #include <math.h>
 #include <string.h>
 
@@ -58,7 +58,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* Last of all checks: kinds of parts tell more than what follows from them. */
+/* Last check, because differences in parts give clearer messages. */
 static int32_t check_features(dmb_sim *sim, const dmb_sim *from)
 {
     if (sim->scene->features == from->scene->features) return DMB_OK;
@@ -69,7 +69,7 @@ static int32_t check_features(dmb_sim *sim, const dmb_sim *from)
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-/* The part an id names, the first string where it names none. */
+/* The part of an id; the first string for an empty id. */
 static uint32_t part_of(dmb_id id)
 {
     return id.generation != 0 ? id.index : (uint32_t)DMB_PART_STRING << 24;
@@ -124,7 +124,7 @@ static int32_t check_loads(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* A value that goes on must lie within the bounds of the other model's input. */
+/* A transferred value must be within the bounds of the other model's input. */
 static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
 {
     for (uint32_t i = 0; i < sim->scene->input_count; i++) {
@@ -138,7 +138,7 @@ static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* Levels and times may differ: what has crossed is looked at anew. */
+/* Levels and times may differ: crossings are evaluated again. */
 static int32_t check_events(dmb_sim *sim, const dmb_sim *from)
 {
     for (uint32_t i = 0; i < sim->scene->event_count; i++) {
@@ -150,13 +150,13 @@ static int32_t check_events(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* Of a joint: the ground is a part of its own. */
+/* 1: the same side of a joint; the ground is a part of its own. */
 static int same_side(dmb_id a, dmb_id b)
 {
     return a.index == b.index && (a.generation == 0) == (b.generation == 0);
 }
 
-/* Angles count their revolutions between the parts that they were counted between. */
+/* Joints must connect the same parts, because angles count revolutions between them. */
 static int32_t check_joints(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_joint_def *to = sim->model->joints.items, *old = from->model->joints.items;
@@ -184,7 +184,7 @@ static int32_t check_links(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* Depths and segments that contacts remember belong to the axis. */
+/* Depths and segments stored by contacts belong to the axis. */
 static int32_t check_wall(dmb_sim *sim, const dmb_sim *from)
 {
     const dmb_scene *a = sim->scene, *b = from->scene;
@@ -204,7 +204,7 @@ static int32_t check_wall(dmb_sim *sim, const dmb_sim *from)
 
 /* ---- Pipes ------------------------------------------------------------------------------------------------------- */
 
-/* Content of a pipe: its description without where it belongs and how its random part is drawn. */
+/* Description of a pipe without its position and the random draw of its eccentricity. */
 static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pipe)
 {
     const dmb_pipe_run *run = dmb_pipe_run_of(sim->model, string, pipe);
@@ -252,8 +252,8 @@ static int32_t check_pipe(dmb_sim *sim, const dmb_sim *from, uint32_t string, ui
 
 enum { TYPE_NUMBERS = 31 };
 
-/* The numbers of an element that tell it from others: surroundings and compile options enter them. Arms may differ
- * where rigid pipes come and go. */
+/* Numbers that identify an element type, including effects of environment and compile options. Arms may differ next to
+ * rigid pipes. */
 static void numbers_of(const dmb_element_type *type, double numbers[TYPE_NUMBERS])
 {
     numbers[0] = type->length;
@@ -275,7 +275,7 @@ static int same_type(const dmb_element_type *a, const dmb_element_type *b)
     return memcmp(of_a, of_b, sizeof of_a) == 0;
 }
 
-/* As described: what inputs of density have made of them goes with these. */
+/* Compares types as described, without changes by density inputs. */
 static int32_t check_elements(dmb_sim *sim, const dmb_scene *from, uint32_t string, const dmb_common_string *common)
 {
     const dmb_scene *scene = sim->model->scene;
@@ -287,8 +287,7 @@ static int32_t check_elements(dmb_sim *sim, const dmb_scene *from, uint32_t stri
     return DMB_OK;
 }
 
-/* A node knows six directions or two; it cannot change over, and pipes on the axis cannot go on one that lies off it.
- */
+/* Nodes must keep their kind (six-DOF or axial-torsional), and axial-torsional pipes their axis. */
 static int32_t check_nodes(dmb_sim *sim, const dmb_scene *from, uint32_t string, const dmb_common_string *common)
 {
     const uint8_t *size = sim->scene->layout.size, *old = from->layout.size;

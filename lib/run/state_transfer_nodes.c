@@ -1,6 +1,6 @@
-/* Nodes transferred. The world pose of a matched node stays; what is stored is measured from the described pose, which
- * is another one. From node to node the described distance is known exactly, so shifts are summed along the string from
- * its far end: strains keep their digits however far from the origin the string is. */
+/* Transfer of nodes. The world pose of a matched node is preserved; stored displacements are relative to the described
+ * pose, which differs. Described distances between nodes are exact, so shifts are summed along the string from its far
+ * end: strains keep their accuracy at any distance from the origin. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "run/run.h"
 #include "sim/node.h"
 
-/* [m, rad] by which the line of axial-torsional pipes may be described differently. */
+/* [m, rad] permitted difference of the described lines of axial-torsional pipes */
 #define DMB_SAME_LINE 1e-6
 
 static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
@@ -18,7 +18,7 @@ static int is_axial_torsional(const dmb_scene *scene, uint32_t node)
     return scene->layout.size[node] == DMB_NODE_AXIAL_TORSIONAL;
 }
 
-/* [m] along body x from the node to where what is fixed to it ends, towards the far end. */
+/* [m] Distance along body x from the node to the end of the parts fixed to it, towards the far end. */
 static double arm_ahead(const dmb_scene *scene, uint32_t node, uint32_t string)
 {
     const uint32_t element = scene->node_element[node];
@@ -32,7 +32,7 @@ double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_s
     return arm_ahead(from, old, string) - arm_ahead(scene, node, string);
 }
 
-/* Rotation about the node's own axis against its described pose, on the turn nearest to `near`. */
+/* Rotation about the node's own axis relative to its described pose, on the revolution nearest to `near`. */
 static double turn_of(const dmb_scene *scene, uint32_t node, const double q[4], double near)
 {
     double between[4];
@@ -42,7 +42,7 @@ static double turn_of(const dmb_scene *scene, uint32_t node, const double q[4], 
 
 /* ---- Matched nodes ----------------------------------------------------------------------------------------------- */
 
-/* On the way from the far end to the rig end of a string. */
+/* Iteration from the far end to the rig end of a string. */
 typedef struct iterator {
     double shift[3];             /* [m] new less old displacement of the last node, world */
     double offset[3];            /* [m] new less old place of the last node, world: along its arm */
@@ -85,8 +85,7 @@ static void transfer_six_dof(dmb_sim *sim, uint32_t node, const dmb_sim *from, u
     dmb_arm_velocity(arm, v);
 }
 
-/* [m] what must be added to the advance of an axial-torsional node to stay where it is; without a hole, along its line.
- */
+/* [m] Change of the advance of an axial-torsional node that preserves its position; without a hole, along its line. */
 static double axial_torsional_shift(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old)
 {
     const double ex[3] = {1.0, 0.0, 0.0};
@@ -122,7 +121,7 @@ static void transfer_axial_torsional(dmb_sim *sim, uint32_t node, const dmb_sim 
            DMB_NODE_AXIAL_TORSIONAL * sizeof(double));
 }
 
-/* The walk goes on from where the node really is now; an error where its line is not the old one. */
+/* Continues from the actual position of the node; an error if its line differs from the old one. */
 static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, const double R_old[9],
                            const double u_old[3], uint32_t string, iterator *w)
 {

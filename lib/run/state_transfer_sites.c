@@ -1,5 +1,5 @@
-/* Memory of the places at the wall, transferred from place to place. A place of the old scene may be missing in
- * the new one and the other way round: a guided rig end does not meet the wall. */
+/* Transfer of the memory of contact points. A point of one scene may have no counterpart in the other: a supported rig
+ * end has no wall contact. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 
-/* [m] within which two places on one node are the same. */
+/* [m] largest distance of equal contact points on one node */
 #define DMB_SAME_PLACE 1e-9
 
 #define DMB_COPY_SITE(field, width)                                                       \
@@ -39,7 +39,8 @@ static void transfer_axial_torsional_site(dmb_sim *sim, uint32_t s, const dmb_si
     if (what == DMB_TRANSFER_ALL) DMB_COPY_SITE(axial_torsional_slip, 2);
 }
 
-/* As at time 0: open; where it is on the axis is found when the others are transferred (place_new_sites). */
+/* Initial state as at time 0: open; its position on the axis is found after the others are transferred
+ * (place_new_sites). */
 static void begin_site(dmb_sim *sim, uint32_t s)
 {
     const double down[3] = {0.0, 0.0, -1.0};
@@ -70,7 +71,7 @@ static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t
     *arm = 0.0;
     for (uint32_t s = 0; s < scene->string_count; s++) {
         const dmb_string_map *map = scene->strings + s;
-        if (node - map->first_node >= map->node_count) continue; /* also of a node before, by wrapping round */
+        if (node - map->first_node >= map->node_count) continue; /* unsigned wrap-around also excludes earlier nodes */
         const dmb_common_string common = dmb_common_string_of(scene, from, s);
         if (node < common.to) return DMB_NONE;
         const uint32_t old = common.from + (node - common.to);
@@ -80,7 +81,7 @@ static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t
     return from->node_count - (scene->node_count - node); /* free bodies come after the strings, in their order */
 }
 
-/* Places stand along the strings in both scenes, so one pass over both will do. */
+/* Contact points are ordered along the strings in both scenes, so one pass over both suffices. */
 static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
@@ -104,7 +105,7 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
     }
 }
 
-/* Pipes are alike, so a point inside an element comes from the one as far from the end of the list of them. */
+/* Pipes are equal, so points inside elements are matched by their index from the end. */
 static void transfer_inside_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
@@ -124,7 +125,7 @@ static void transfer_inside_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
     }
 }
 
-/* A rig head moves on to another place; its ring begins there anew. */
+/* A rig head moves to another position; its contact point is new there. */
 static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     for (uint32_t b = 0; b < sim->scene->body_count - sim->scene->ring_count; b++) {
@@ -136,8 +137,8 @@ static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     }
 }
 
-/* Rings stand along the strings in both scenes. One on a pipe that has come begins anew; one that has become another
- * ring at the same place goes on. */
+/* Stabilisers are ordered along the strings in both scenes. One on an added pipe is new; one with another index at the
+ * same place is transferred. */
 static void transfer_ring_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
@@ -178,7 +179,7 @@ static double described_depth(const dmb_scene *scene, uint32_t s)
     return scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset;
 }
 
-/* [m] by which the next transferred site of the same chain is deeper than described, NAN: there is none. */
+/* [m] Depth of the next transferred contact point of the same chain less its described depth; NAN: there is none. */
 static double advance_of_chain(const dmb_sim *sim, uint32_t s)
 {
     const dmb_scene *scene = sim->scene;
@@ -190,7 +191,8 @@ static double advance_of_chain(const dmb_sim *sim, uint32_t s)
     return (double)NAN;
 }
 
-/* The chain knows how far it went along the hole; without it the nearest place within twice the way of the node. */
+/* Places a new contact point by the advance of its chain; without transferred points at the nearest depth within twice
+ * the displacement of the node. */
 static void place_new_site(dmb_sim *sim, uint32_t s)
 {
     const dmb_scene *scene = sim->scene;
@@ -207,7 +209,7 @@ static void place_new_site(dmb_sim *sim, uint32_t s)
     dmb_contact_place(sim, s, depth);
 }
 
-/* From the far end on: one that is placed serves those before it. */
+/* Places new contact points from the far end on, because each serves those before it. */
 static void place_new_sites(dmb_sim *sim)
 {
     for (uint32_t s = sim->scene->site_count; s-- > 0;)

@@ -1,4 +1,4 @@
-/* One call at a time: what a function of the caller's may do with the sim it is called for. */
+/* One call at a time: permitted calls of a caller's function on the sim that calls it. */
 #include "sim/access.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ void dmb_sim_refuse_re_entry(dmb_sim *sim)
                     sim->clock->time);
 }
 
-/* A call on a sim fails; within a call of the library's own it is for that one to tell. */
+/* Failure of a call; inside another call of the library, that one reports it. */
 int32_t dmb_sim_fail(const dmb_sim *sim, int32_t status, const char *call, const char *text)
 {
     if (sim == NULL) return dmb_failure(NULL, NULL, status, call, text);
@@ -59,7 +59,7 @@ int32_t dmb_sim_occupy(const dmb_sim *sim)
     return status;
 }
 
-/* However a failure on the way was explained, that the caller ended the call is why. */
+/* A cancellation replaces whatever failure it caused. */
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
@@ -95,7 +95,7 @@ void dmb_sim_take_back(dmb_sim *sim)
     sim->progress->to = 1.0;
 }
 
-/* The caller's progress function: told at bounded intervals of a long call, which it may end. */
+/* The caller's progress function, called at bounded intervals of a long call, which it may cancel. */
 
 void dmb_progress_begin(dmb_sim *sim)
 {

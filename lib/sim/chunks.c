@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The first that part number `part` of a run makes. */
+/* First item of chunk `part` of a run. */
 static uint32_t begin_of(const dmb_chunks *parts, uint32_t part)
 {
     const uint32_t units = (parts->count - 1) / parts->grain + 1;
@@ -10,8 +10,8 @@ static uint32_t begin_of(const dmb_chunks *parts, uint32_t part)
     return begin < parts->count ? (uint32_t)begin : parts->count;
 }
 
-/* The caller's threads call this. Each part has a mark of its own; one that was begun is not begun again, and after the
- * run there are none. */
+/* Entry point of the caller's threads. Each chunk has a mark, so that none is run twice; after the run all marks are
+ * cleared. */
 static void run_part(void *work, uint32_t part)
 {
     dmb_chunks *parts = work;
@@ -36,7 +36,7 @@ int32_t dmb_chunks_close(dmb_sim *sim)
     return sim->chunks->failed ? DMB_ERR_CALLBACK : DMB_OK;
 }
 
-/* After a failure the rest of the step is made here, so that nothing more is asked of the caller's function. */
+/* After a failure the remaining work of the step is done here, without the caller's function. */
 static void fail(dmb_chunks *parts, int32_t status, uint32_t done)
 {
     parts->failed = 1;

@@ -42,7 +42,7 @@ typedef struct field_counts {
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
         (void)kl, (void)kn, (void)sb, (void)pb, (void)st, (void)f
 
-/* [byte] of the state that is set aside in `backup`. A snapshot holds the reused factors too. */
+/* [byte] Size of the state in `backup`. A snapshot also contains the reused factors. */
 #define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
 static uint64_t state_bytes(const field_counts *counts)
 {
@@ -78,7 +78,7 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->sparse_block = sparse ? scene->block_count : 0;
 }
 
-/* Most pieces of a run of elements, nodes or sites; 0: none is divided. */
+/* Largest number of chunks of a run of elements, nodes or contact points; 0: none is divided. */
 static uint64_t pieces_of(const dmb_scene *scene)
 {
     const uint32_t most = scene->node_count > scene->site_count ? scene->node_count : scene->site_count;
@@ -161,7 +161,7 @@ static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 }
 
 /* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there
- * is no sim, and the places go nowhere. */
+ * is no sim, and addresses are discarded. */
 static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
 {
     const field_counts counts = counts_of(scene);

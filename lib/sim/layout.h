@@ -1,5 +1,5 @@
-/* Places of the fields of a sim in its block. Everything comes from the lists of sim/sim.h: the size, the carving, and
- * the table of fields that snapshot, hash and tests walk. */
+/* Memory layout of a sim in its block. Everything is derived from the lists of sim/sim.h: the size, the layout, and the
+ * table of fields for snapshot, hash and tests. */
 #ifndef DMB_SIM_LAYOUT_H
 #define DMB_SIM_LAYOUT_H
 
@@ -62,13 +62,13 @@ enum {
 #undef DMB_ONE_MORE
 #undef DMB_ONE_WORK_MORE
 
-/* The fields of the groups first .. last in the order of their lists. Returns how many. The data may be written only
- * where the sim may. */
+/* The fields of the groups first .. last in the order of their lists. Returns how many. The data may be written only if
+ * the sim may. */
 size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_group, dmb_field fields[DMB_FIELD_MAX]);
 
 /* to <- from, the whole configuration, both of the sim. sim/layout */
 void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);
-/* The state set aside while a call takes several steps, and back, so that a failing call changes nothing.
+/* Backup of the state while a call takes several steps, and its restoration, so that a failing call changes nothing.
  * sim/layout */
 void dmb_state_back_up(dmb_sim *sim);
 void dmb_state_restore(dmb_sim *sim);

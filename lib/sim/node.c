@@ -13,7 +13,7 @@ double dmb_axial_torsional_depth(const dmb_scene *scene, const dmb_configuration
     return scene->reference_depth[node] + configuration->displacement[3 * node];
 }
 
-#define DMB_DETOUR 2.0       /* [-] of the way along a bent axis to the distance */
+#define DMB_DETOUR 2.0       /* [-] length along a bent axis over the distance */
 #define DMB_DETOUR_LEAST 1.0 /* [-] in mean element lengths */
 
 static uint32_t segment_without_site(const dmb_scene *scene, const dmb_configuration *known, uint32_t node, double arm,
@@ -39,8 +39,8 @@ uint32_t dmb_node_segment(const dmb_scene *scene, const dmb_configuration *known
     return dmb_hole_segment_at(&scene->hole, known->site_depth[s] + described);
 }
 
-/* Carried along the hole's axis without twist from its pose at time 0, and turned by `turn` about the axis; without a
- * hole the line through its pose at time 0. */
+/* Pose at time 0 transported along the hole's axis without twist, and rotated by `turn` about the axis; without a hole
+ * along the line of its initial x axis. */
 static void axial_torsional_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                                  double rotation[9], double displacement[3])
 {

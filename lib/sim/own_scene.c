@@ -53,7 +53,8 @@ static double without_time_function(const dmb_scene_input *input)
     return input->target == DMB_TARGET_LOAD_FACTOR ? 1.0 : 0.0;
 }
 
-/* Damping per length is known of the sum over a node only, so the description is asked: sim->model. */
+/* Described value. Only the sum of damping per length over a node is stored, so the description in sim->model is read.
+ */
 static double described_value(const dmb_scene *scene, const dmb_environment_def *e, uint32_t input)
 {
     const dmb_scene_input *i = scene->inputs + input;
@@ -80,7 +81,7 @@ double dmb_described_setting(const dmb_sim *sim, uint32_t input)
 
 /* ---- As set ------------------------------------------------------------------------------------------------------ */
 
-/* The value of an input in the place of a time function. */
+/* Replaces a time function by the value of an input. */
 static void set_time_function(const dmb_sim *sim, uint32_t input)
 {
     dmb_own_scene *own = sim->own;
@@ -128,7 +129,7 @@ static void set_density(dmb_own_scene *own, const dmb_scene *described, double d
     }
 }
 
-/* Lateral, axial and torsional damping that inputs set, or as described. */
+/* Lateral, axial and torsional damping, set by inputs or as described. */
 static void set_damping(const dmb_sim *sim)
 {
     const dmb_scene *scene = &sim->own->scene;
@@ -194,7 +195,7 @@ static void copy_parts(dmb_own_scene *own, const dmb_scene *scene)
     memcpy(own->flow_node, scene->flow_node, 2 * n * sizeof(double));
 }
 
-/* The compiled scene with the sim's own parts in the place of its. */
+/* Replaces parts of the compiled scene by the sim's own. */
 static void place_parts(dmb_own_scene *own, const dmb_scene *compiled, dmb_scene *to)
 {
     *to = *compiled;
@@ -223,7 +224,7 @@ static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
     }
 }
 
-/* All but what inputs say. */
+/* Creates the own scene, before the values of inputs. */
 static void make(dmb_sim *sim, const dmb_scene *scene)
 {
     dmb_own_scene *own = sim->own;
@@ -242,7 +243,7 @@ void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim)
 {
     const dmb_scene *described = sim->model->scene;
     if (copy->own == NULL) return;
-    const int is_dense = copy->scene->sparse_count != described->sparse_count; /* as it was carved */
+    const int is_dense = copy->scene->sparse_count != described->sparse_count; /* as in its layout */
     make(copy, described);
     copy->scene = is_dense ? &copy->own->dense : &copy->own->scene;
 }
