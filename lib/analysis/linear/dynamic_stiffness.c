@@ -2,12 +2,11 @@
  *
  *     A(w) = (1 + i eta) K + i w C - w^2 M,     A d = f,
  *
- * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
+ * or of growing motions, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
  *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
- * coordinates where joints connect chains (dynamic_stiffness_chains.c). Rows that supports hold do not move. Rows that
- * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
- * p. */
+ * coordinates where joints connect chains (dynamic_stiffness_chains.c). Supported rows do not move. Rows moved by
+ * drives have prescribed displacements p, which satisfy all equations of joints: d = p + R z, R^T A R z = -R^T A p. */
 #include <math.h>
 #include <string.h>
 
@@ -75,7 +74,7 @@ static void assemble_array(const dmb_dynamic_stiffness *s, size_t count, const d
     for (size_t i = 0; i < count; i++) im[i] += 2.0 * g * w * M[i];
 }
 
-/* Rows and columns that are held are zero but for a one. */
+/* Assembles A; constrained rows and columns are identity. */
 static void assemble(dmb_dynamic_stiffness *s)
 {
     const dmb_linear_matrix *M = &s->linear->mass, *C = &s->linear->damping, *K = &s->linear->stiffness;
@@ -94,7 +93,7 @@ static void assemble(dmb_dynamic_stiffness *s)
 
 /* ---- Factors and solution ---------------------------------------------------------------------------------------- */
 
-/* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots stand on the diagonal. */
+/* First node of a chain with a pivot of rounding size, or -1. The reciprocal pivots are on the diagonal. */
 static int64_t unconstrained_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain)
 {
     const dmb_block_layout *layout = &s->linear->scene.layout;
@@ -199,7 +198,8 @@ static dmb_complex_number entry_of_nodes(const dmb_dynamic_stiffness *s, uint32_
     return entry_of(s, M->lower, C->lower, K->lower, layout->link[j] + at);
 }
 
-/* Entry of a held row or column, 18 of each matrix, with component c of the node next to it or itself. */
+/* Entry of a constrained row or column, of which 18 per matrix are stored, with component c of its node or a neighbour.
+ */
 static dmb_complex_number entry_of_constrained(const dmb_dynamic_stiffness *s, const double *lines, uint32_t i,
                                                uint32_t node, uint32_t c)
 {
@@ -246,7 +246,7 @@ static void subtract_constrained_column(const dmb_dynamic_stiffness *s, uint32_t
                      y, layout->row[i] + r);
 }
 
-/* y -= what a joint exerts on node a as its node b moves by p. */
+/* y -= force of a joint on node a due to the motion p of its node b. */
 static void subtract_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t b,
                            dmb_complex_array p, dmb_complex_array y)
 {
@@ -279,7 +279,7 @@ void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, d
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Index of a row among those that are held, or DMB_NONE. */
+/* Index of a row among the constrained rows, or DMB_NONE. */
 static uint32_t constrained_of(const dmb_scene *scene, uint32_t node, uint32_t c)
 {
     for (uint32_t i = 0; i < scene->constrained_count; i++)
@@ -287,7 +287,7 @@ static uint32_t constrained_of(const dmb_scene *scene, uint32_t node, uint32_t c
     return DMB_NONE;
 }
 
-/* The row times what is solved, and what is told, of the node and the nodes next to it. */
+/* The row times the solved and the prescribed motion of the node and its neighbours. */
 static dmb_complex_number chain_row(const dmb_dynamic_stiffness *s, uint32_t node, uint32_t c, dmb_complex_array x)
 {
     const dmb_scene *scene = &s->linear->scene;

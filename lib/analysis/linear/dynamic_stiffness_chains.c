@@ -52,7 +52,7 @@ void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_
     out->mass = DMB_ARENA_DOUBLES(arena, size.count);
 }
 
-/* Coordinates stand in the order of their rows inside each block. */
+/* Numbers coordinates in the order of their rows inside each block. */
 static void number(const dmb_linear *linear, dmb_jointed_chains *links)
 {
     const dmb_scene *scene = &linear->scene;
@@ -70,7 +70,7 @@ static void number(const dmb_linear *linear, dmb_jointed_chains *links)
             links->place[i] += links->row[scene->node_block[dmb_node_of_row(scene, linear->row_of[i])]];
 }
 
-/* Share of a row in the diagonals that pivots are held against. */
+/* Contribution of a row to the diagonals that scale the pivots. */
 static void add_scale(const dmb_linear *linear, const dmb_jointed_chains *links, uint32_t row, double stiffness,
                       double mass)
 {
@@ -179,7 +179,7 @@ static void add_nodes(const dmb_dynamic_stiffness *s)
     }
 }
 
-/* Terms of joint c between two of its nodes, in one cluster both. */
+/* Terms of joint c between two of its nodes, both in one component. */
 static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t b)
 {
     const dmb_scene *scene = &s->linear->scene;

@@ -1,5 +1,5 @@
-/* The dynamic stiffness at several frequencies side by side: right-hand sides into the places of the kernel, and
- * solutions out of them. */
+/* The dynamic stiffness at several frequencies in lanes: conversion of right-hand sides and solutions to and from the
+ * layout of the kernel. */
 #include <string.h>
 
 #include "analysis/linear/linear.h"
@@ -43,7 +43,7 @@ void dmb_dynamic_group_release(dmb_dynamic_group *group)
     memset(group, 0, sizeof *group);
 }
 
-/* Real part of a row in a right-hand side; the imaginary part stands DMB_FREQUENCIES behind it. */
+/* Real part of a row in a right-hand side; the imaginary part is DMB_FREQUENCIES further. */
 static double *number(const dmb_dynamic_group *group, uint32_t row, uint32_t column, uint32_t frequency)
 {
     return group->sides + (size_t)NUMBERS * ((size_t)group->columns * row + column) + frequency;

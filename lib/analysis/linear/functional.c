@@ -1,4 +1,5 @@
-/* Functionals by asking the public queries about a copy of the state in which one row at a time moves. */
+/* Functionals: derivatives of public queries, by evaluating them for a copy of the state in which one row at a time
+ * moves. */
 #include "analysis/linear/linear.h"
 
 #include <string.h>
@@ -28,7 +29,7 @@ static void exchange(double **a, double **b)
     *b = kept;
 }
 
-/* The state's own speeds step aside into the trial, and come back. */
+/* Exchanges the speeds of the state with those of the trial, and back. */
 static void exchange_motion(dmb_sim *copy)
 {
     exchange(&copy->now.velocity, &copy->trial.velocity);
@@ -43,7 +44,7 @@ static void take_value(uint32_t row, double value, dmb_functional *out)
     out->pose[out->count - 1] = value;
 }
 
-/* The answer for each row moving alone at unit speed, from the first to the last of those that it depends on. */
+/* The result for each row moving alone at unit speed, from the first to the last row on which it depends. */
 static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
 {
     const uint32_t rows = copy->scene->row_count;
@@ -62,7 +63,7 @@ static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t c
     return status;
 }
 
-/* A velocity is linear in the velocities of the rows, and a small displacement in theirs by the same numbers. */
+/* A velocity is linear in the velocities of the rows, and a small displacement has the same coefficients. */
 int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
 {
     memset(out, 0, sizeof *out);
@@ -140,7 +141,7 @@ static double slope(double *number, double step, const dmb_sim *copy, dmb_answer
     return (after - before) / (2.0 * step);
 }
 
-/* Central differences of any step are exact by accelerations and speeds. */
+/* Central differences of any step are exact for accelerations and speeds. */
 static void differences(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;

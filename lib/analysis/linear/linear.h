@@ -1,5 +1,4 @@
-/* The scene linearised about a state: its matrices, answers as linear functions of the motion, the dynamic stiffness.
- */
+/* Linearisation of a scene about a state: matrices, outputs as linear functions of the motion, dynamic stiffness. */
 #ifndef DMB_ANALYSIS_LINEAR_LINEAR_H
 #define DMB_ANALYSIS_LINEAR_LINEAR_H
 
@@ -15,80 +14,81 @@
 
 typedef struct dmb_linear_options {
     int32_t contact;       /* DMB_CONTACT_... of analysis.h */
-    int32_t no_friction;   /* 1: friction on the wall does not change: it is a dead load */
+    int32_t no_friction;   /* 1: friction on the wall is constant (a dead load) */
     double gap;            /* [m] of DMB_CONTACT_CLOSED */
     int32_t inertial_axes; /* 1: d in axes that do not spin about the node's x axis */
     int32_t reserved;
-    double spin;        /* [rad/s] of the nodes of strings in the state, 0: as they do */
-    double load_growth; /* [-] gravity, loads and bit loads act 1 + load_growth times */
+    double spin;        /* [rad/s] spin of the strings in the state; 0: as in the state */
+    double load_growth; /* [-] gravity, loads and bit loads are multiplied by 1 + load_growth */
 } dmb_linear_options;
 
-/* A residual below this part of the forces that balance in it is equilibrium. */
+/* [-] Residual over its terms below which the state is an equilibrium. */
 #define DMB_LINEAR_BALANCED 1e-6
 
-/* Blocks in the layout of the scene, and what joints add between their nodes, as constraint_tangent of a sim. */
+/* Blocks in the layout of the scene, and contributions of joints between their nodes, as constraint_tangent of a sim.
+ */
 typedef struct dmb_linear_matrix {
     double *diagonal, *lower, *upper;
     double *joints; /* shape (scene.tangent_count) */
 } dmb_linear_matrix;
 
 typedef struct dmb_linear {
-    dmb_scene scene; /* that of the sim, contact as asked for */
-    dmb_sim *work;   /* a copy of the sim in the state, its factors those of dmb_linear_factor */
+    dmb_scene scene; /* the sim's scene with the requested contact */
+    dmb_sim *work;   /* a copy of the sim in the state; its factors are those of dmb_linear_factor */
     dmb_allocator allocator;
     dmb_linear_matrix mass, damping, stiffness;
-    double *with_contacts;    /* [N, N m] residual of the state before contacts are left out, shape (rows) */
+    double *with_contacts;    /* [N, N m] residual of the state with contacts, shape (rows) */
     double *residual;         /* [N, N m] residual of the state without its accelerations, shape (rows) */
-    double relative_residual; /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
-    double largest_force;     /* [N, N m over the element length] largest entry of it that a node feels */
+    double relative_residual; /* [-] relative residual (dmb_residual_norm_of); 0: a (relative) equilibrium */
+    double largest_force;     /* [N, N m over the element length] its largest entry in a solved row */
     uint32_t largest_node;    /* where */
-    int32_t balanced;         /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
-    int32_t slides;           /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
-    int32_t inertial_axes;    /* of the options: axes of d do not spin */
+    int32_t balanced;         /* 1: it is rounding, or below DMB_LINEAR_BALANCED */
+    int32_t slides;           /* 1: the balance is better with axes at rest than with constant body-frame velocities */
+    int32_t inertial_axes;    /* from the options: axes of d do not spin */
     uint32_t rows;            /* of the scene */
     double *stiffness_size;   /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
     uint32_t coordinates;     /* length of z */
-    uint32_t *row_of;         /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
+    uint32_t *row_of;         /* row displaced by coordinate i, ascending, shape (coordinates) */
     uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
-    uint32_t turning;      /* a constraint whose equations change as the state moves on; DMB_NONE: none */
-    int32_t rolls;         /* 1: they change in any axes, as of rolling */
-    uint32_t turning_node; /* a node that turns on the wall in axes that turn with it; DMB_NONE: none */
-    double load_factor;    /* [-] of gravity, loads and bit loads */
-    double *spin, *rest;   /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
-    double *change;        /* rate of the others as those axes see it: 0 in an equilibrium, shape (rows) */
-    double *constrained_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before,
-                             the node and the node after, six each: what a drive that moves them exerts on the others;
-                             shape (scene.constrained_count, 3, 18) */
-    /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
+    uint32_t turning;      /* a constraint whose equations change with the motion of the state; DMB_NONE: none */
+    int32_t rolls;         /* 1: they change in any axes, for example rolling */
+    uint32_t turning_node; /* a node rotating on the wall in co-rotating axes; DMB_NONE: none */
+    double load_factor;    /* [-] factor of gravity, loads and bit loads */
+    double *spin, *rest;   /* velocities of the state: spin omitted by the axes of d, and the remainder, shape (rows) */
+    double *change;        /* rate of the remainder in those axes: 0 in an equilibrium, shape (rows) */
+    double *constrained_columns; /* columns of M, C_v and K_H of constrained rows, in the rows of the node before, of
+                                    the node and of the node after, six each: the effect of prescribed motion on other
+                                    rows; shape (scene.constrained_count, 3, 18) */
+    /* their rows of M, C and K by solved rows, same shape: forces on constrained rows */
     double *constrained_rows;
-    double *whole_joints; /* the joints' parts of M, C and K, rows and columns that are held included, shape
-                             (3, scene.tangent_count) */
+    double *whole_joints; /* contributions of joints to M, C and K, including constrained rows and columns, shape (3,
+                             scene.tangent_count) */
     void *block;
     size_t block_size;
 } dmb_linear;
 
-/* Linearises; the sim is untouched. Memory from the sim's allocator; dmb_linear_release gives it back, *linear is NULL
- * on error. Callbacks of constraints are called. Errors: DMB_ERR_NO_MEMORY, _CALLBACK, _NOT_FINITE, _ROTATION,
- * _SINGULAR. */
+/* Linearises; the sim is unchanged. Memory from the sim's allocator; dmb_linear_release frees it, *linear is NULL on
+ * error. Callbacks of constraints are called. Errors: DMB_ERR_NO_MEMORY, _CALLBACK, _NOT_FINITE, _ROTATION, _SINGULAR.
+ */
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
 void dmb_linear_release(dmb_linear **linear);
-/* Looks for a constraint whose equations change in the axes of d while the state of `sim` moves on, and for a node that
- * turns on the wall: coefficients of R^T M R z'' + .. = 0 are not constant then. dmb_linear_check_coefficients refuses
- * both, with a message of `who`: DMB_ERR_UNSUPPORTED; dmb_linear_note_coefficients tells that such terms are left out:
+/* Finds a constraint whose equations change in the axes of d with the motion of the state of `sim`, and a node rotating
+ * on the wall: then coefficients of R^T M R z'' + .. = 0 are not constant. dmb_linear_check_coefficients fails for both
+ * with a message of `who`: DMB_ERR_UNSUPPORTED; dmb_linear_note_coefficients reports that such terms are neglected:
  * DMB_NOTE_INCOMPLETE. */
 int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim);
 void dmb_linear_find_turning_on_wall(dmb_linear *linear, const dmb_linear_options *options);
 int32_t dmb_linear_check_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
 int32_t dmb_linear_note_coefficients(const dmb_linear *linear, const char *who, dmb_message *message);
 
-/* The scene of a linear system linearised once more with what turns turned on: NULL where nothing does. */
+/* The scene linearised again after further rotation of its rotating parts; NULL without rotating parts. */
 typedef struct dmb_linear_turned {
     dmb_linear *linear;
-    double *angle; /* [rad] by which nodes turned on against the axes of d, shape (node_count), and memory of work */
+    double *angle; /* [rad] further rotation of nodes relative to the axes of d, shape (node_count), and workspace */
     size_t bytes;
-    double spin;   /* [rad/s] of what turns fastest */
-    double change; /* [-] largest so far, and the node where it is most */
+    double spin;   /* [rad/s] of the fastest rotating part */
+    double change; /* [-] largest change so far, and its node */
     uint32_t node;
     uint32_t reserved;
 } dmb_linear_turned;
@@ -97,10 +97,10 @@ typedef struct dmb_linear_turned {
 int32_t dmb_linear_turn_on(const dmb_linear *linear, const dmb_sim *sim, const dmb_linear_options *options,
                            dmb_linear_turned *out);
 void dmb_linear_turned_release(dmb_linear_turned *turned, const dmb_allocator *allocator);
-/* [-] What the forces of an answer d e^(s t) change by while parts turn, d = re + i im by rows, im may be NULL. */
+/* [-] Relative change of the forces of a motion d e^(s t) while parts rotate, d = re + i im by rows, im may be NULL. */
 double dmb_linear_change_of(dmb_linear_turned *turned, const dmb_linear *linear, const double s[2], const double *re,
                             const double *im);
-/* DMB_ERR_UNSUPPORTED with a message of `who` and `then` what, where the largest change is more than 1e-4. */
+/* DMB_ERR_UNSUPPORTED with a message of `who` and `then` the remedy, if the largest change exceeds 1e-4. */
 int32_t dmb_linear_check_change(const dmb_linear_turned *turned, const char *who, const char *then,
                                 dmb_message *message);
 
@@ -111,23 +111,23 @@ static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_lin
     const dmb_block_layout *layout = &linear->scene.layout;
     return A->diagonal[layout->diag[node] + (size_t)(layout->size[node] + 1) * c];
 }
-/* Of a displacement 1, of a rotation the square of the length scale. */
+/* Weight of a row: 1 of a displacement, the squared length scale of a rotation. */
 static inline double dmb_linear_weight(const dmb_linear *linear, uint32_t node, uint32_t c)
 {
     return 2 * c < linear->scene.layout.size[node] ? 1.0 : linear->scene.length_scale * linear->scene.length_scale;
 }
-/* [N/m] per weight, what a stiffness is measured by that is less: such a one may be rounding of others. */
+/* [N/m] Smallest resolved stiffness per weight: a smaller one may be rounding of others. */
 double dmb_linear_stiffness_at_least(const dmb_linear *linear);
-/* [N/m] that DMB_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
+/* [N/m] Stiffness added by DMB_CONTACT_CLOSED at the open contact point `site`; 0: none. */
 double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t site, double gap);
 
 /* A = 0. */
 void dmb_linear_clear(const dmb_linear *linear, dmb_linear_matrix *A);
 /* y = A x by rows, x and y apart. */
 void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
-/* y = |A| |x|: the size of the terms that add up to A x. */
+/* y = |A| |x|: the size of the terms of A x. */
 void dmb_linear_terms(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
-/* d = R z, shape (rows) from (coordinates); rows that are held become 0. */
+/* d = R z, shape (rows) from (coordinates); constrained rows become 0. */
 void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d);
 /* g = R^T f, shape (coordinates) from (rows). */
 void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
@@ -135,38 +135,38 @@ void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
 void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g);
 /* R^T A R, shape (coordinates, coordinates), column by column; work: shape (2 rows + coordinates). */
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
-/* [-] |x.Ky - y.Kx| for x, y of random numbers over the roots of the stiffness: of rounding size where K is symmetric.
- */
+/* [-] |x.Ky - y.Kx| for x, y of random numbers over the square roots of the stiffness: of rounding size if K is
+ * symmetric. */
 double dmb_linear_asymmetry(const dmb_linear *linear, double *work);
-/* 1 if something is elastic and no motion meets a damping force, or one that drives it; work: shape (3 rows +
+/* 1 if the scene has stiffness and no motion has a damping (or negative damping) force; work: shape (3 rows +
  * coordinates). */
 int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work);
 
-/* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
- * -1; weakest may be NULL. */
+/* Factorises k K + c C + m M in `work`: block-tridiagonal, block-sparse with joints. Node of a singular block, or -1;
+ * weakest may be NULL. */
 int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_block_weakest *weakest);
 /* Eigenvalues of K d = square M d below `square`, by the signs of the factors of K - square M (Sylvester); without
- * joints only. The factors of dmb_linear_factor are gone then. */
+ * joints only. Overwrites the factors of dmb_linear_factor. */
 uint32_t dmb_linear_count_below(dmb_linear *linear, double square);
-/* The same with joints too; -1 where a block is singular there. */
+/* The same, also with joints; -1 if a block is singular there. */
 int64_t dmb_linear_count(dmb_linear *linear, double square);
-/* Negative eigenvalues of the symmetric part of k K + c C + m M, without joints only. The factors are gone then. */
+/* Negative eigenvalues of the symmetric part of k K + c C + m M, without joints only. Overwrites the factors. */
 uint32_t dmb_linear_negative(dmb_linear *linear, double k, double c, double m);
 /* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
 void dmb_linear_solve(dmb_linear *linear, double *x);
 
 /* Functions shared by the files of dmb_linear_make. */
 
-/* Memory for the matrices about the state of a sim, and a copy of it to work on; NULL without memory. */
+/* Memory for the matrices, and a copy of the state of the sim for evaluations; NULL without memory. */
 dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 
 /* An evaluation of the state with its accelerations. */
 dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear);
-/* Residual of the forces where body-frame velocities stay as they are. */
+/* Residual of the forces at constant body-frame velocities. */
 int32_t dmb_linear_take_balance(dmb_linear *linear);
-/* Of a state that is balanced. */
+/* Steady accelerations of an equilibrium. */
 void dmb_linear_take_steady_accelerations(dmb_linear *linear);
-/* The residual counts as balanced where it is no more than rounding of the poses; K is there. */
+/* The residual counts as balanced if it is at most the rounding of the poses; requires K. */
 void dmb_linear_judge_rounding(dmb_linear *linear);
 
 static inline void dmb_linear_add_array(double factor, const double *from, size_t count, double *to)
@@ -175,10 +175,10 @@ static inline void dmb_linear_add_array(double factor, const double *from, size_
 }
 /* to += factor from, all of their blocks. */
 void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matrix *from, dmb_linear_matrix *to);
-/* to += factor A blkdiag(v^), v by rows; an axial-torsional node turns about its own axis alone and has none. */
+/* to += factor A blkdiag(v^), v by rows; an axial-torsional node rotates about its own axis only and has none. */
 void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
                              dmb_linear_matrix *to);
-/* stiffness_size of the stiffness as it is. */
+/* Sets stiffness_size from the present stiffness. */
 void dmb_linear_take_stiffness_size(dmb_linear *linear);
 /* The blocks of stiffness of a sim. */
 dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
@@ -186,21 +186,22 @@ dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
 int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear);
 int32_t dmb_linear_take_damping(dmb_linear *linear);
 
-/* C and K with the velocities of the axes of d (still: those that do not spin), and what is held is cleared. */
+/* C and K for the velocities of the axes of d (inertial_axes: axes that do not spin); clears constrained rows and
+ * columns. */
 void dmb_linear_turn_frames(dmb_linear *linear, int32_t inertial_axes);
 
-/* The scene without what is not to act: the wall, or the change of its friction. */
+/* The scene without inactive terms: the wall, or the change of its friction. */
 void dmb_linear_finalise(dmb_linear *linear, const dmb_linear_options *options);
-/* Forces that the frozen scene lacks stay as dead loads. `before`: residual with them, shape (rows). */
+/* Forces missing in the finalised scene act as dead loads. `before`: residual with them, shape (rows). */
 void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before);
-/* Stiffness of the wall under rings up to `gap` [m] from it. */
+/* Adds the stiffness of the wall at contact points within `gap` [m] of it. */
 void dmb_linear_close_contacts(dmb_linear *linear, double gap);
 
-/* Keeps the columns (1), or rows (0), of what is held. */
+/* Copies the columns (1), or rows (0), of constrained rows. */
 void dmb_linear_keep_constrained(dmb_linear *linear, int columns);
 /* Clears them. */
 void dmb_linear_hold(dmb_linear *linear, int columns);
-/* whole_joints += factor times the joints' parts as they are. */
+/* whole_joints += factor times the present contributions of joints. */
 void dmb_linear_add_whole_joints(dmb_linear *linear, double factor);
 
 /* R and the rows of its coordinates. DMB_ERR_NO_MEMORY. */
@@ -208,22 +209,22 @@ int32_t dmb_linear_make_coordinates(dmb_linear *linear);
 
 /* ---- The stiffness of a static state (stiffness_signs.c) --------------------------------------------------------- */
 
-/* As the static iteration leaves it in the stiffness_ blocks, held rows identity. */
+/* Stiffness as left by the static iteration in the stiffness_ blocks, with constrained rows as identity. */
 
-/* Factors it as dmb_factor_stiffness, and counts its negative eigenvalues in the independent coordinates, of its
- * symmetric part where friction makes it unsymmetric; those of rounding size do not count in chains without joints: a
- * buckled column may turn about its load. */
+/* Factorises it as dmb_factor_stiffness, and counts its negative eigenvalues in the independent coordinates, of its
+ * symmetric part if friction makes it non-symmetric; those of rounding size are not counted in chains without joints: a
+ * buckled column may rotate about its load. */
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative);
 
 typedef struct dmb_signs {
-    int32_t negative;   /* [-] negative eigenvalues beyond rounding; -1: they cannot be counted */
-    int32_t unresolved; /* [-] eigenvalues of rounding size: their signs are not known */
+    int32_t negative;   /* [-] number of negative eigenvalues beyond rounding; -1: not determined */
+    int32_t unresolved; /* [-] number of eigenvalues of rounding size, whose signs are unknown */
     double bound;       /* [N/m] largest size of those */
 } dmb_signs;
 
-/* Signs of the eigenvalues of K, symmetric, not factored and left as it is, with the residual of its state at hand.
- * both 0: `unresolved` is not looked for, at half the cost. amount (rows; may be NULL): what is added to the diagonal
- * and taken from it (eq:signs.amount). The reduced system is made anew. DMB_ERR_NO_MEMORY. */
+/* Signs of the eigenvalues of K, symmetric, before factorisation and unchanged, with the residual of its state. both 0:
+ * `unresolved` is not determined, at half the cost. amount (rows; may be NULL): amount added to and subtracted from the
+ * diagonal (eq:signs.amount). Overwrites the reduced system. DMB_ERR_NO_MEMORY. */
 int32_t dmb_stiffness_signs_of(dmb_sim *sim, int both, double *amount, dmb_signs *out);
 void dmb_stiffness_amounts(const dmb_sim *sim, double *amount);
 /* [N/m] Rounding of the Rayleigh quotient of a shape x (rows) in K x = mu D x, D the weights 1 of displacements and
@@ -233,13 +234,13 @@ double dmb_stiffness_rounding_of(const dmb_sim *sim, const double *amount, const
 double dmb_stiffness_largest(const dmb_sim *sim);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */
 int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
-/* Tells which part nothing holds. DMB_ERR_SINGULAR. */
+/* Reports the unconstrained part. DMB_ERR_SINGULAR. */
 int32_t dmb_stiffness_explain(dmb_sim *sim, const char *who, uint32_t node);
 
 /* ---- Functionals of the motion ----------------------------------------------------------------------------------- */
 
-/* An answer as a linear function of the motion of the nodes about a state: what a query would answer to a small motion
- * q, q', q'' of the rows. */
+/* Output as a linear function of the motion about a state: the result of a query for a small motion q, q', q'' of the
+ * rows. */
 
 /* Four neighbouring nodes: the two of an element and one on either side. */
 enum { DMB_FUNCTIONAL_ROWS = 24 };
@@ -253,31 +254,31 @@ typedef struct dmb_functional {
     double acceleration[DMB_FUNCTIONAL_ROWS];
 } dmb_functional;
 
-/* Displacement or rotation of a place in the axes that it has (DMB_FRAME_BODY) or of the world; by duality also the
- * rows of a unit force or moment there. copy: a sim of the state; its trial is written.
- * Errors: those of dmb_query_motion. O(rows). */
+/* Displacement or rotation of a place in its axes (DMB_FRAME_BODY) or those of the world; by duality also the rows of a
+ * unit force or moment there. copy: a sim of the state; its trial is written. Errors: those of dmb_query_motion.
+ * O(rows). */
 int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out);
 
-/* Rows of the nodes around a place: the node or the two nodes it follows, and one more on either side, and no numbers.
- * copy and errors as above. */
+/* Rows of the nodes around a place: its node or two nodes, and one more on either side, with coefficients 0. copy and
+ * errors as above. */
 int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out);
-/* Takes the rows of a node in that are not in it yet. */
+/* Adds the rows of a node unless they are included. */
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
-/* An answer that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
+/* A result that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
  * of second degree in their speeds. copy: linear->work, as before on return. */
 typedef double dmb_answer(const dmb_sim *copy, const void *what);
 void dmb_functional_of_answer(dmb_linear *linear, dmb_answer *answer, const void *what, dmb_functional *out);
-/* Speeds and accelerations taken so far are those in the body frame of the moved nodes: what the axes of d turn by. */
+/* Converts speeds and accelerations from the body frames of the moved nodes to the rotating axes of d. */
 void dmb_functional_turn_frames(const dmb_linear *linear, dmb_functional *out);
 /* to += factor from, of the same rows. */
 void dmb_functional_add(double factor, const dmb_functional *from, dmb_functional *to);
-/* Its rate: what was by pose is by speed. */
+/* Adds its rate: coefficients of the pose become those of the speed. */
 void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_functional *to);
 
-/* Answers of the queries now, for outputs of a response. */
+/* Present results of queries, for outputs of a response. */
 
-/* The value of an output of any kind but DMB_RESPONSE_DISPLACEMENT, which depends on where it is counted from. *status:
- * errors of the query. */
+/* The value of an output of any kind but DMB_RESPONSE_DISPLACEMENT, which depends on its reference. *status: errors of
+ * the query. */
 double dmb_answer_of(const dmb_sim *sim, const dmb_response_output *output, int32_t *status);
 
 /* ---- Dynamic stiffness ------------------------------------------------------------------------------------------- */
@@ -288,7 +289,7 @@ typedef struct dmb_complex_number {
 
 /* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
 typedef struct dmb_jointed_chains {
-    uint32_t count;       /* of its coordinates; 0 too where joints leave none */
+    uint32_t count;       /* number of coordinates; also 0 if joints leave none */
     uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
     uint32_t *place;      /* of coordinate i of the linear system among them; DMB_NONE: none */
     dmb_complex_sparse matrix;
@@ -296,7 +297,7 @@ typedef struct dmb_jointed_chains {
     dmb_complex_array half;       /* A_ij R_j, shape (6, the widest block) */
     dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
     double *rest;                 /* forces that constraints balance, shape (2, the most rows of a cluster) */
-    double *stiffness, *mass; /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
+    double *stiffness, *mass;     /* scales of pivots: diagonals of R^T |K| R and R^T |M| R, shape (count) */
 } dmb_jointed_chains;
 
 typedef struct dmb_dynamic_stiffness {
@@ -315,23 +316,23 @@ typedef struct dmb_dynamic_stiffness {
 int32_t dmb_dynamic_stiffness_make(const dmb_linear *linear, double structural_damping, dmb_dynamic_stiffness *out);
 void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness);
 
-/* Factors at w. A node that nothing holds there, or -1. */
+/* Factorises at w. Returns an unconstrained node, or -1. */
 int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *stiffness, double omega);
 /* The same at growth + i omega. */
 int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *stiffness, double growth, double omega);
-/* x, shape (rows): forces on entry (those on rows that are held do nothing), displacements of all rows on return.
- * moves 1: on entry displacements p. */
+/* x, shape (rows): forces on entry (ignored in constrained rows), displacements of all rows on return. moves 1:
+ * prescribed displacements p on entry. */
 void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves, dmb_complex_array x);
 
-/* Displacements p that drives prescribe are kept, and x are the forces -A p in their place, at growth and omega of
- * `stiffness`. */
+/* Stores displacements p prescribed by drives, and replaces x by the forces -A p, at growth and omega of `stiffness`.
+ */
 void dmb_dynamic_take_told(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 
-/* Responses at up to DMB_FREQUENCIES frequencies side by side (eq:response.direct), in scenes without joints: the bits
- * of one frequency at a time. */
+/* Responses at up to DMB_FREQUENCIES frequencies in lanes (eq:response.direct), in scenes without joints; same bits as
+ * one frequency at a time. */
 typedef struct dmb_dynamic_group {
     dmb_dynamic_stiffness *stiffness;
-    uint32_t columns;              /* right-hand sides of each frequency that there is room for */
+    uint32_t columns;              /* capacity for right-hand sides of each frequency */
     uint32_t used;                 /* frequencies */
     double omega[DMB_FREQUENCIES]; /* [rad/s] */
     double *sides, *work;          /* as in dmb_response_job */
@@ -339,7 +340,7 @@ typedef struct dmb_dynamic_group {
     size_t block_size;
 } dmb_dynamic_group;
 
-/* 1 if the scene can be solved so. */
+/* 1 if the scene permits this method. */
 int32_t dmb_dynamic_group_suits(const dmb_dynamic_stiffness *stiffness);
 /* DMB_OK or DMB_ERR_NO_MEMORY; release gives the memory back and takes a struct of zeros too. */
 int32_t dmb_dynamic_group_make(dmb_dynamic_stiffness *stiffness, uint32_t columns, dmb_dynamic_group *out);
@@ -347,15 +348,15 @@ void dmb_dynamic_group_release(dmb_dynamic_group *group);
 /* Right-hand side of a frequency, x and moves as in dmb_dynamic_stiffness_solve; x is written. */
 void dmb_dynamic_group_put(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x);
-/* Solves for the first `columns` right-hand sides. One bit for each frequency at which something is not held: it has
- * no solution, or dmb_dynamic_stiffness_factor tells the node. */
+/* Solves for the first `columns` right-hand sides. One bit for each frequency without a solution because of an
+ * unconstrained motion; dmb_dynamic_stiffness_factor finds its node. */
 uint32_t dmb_dynamic_group_solve(dmb_dynamic_group *group, uint32_t columns);
-/* Displacements; moves 1: x holds the displacements p on entry. The stiffness is at that frequency then, for
- * dmb_dynamic_row and what it is used by. */
+/* Displacements; moves 1: x holds the displacements p on entry. Sets the frequency of the stiffness, for
+ * dmb_dynamic_row. */
 void dmb_dynamic_group_get(dmb_dynamic_group *group, uint32_t frequency, uint32_t column, int32_t moves,
                            dmb_complex_array x);
 
-/* 1 if the reciprocal of a pivot is so large that nothing but rounding holds its row at this frequency. */
+/* 1 if the reciprocal of a pivot is so large that its row is unconstrained except for rounding at this frequency. */
 static inline int32_t dmb_dynamic_is_unconstrained(const dmb_dynamic_stiffness *s, double re, double im,
                                                    double stiffness, double mass)
 {
@@ -376,9 +377,9 @@ static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *
     return a;
 }
 
-/* The part of a dynamic stiffness where joints connect chains: R^T A R in complex blocks, one of each cluster of joints
- * and one of each other node, factored in the order of the scene's pattern. Its cost grows with the number of blocks,
- * and with the cube of the coordinates of one cluster. */
+/* Dynamic stiffness of jointed chains: R^T A R in complex blocks, one per constraint component and one per other node,
+ * factored in the order of the scene's pattern. Its cost grows with the number of blocks, and with the cube of the
+ * coordinates of one cluster. */
 
 /* Sizes to begin with: `count`, the widest block, the most rows of constraint of a cluster. */
 typedef struct dmb_jointed_chains_size {
@@ -390,13 +391,13 @@ void dmb_jointed_chains_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_
                                 dmb_jointed_chains *out);
 /* Numbers the coordinates; `size` as laid out with. */
 void dmb_jointed_chains_number(const dmb_linear *linear, dmb_jointed_chains_size size, dmb_jointed_chains *out);
-/* From the blocks of A. A node that nothing holds, or -1. */
+/* Factorises from the blocks of A. Returns an unconstrained node, or -1. */
 int64_t dmb_jointed_chains_factor(dmb_dynamic_stiffness *stiffness);
 /* Rows of jointed chains of x: forces in, displacements out. */
 void dmb_jointed_chains_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 
-/* Forces that a motion at one frequency takes: products with the dynamic stiffness A as the scene has it, rows that are
- * held included, and the forces of constraint that balance them,
+/* Forces of a motion at one frequency: products with the full dynamic stiffness A, including constrained rows, and the
+ * constraint forces that balance them,
  *
  *     A x + B^T multiplier = f
  *

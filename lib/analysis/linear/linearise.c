@@ -2,31 +2,31 @@
  *
  *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
  *
- * Six rows (translation; rotation) of a six-DOF node, H = H0 exp(d), two (along the hole; about its axis) of an
- * axial-torsional node. Rows that supports and motion drives hold are out: their rows and columns are zero. With joints
- * d = R z, z being the independent coordinates of the partition, else z are the rows that are left:
+ * Six rows (translation; rotation) of a six-DOF node, H = H0 exp(d), two (along the hole; about its axis) of an axial-
+ * torsional node. Rows constrained by supports and motion drives are zero, with their columns. With joints d = R z, z
+ * being the independent coordinates of the partition; otherwise z are the solved rows:
  *
  *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
  *
- * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d, with
- * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
- * steps solve, at given body-frame v and a,
+ * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d,
+ * with v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r
+ * that steps solve, at given body-frame v and a,
  *
  *     C = C_v + M v^,     K = K_H + C_v v^ + M a^                                   (eq:modes.linear)
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
- * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
- * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d, H = G exp(d) exp(w t): with
- * g = v - w velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^ d) + b^
- * d with b = a + w^ g, by which g changes in these axes:
+ * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do
+ * not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d, H = G exp(d) exp(w t):
+ * with g = v - w velocities of the perturbed motion are v + d' + g^ d, and their rates a + d'' + g^ d' - w^ (d' + g^
+ * d) + b^ d with b = a + w^ g, by which g changes in these axes:
  *
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M b^,                   (eq:modes.still-axes)
  *
  * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
- * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in
- * it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is
- * taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one that is
- * smooth at rest is a damper there. */
+ * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has
+ * in it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its
+ * past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one
+ * that is smooth at rest is a damper there. */
 #include "analysis/linear/linear.h"
 
 #include <float.h>
@@ -49,7 +49,7 @@ static void spin_node(dmb_sim *work, uint32_t node, double spin)
     work->now.velocity[row] = work->trial.velocity[row] = spin;
 }
 
-/* The strings of the state turning about their own axes. */
+/* Sets the spin of the strings about their own axes. */
 static void spin_strings(dmb_sim *work, double spin)
 {
     const dmb_scene *scene = work->scene;
@@ -61,7 +61,7 @@ static void spin_strings(dmb_sim *work, double spin)
     }
 }
 
-/* The partition of the state, its rows and factors; and the forces of constraint, which the tangents take as given. */
+/* Partition of the state, its rows and factors; constraint forces, which the tangents use. */
 static int32_t settle(const dmb_linear *linear)
 {
     dmb_sim *work = linear->work;
@@ -91,7 +91,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     return status < 0 ? status : dmb_linear_take_damping(linear);
 }
 
-/* The residual may be rounding of poses, which the stiffness tells. */
+/* Tests whether the residual is rounding of poses, from the stiffness. */
 static int32_t judge_rounding(dmb_linear *linear)
 {
     const int32_t status = dmb_linear_take_stiffness_and_mass(linear);
@@ -207,9 +207,9 @@ void dmb_linear_release(dmb_linear **linear)
     *linear = NULL;
 }
 
-/* The distance of a state from an equilibrium. */
+/* Distance of a state from an equilibrium. */
 
-/* Units of rounding of a pose that count. */
+/* Units of rounding of a pose that count as rounding of the residual. */
 #define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
 
 /* Largest force on a solved row; moments over the length of the chain. */
@@ -228,9 +228,9 @@ static void find_largest(dmb_linear *linear)
     }
 }
 
-/* Accelerations of the trial in a relative equilibrium: none where body-frame velocities stay as they are; -ad(w) g
- * where strings slide and turn with their axes at rest, V = g + w, w the spin about the node's x axis
- * (analysis/static/static.h). */
+/* Accelerations of the trial in a relative equilibrium: zero at constant body-frame velocities; -ad(w) g if strings
+ * slide and rotate with their axes at rest, V = g + w, w the spin about the node's x axis (analysis/static/static.h).
+ */
 static void steady_accelerations(dmb_linear *linear, int sliding)
 {
     const dmb_scene *scene = &linear->scene;
@@ -248,7 +248,7 @@ static void steady_accelerations(dmb_linear *linear, int sliding)
     }
 }
 
-/* The residual with those accelerations is out of balance. */
+/* Residual with those accelerations. */
 static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *norm)
 {
     dmb_sim *work = linear->work;
@@ -281,8 +281,8 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
     return DMB_OK;
 }
 
-/* The accelerations of an equilibrium are those of its kind. The ones in the sim are what the residual makes of them:
- * rounding over the masses, and through M a^ and the multipliers a stiffness where there is none. */
+/* Replaces the accelerations of an equilibrium by the steady ones. Those in the sim contain rounding of the residual
+ * over the masses, which M a^ and the multipliers would turn into a stiffness. */
 void dmb_linear_take_steady_accelerations(dmb_linear *linear)
 {
     if (!linear->balanced) return;
@@ -290,9 +290,8 @@ void dmb_linear_take_steady_accelerations(dmb_linear *linear)
     memcpy(linear->work->now.acceleration, linear->work->trial.acceleration, linear->rows * sizeof(double));
 }
 
-/* Poses are rounded where they are: eps |x| of a displacement, and through the stiffness between them sqrt(K_ii K_tt)
- * eps |x| of a force or moment, K_tt the largest of the node's translations; angles to eps. A string that nothing loads
- * leaves no more. */
+/* Rounding of poses: eps |x| of a displacement causes forces sqrt(K_ii K_tt) eps |x| through the stiffness, K_tt the
+ * largest of the node's translations; angles are rounded to eps. The residual of an unloaded string is of this size. */
 void dmb_linear_judge_rounding(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;

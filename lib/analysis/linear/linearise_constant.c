@@ -1,7 +1,7 @@
-/* Whether coefficients stay the same in the axes of the linear system while the state moves on: those of the wall, and
- * the equations of joints.
+/* Test for constant coefficients in the axes of the linear system during the motion of the state: those of the wall,
+ * and of the equations of joints.
  *
- * The normal of the wall stands still, so that in axes that turn with a string it goes round.
+ * The normal of the wall is fixed in space and rotates in axes that rotate with a string.
  *
  *     d = R z,     B R = 0:     d' = R z' + R' z,     d'' = R z'' + 2 R' z' + R'' z
  *
@@ -19,11 +19,11 @@
 #include "system/constrain/constrain.h"
 #include "system/system.h"
 
-/* [rad] that the fastest part of the state turns meanwhile, or over the length scale moves. */
+/* [rad] rotation, or displacement over the length scale, of the fastest part for the test */
 #define DMB_JOINTS_ANGLE 1e-3
-/* [-] of the terms in B R z that may be left after that: rounding, and speeds that hold to 1e-6. */
+/* [-] permitted change of B R z relative to its terms: rounding, and speeds projected to 1e-6 */
 #define DMB_JOINTS_CHANGE 1e-8
-/* [rad/s] below which a string on the wall stands still. */
+/* [rad/s] largest spin of a string on the wall that counts as rest */
 #define DMB_WALL_SPIN 1e-3
 
 enum { DMB_JOINTS_DRAWS = 3 };
@@ -41,7 +41,7 @@ static double largest_rate(const dmb_linear *linear)
     return most;
 }
 
-/* Rows of constraints at the place that the state reaches in a time h, in a copy of its own. */
+/* Rows of constraints at the state after a time h, in a separate copy. */
 static int32_t move_on(const dmb_linear *linear, dmb_sim *copy, double h)
 {
     const dmb_configuration *state = &linear->work->now;
@@ -55,7 +55,7 @@ static int32_t move_on(const dmb_linear *linear, dmb_sim *copy, double h)
     return dmb_constraint_rows(&evaluation);
 }
 
-/* d by body frames after the time h, of d in axes that do not take part in the spin: d <- exp(-w^ h) d. */
+/* d by body frames after the time h, of d in axes that do not spin: d <- exp(-w^ h) d. */
 static void turn_back(const dmb_linear *linear, double h, double *d)
 {
     const dmb_scene *scene = &linear->scene;
@@ -86,7 +86,7 @@ static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *d)
     dmb_linear_expand(linear, z, d);
 }
 
-/* 1 if a row of the constraint no longer holds d. */
+/* 1 if a row of the constraint is no longer satisfied by d. */
 static int has_changed(const dmb_sim *copy, const dmb_constraint *constraint, const double *d)
 {
     const dmb_block_layout *layout = &copy->scene->layout;
@@ -104,7 +104,7 @@ static int has_changed(const dmb_sim *copy, const dmb_constraint *constraint, co
     return 0;
 }
 
-/* 1 if it has equations of speeds and its parts move against each other; of a callback, if they move. */
+/* 1 if it has equations of speeds and its parts have relative motion; for a callback, if they move. */
 static int rolls(const dmb_linear *linear, const dmb_sim *copy, const dmb_constraint *constraint, double rate)
 {
     double motion = 0.0;
@@ -159,7 +159,7 @@ int32_t dmb_linear_find_turning(dmb_linear *linear, const dmb_sim *sim)
     return status;
 }
 
-/* [rad/s] about its own axis, where the axes of d take part in it. */
+/* [rad/s] Spin about its own axis if the axes of d spin with it, otherwise 0. */
 static double spin_of(const dmb_linear *linear, uint32_t node)
 {
     const dmb_block_layout *layout = &linear->scene.layout;

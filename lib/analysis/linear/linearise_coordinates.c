@@ -1,4 +1,4 @@
-/* Rows that supports and motion drives hold, and the independent coordinates where joints are. */
+/* Constrained rows (supports and motion drives), and independent coordinates of scenes with joints. */
 #include <math.h>
 #include <string.h>
 
@@ -74,7 +74,7 @@ static void keep_row(const dmb_block_layout *layout, uint32_t node, uint32_t c, 
     if (node + 1 < layout->n) copy_row(A->upper + layout->link[node], layout->size[node + 1], c, to + 12);
 }
 
-/* Columns, or rows, of what is held. */
+/* Copies columns, or rows, of constrained rows. */
 void dmb_linear_keep_constrained(dmb_linear *linear, int columns)
 {
     const dmb_scene *scene = &linear->scene;
@@ -108,9 +108,9 @@ void dmb_linear_hold(dmb_linear *linear, int columns)
     }
 }
 
-/* Independent coordinates z of the motions d = R z that joints leave. */
+/* Independent coordinates z of the motions d = R z permitted by joints. */
 
-/* Marks in `column` (shape (rows), to begin with) the rows that joints make dependent, and makes G of each cluster. */
+/* Marks in `column` (shape (rows), to begin with) the dependent rows, and computes G of each component. */
 static void find_dependent(dmb_linear *linear, uint8_t *dependent)
 {
     dmb_sim *work = linear->work;

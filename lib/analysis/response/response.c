@@ -14,9 +14,11 @@
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
 
-/* Frequency response: prepares what shakes and what is asked, solves at each frequency, refines at peaks. */
+/* Frequency response (eq:response.direct): one linearisation; excitations and outputs; points of the grid, solved in
+ * groups; then up to `refinement` passes, each of which halves the intervals beside the peaks of transfer functions and
+ * solves the new points. Refinement ends early if no interval is divided. */
 
-/* Right-hand sides that are solved for together, where there are more excitations: what factors cost is shared. */
+/* Largest number of right-hand sides solved together, which share the cost of factors. */
 enum { SIDES = 16 };
 
 /* ---- Preparation ------------------------------------------------------------------------------------------------- */
@@ -75,7 +77,7 @@ static int32_t linearise(dmb_response_work *w)
     if (status == DMB_OK) status = check_balance(w);
     if (status >= 0) status = dmb_linear_turn_on(w->linear, w->sim, &options, &w->turned);
     if (status < 0) return status;
-    w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
+    w->linear->work->magic = DMB_HANDLE_SIM; /* permits queries on the copy */
     status = dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
     if (status < 0 || !dmb_dynamic_group_suits(&w->stiffness)) return status;
     return dmb_dynamic_group_make(&w->stiffness, w->excitation_count < SIDES ? w->excitation_count : SIDES, &w->group);
@@ -124,7 +126,7 @@ static int32_t solve_grid(dmb_response_work *w, dmb_response *response)
     return status;
 }
 
-/* Halves the intervals beside each peak; new points are marked by the frequencies alone until they are solved. */
+/* Halves the intervals beside each peak; new points have a frequency only until they are solved. */
 static int32_t refine(dmb_response_work *w, dmb_response *response)
 {
     uint8_t *fresh = NULL;
@@ -159,7 +161,7 @@ static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, 
     return status;
 }
 
-/* Tells what the answers leave out. */
+/* Reports the effects that the response neglects. */
 static int32_t note_left_out(const dmb_response_work *w)
 {
     const int32_t status = dmb_linear_note_coefficients(w->linear, "response", &w->sim->message);

@@ -24,8 +24,8 @@ struct dmb_response {
 
 /* Without points; NULL if there is no memory. */
 dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitations, uint32_t outputs);
-/* A table of that many points, its numbers not written, in place of what the response has, which the caller gives back
- * with dmb_release. DMB_OK or DMB_ERR_NO_MEMORY, which changes nothing. */
+/* A table of that many points, with uninitialised values, replaces that of the response, which the caller frees with
+ * dmb_release. DMB_OK or DMB_ERR_NO_MEMORY, which changes nothing. */
 int32_t dmb_response_resize(dmb_response *response, uint32_t points);
 
 /* Output at a point for all excitations with their amplitudes and phases. */
@@ -43,11 +43,11 @@ enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
 
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
 int32_t dmb_response_options_get(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);
-/* Struct number i of the caller's array, whose items are as far apart as the first one says; its fields checked as far
- * as that needs no scene. */
+/* Struct i of the caller's array, with the item size of the first one; checks the fields that do not depend on the
+ * scene. */
 int32_t dmb_input_get(const dmb_excitation *excitations, uint32_t i, dmb_message *message, dmb_excitation *out);
 int32_t dmb_output_get(const dmb_response_output *outputs, uint32_t i, dmb_message *message, dmb_response_output *out);
-/* Likewise of a stepped sine, at a frequency that is checked too. */
+/* The same for a stepped sine, at a frequency that is checked too. */
 int32_t dmb_stepped_sine_options_get(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
                                      dmb_stepped_sine_options *out);
 /* Frequency number i [Hz] of the grid. */
@@ -56,28 +56,28 @@ double dmb_response_grid(const dmb_response_options *options, uint32_t i);
 /* More points where transfer functions have peaks. */
 
 /* Puts a point into the middle of every interval beside a peak of the magnitude of a transfer function. *fresh, shape
- * (points), 1 where the point is new and only its frequency is written; the caller gives it back with dmb_release, NULL
- * where there is nothing new. DMB_OK or DMB_ERR_NO_MEMORY. */
+ * (points), 1 for a new point, of which only the frequency is written; the caller frees it with dmb_release, NULL
+ * without new points. DMB_OK or DMB_ERR_NO_MEMORY. */
 int32_t dmb_response_split_peaks(dmb_response *response, uint8_t **fresh);
 
-/* Excitation of a scene in a frequency response: the rows of force of a unit of an input, and how they go with
- * frequency. */
+/* Excitation of a scene in a frequency response: force by rows per unit of an input, and its dependence on frequency.
+ */
 
 enum {
     DMB_EXCITE_FORCE = 0,   /* f(w) = rows */
     DMB_EXCITE_INERTIA = 1, /* f(w) = w^2 rows */
     DMB_EXCITE_CONTROL = 2, /* f(w) = (gain + integral_gain/(i w)) rows */
-    DMB_EXCITE_MOTION = 3 /* rows are displacements that move the coordinate of a drive by one and hold all equations of
-                             joints; its speed is the input: they are rows/(i w) */
+    DMB_EXCITE_MOTION = 3 /* rows are displacements that move the coordinate of a drive by one and satisfy all equations
+                             of joints; its speed is the input: rows/(i w) */
 };
 
 typedef struct dmb_linear_excitation {
     int32_t law;    /* DMB_EXCITE_... */
-    uint32_t drive; /* that is the input; DMB_NONE: none is */
-    uint32_t bit;   /* likewise whose bottom-hole load is */
+    uint32_t drive; /* drive whose target is the input; DMB_NONE: none */
+    uint32_t bit;   /* bit whose bottom-hole load is the input; DMB_NONE: none */
     double gain, integral_gain;
-    double *re, *im; /* forces on all rows, those that supports hold included, or displacements, shape (row_count); the
-                        caller's memory, zeros to begin with */
+    double *re, *im; /* forces on all rows, including constrained ones, or displacements, shape (row_count); the
+                      *                         caller's memory, zeros to begin with */
 } dmb_linear_excitation;
 
 /* Fills the excitation of input number `index`, already checked to be one of its kind. linear->work: its trial and work
@@ -86,23 +86,22 @@ typedef struct dmb_linear_excitation {
 int32_t dmb_excitation_of(const dmb_linear *linear, const dmb_excitation *input, uint32_t index, dmb_message *message,
                           dmb_linear_excitation *out);
 
-/* An output of a frequency response: what a query would answer, as a linear function of the motion and of the forces it
- * takes. */
+/* An output of a frequency response: the result of a query as a linear function of the motion and of its forces. */
 
 typedef struct dmb_linear_output {
     dmb_functional functional;
     int32_t rate;        /* times (i w)^rate */
-    int32_t elastic;     /* 1: the part by pose is of the stiffness and has its structural damping */
-    uint32_t cluster;    /* whose forces of constraint count; DMB_NONE: none do */
+    int32_t elastic;     /* 1: the part by pose belongs to the stiffness and has its structural damping */
+    uint32_t cluster;    /* component whose constraint forces enter; DMB_NONE: none */
     uint32_t multiplier; /* first of them in the rows of the cluster */
     uint32_t multiplier_count;
-    uint32_t support_count; /* rows that are held and whose forces count */
+    uint32_t support_count; /* number of constrained rows whose forces enter */
     double multiplier_weight[6];
     uint32_t support[6]; /* which of constrained_node, constrained_component */
     double support_weight[6];
-    uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
+    uint32_t drive;          /* drive that acts directly if it is the input; DMB_NONE: none */
     double direct, integral; /* what it adds there: direct + integral/(i w) */
-    uint32_t bit;            /* likewise whose bottom-hole load adds itself where it is the input; DMB_NONE: none */
+    uint32_t bit;            /* bit whose bottom-hole load acts directly if it is the input; DMB_NONE: none */
 } dmb_linear_output;
 
 /* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:
@@ -115,7 +114,7 @@ int32_t dmb_linear_output_of(dmb_linear *linear, const dmb_response_options *opt
 int32_t dmb_response_output_of(const dmb_sim *sim, const dmb_response_output *output, dmb_response_output *out,
                                uint32_t *bit, const char **why);
 
-/* The output for displacements x that forces f of the input (0 where displacements are told) lead to, shapes (rows). */
+/* The output for displacements x caused by forces f of the input (0 for prescribed displacements), shapes (rows). */
 dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_linear_output *output,
                                              const dmb_linear_excitation *input, dmb_complex_array x,
                                              dmb_complex_array f);
@@ -150,7 +149,7 @@ int32_t dmb_response_solve(dmb_response_work *work, dmb_response *response, cons
 
 /* ---- Speeds to avoid --------------------------------------------------------------------------------------------- */
 
-/* Severity over speed: one curve an order, their sum, and the bands in which it is above a threshold. */
+/* Severity over speed: one curve per order, their sum, and the bands above a threshold. */
 
 /* Of one order; straight between its points. */
 typedef struct dmb_speeds_curve {
@@ -159,7 +158,7 @@ typedef struct dmb_speeds_curve {
     uint32_t taken;   /* points that have been merged with those of other curves */
     double *speed;    /* [rad/s] ascending, shape (count) */
     double *severity; /* shape (count) */
-    uint32_t *output; /* which is worst, shape (count) */
+    uint32_t *output; /* output with the largest severity, shape (count) */
 } dmb_speeds_curve;
 
 /* Sum of the curves at a speed; *order: which of them is largest there, *output: its worst output. */

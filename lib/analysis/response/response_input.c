@@ -1,6 +1,6 @@
 /* Rows of force of each kind of input. A force at a place is the transpose of the motion there (virtual work), so that
- * receptances are reciprocal to rounding; what the scene describes acts by the difference its factor makes to the
- * residual, which is linear in it. */
+ * receptances are reciprocal to rounding; forces of the scene are the difference of the residual with their factor, in
+ * which it is linear. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -49,8 +49,7 @@ static int32_t residual(dmb_sim *copy, double step)
     return dmb_system_evaluate(&evaluation);
 }
 
-/* rows = -(what the residual changes by) / scale where *factor grows by `change`; constraint forces stay as they are.
- */
+/* rows = -(change of the residual)/scale when *factor changes by `change`, at constant constraint forces. */
 static int32_t difference(const request *r, double *factor, double change, double scale, double step)
 {
     dmb_sim *copy = r->copy;
@@ -69,8 +68,8 @@ static int32_t derivative(const request *r, double *factor)
     return difference(r, factor, DMB_EXCITATION_FACTOR, DMB_EXCITATION_FACTOR, 0.0);
 }
 
-/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, held within its limits, and
- * on the piece of its table: the target changes downwards, where the piece is. */
+/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, within its limits and on the
+ * present segment of its table: the target changes downwards, where that segment is. */
 static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
     const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
@@ -82,7 +81,7 @@ static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_dr
     return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
 }
 
-/* x: what the pivot rows of a cluster have to move by, in their order; displacements of its dependent rows then. */
+/* x: required change of the pivot rows of a component, in their order; then displacements of its dependent rows. */
 static void move_dependent(const request *r, uint32_t cluster_index, double *x)
 {
     const dmb_sim *copy = r->copy;
@@ -95,7 +94,7 @@ static void move_dependent(const request *r, uint32_t cluster_index, double *x)
     }
 }
 
-/* Displacements of dependent rows that move the coordinate by one and hold every other equation: C_d x = unit. */
+/* Displacements of dependent rows that move the coordinate by one and satisfy every other equation: C_d x = unit. */
 static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
 {
     const dmb_constraint *constraint = r->copy->scene->constraints + drive->constraint;
@@ -113,7 +112,8 @@ static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
     return DMB_OK;
 }
 
-/* 1 if the displacements hold every equation of the cluster, redundant ones too: what is held may contradict them. */
+/* 1 if the displacements satisfy every equation of the component, also redundant ones, which constrained rows may
+ * contradict. */
 static int32_t holds(const request *r, uint32_t k)
 {
     const dmb_cluster *cluster = r->copy->scene->clusters + k;
@@ -130,7 +130,7 @@ static int32_t holds(const request *r, uint32_t k)
     return 1;
 }
 
-/* The row moves by one, and of the joints' nodes what depends on it: C_d x = -(column of the row). */
+/* The row moves by one, with the dependent rows of the joints' nodes: C_d x = -(column of the row). */
 static int32_t moved_node(const request *r, const dmb_scene_drive *drive)
 {
     const dmb_scene *scene = r->copy->scene;
@@ -166,7 +166,7 @@ static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *d
     return DMB_OK;
 }
 
-/* 1 if the node turns and the axes of d do not: what acts across it in its own frame goes round for them. */
+/* 1 if the node rotates and the axes of d do not: transverse forces in its own frame rotate in those axes. */
 static int turns(const request *r, uint32_t node)
 {
     const dmb_block_layout *layout = &r->copy->scene->layout;
@@ -250,8 +250,8 @@ static int32_t refuse_setting(const request *r, const dmb_scene_input *setting)
     return DMB_ERR_UNSUPPORTED;
 }
 
-/* A small change of what is set is in force at once: after the time change/rate_limit or 2 sqrt(change/slope_limit),
- * which goes to 0 with the change. */
+/* Input with limits: a small change acts at once, after the time change/rate_limit or 2 sqrt(change/slope_limit), which
+ * vanishes with the change. */
 static int32_t setting(const request *r)
 {
     const dmb_sim *copy = r->copy;
@@ -312,7 +312,7 @@ static void add_rigid_mass(const dmb_sim *copy, uint32_t i, const double g[6], d
     }
 }
 
-/* axial-torsional nodes are held across the hole, in time too: what pulls them sideways moves nothing. */
+/* Axial-torsional nodes are constrained across the hole, also in steps: transverse forces move nothing. */
 static int32_t eccentricity(const request *r)
 {
     const dmb_scene *scene = r->copy->scene;

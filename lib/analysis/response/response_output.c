@@ -2,9 +2,7 @@
  *
  *     dN = N_d dd + N_r dr,   dF = F_v dv + F_N dN      (depth d, its rate r, slip v)
  *
- * Forces of supports are the rows of A x - f that are not solved, those of constraints what balances the dependent
- * rows.
- */
+ * Forces of supports are the constrained rows of A x - f; constraint forces balance the dependent rows. */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -71,7 +69,7 @@ static int32_t of_section(const request *r)
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
-/* Quantity of a contact that is asked for. */
+/* Requested quantity of a contact. */
 enum { ASK_APPROACH = 1, ASK_SLIP = 2, ASK_NORMAL = 4 };
 typedef struct contact_question {
     uint32_t site;
@@ -94,8 +92,8 @@ static void ask_contact(const request *r, int32_t what, dmb_functional *out)
     dmb_functional_of_answer(r->linear, contact_answer, &q, out);
 }
 
-/* A gap changes by -n dp. By differences n would be that of a chord, and a string that goes along a stiff wall presses
- * on it by what is left of its motion across n. */
+/* A gap changes by -n dp. With differences, n would be the normal of a chord, and motion along a stiff wall would press
+ * on it by its small component across the true n. */
 static void gap_of(const request *r, dmb_functional *out)
 {
     const dmb_sim *copy = r->copy;
@@ -201,7 +199,7 @@ static void take_support(const request *r, uint32_t held, double weight)
     take_cluster_of_node(r, r->copy->scene->constrained_node[held]);
 }
 
-/* The query is linear in what the rows that are held have left. */
+/* The query is linear in the residual of constrained rows. */
 static int32_t of_support(const request *r)
 {
     const dmb_scene *scene = r->copy->scene;
@@ -253,7 +251,7 @@ static const dmb_constraint *take_joint_nodes(const request *r, uint32_t j, dmb_
     return c;
 }
 
-/* A coordinate moves by J V, V what frame b moves by as seen from frame a. */
+/* Rate of a coordinate J V, V the velocity of frame b relative to frame a. */
 static void coordinate(const request *r, uint32_t j, int32_t component, dmb_functional *out)
 {
     const dmb_sim *copy = r->copy;
@@ -285,7 +283,7 @@ static void law_of_joint(const request *r, uint32_t j)
     dmb_functional_add_rate(force.by_speed, &position, &r->out->functional);
 }
 
-/* Linear in the multipliers, and turning with the bodies. */
+/* Linear in the multipliers, and rotating with the bodies. */
 static void reaction_of_joint(const request *r, uint32_t j)
 {
     const dmb_constraint *c = take_joint_nodes(r, j, &r->out->functional);
@@ -326,7 +324,7 @@ static int without_effect(const request *r, const dmb_scene_drive *drive)
     return drive->joint != DMB_NONE && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN;
 }
 
-/* kp (v* - v) + ki integral(v* - v), none at its limits. */
+/* kp (v* - v) + ki integral(v* - v); no change at its limits. */
 static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
     const double force = r->copy->now.drive_force[i];

@@ -5,9 +5,9 @@
 #include "analysis/response/response.h"
 #include "base/memory.h"
 
-/* Values below this part of a function's largest magnitude are rounding and have no peaks. */
+/* [-] Values below this fraction of a function's largest magnitude are rounding and have no peaks. */
 #define DMB_PEAK_FLOOR 1e-10
-/* Intervals shorter than this part of their frequency are not divided. */
+/* [-] Smallest interval over its frequency that is divided. */
 #define DMB_PEAK_WIDTH 1e-12
 
 static double magnitude(const dmb_response *response, size_t point, size_t pair)

@@ -1,4 +1,4 @@
-/* Points of a frequency response: alone, or as many side by side as a group holds, with the same bits. */
+/* Points of a frequency response: one by one, or in groups of lanes, with the same bits. */
 #include <math.h>
 
 #include "analysis/response/response.h"
@@ -23,7 +23,7 @@ static void scale_rows(uint32_t rows, double re, double im, dmb_complex_array fr
     for (uint32_t r = 0; r < rows; r++) to_im[r] = re * b[r] + im * a[r];
 }
 
-/* Right-hand side of an input into x: forces, which are f too, or displacements that a drive asks for. */
+/* Right-hand side of an input into x: forces, also stored in f, or displacements prescribed by a drive. */
 static int32_t load(dmb_response_work *w, uint32_t input, double omega)
 {
     const dmb_linear_excitation *e = w->excitations + input;
@@ -89,12 +89,12 @@ static int32_t solve_alone(dmb_response_work *w, dmb_response *response, uint32_
 
 /* ---- Side by side ------------------------------------------------------------------------------------------------ */
 
-/* Excitations first .. first + count - 1, the right-hand sides that are solved for together. */
+/* Excitations first .. first + count - 1, right-hand sides solved together. */
 typedef struct batch {
     uint32_t first, count;
 } batch;
 
-/* Right-hand sides of all points. One bit for each point that has none. */
+/* Right-hand sides of all points. Returns one bit for each point without one. */
 static uint32_t put_sides(dmb_response_work *w, const dmb_response_points *points, const batch *b)
 {
     uint32_t none = 0;
@@ -113,14 +113,14 @@ static void get_values(dmb_response_work *w, dmb_response *response, uint32_t po
 {
     for (uint32_t c = 0; c < b->count; c++) {
         const uint32_t i = b->first + c;
-        if (w->takes_forces || is_motion(w, i))
-            (void)load(w, i, w->group.omega[lane]); /* has been accepted by put_sides */
+        if (w->takes_forces || is_motion(w, i)) (void)load(w, i, w->group.omega[lane]); /* checked by put_sides */
         dmb_dynamic_group_get(&w->group, lane, c, is_motion(w, i), w->x);
         take_values(w, response, point, i);
     }
 }
 
-/* Points without a solution, one bit each in *alone, are left to solve_alone, which says why or finds it. */
+/* Points without a solution, one bit each in *alone, are solved by solve_alone, which finds the solution or the reason.
+ */
 static int32_t solve_batch(dmb_response_work *w, dmb_response *response, const dmb_response_points *points,
                            const batch *b, uint32_t *alone)
 {

@@ -1,4 +1,4 @@
-/* Outputs as outputs of linear analyses: each is what an output of another kind says. */
+/* Outputs of events and recorders as outputs of linear analyses: each is expressed by an output of another kind. */
 #include <math.h>
 
 #include "analysis/response/response.h"
@@ -44,7 +44,7 @@ static int32_t at_string(const meaning *m, const dmb_response_output *output, in
     return DMB_OK;
 }
 
-/* The one bit on the string: the answer is that of a single bit. */
+/* The output at the bit of the string; requires a single bit. */
 static int32_t at_bit(const meaning *m, const dmb_response_output *output)
 {
     const dmb_output asked = {output->place, output->component, 0};
@@ -73,7 +73,7 @@ static int32_t of_driller(const meaning *m, const dmb_response_output *output)
     if (q != DMB_OUTPUT_WEIGHT_ON_BIT) *m->bit = DMB_NONE;
     switch (q) {
     case DMB_OUTPUT_HOOK_LOAD:
-    case DMB_OUTPUT_ROTATION_TORQUE: return DMB_OK; /* itself: a smooth answer about the rig end */
+    case DMB_OUTPUT_ROTATION_TORQUE: return DMB_OK; /* itself: a smooth function at the rig end */
     case DMB_OUTPUT_WEIGHT_ON_BIT: return means(m, DMB_RESPONSE_BIT, DMB_X, DMB_FRAME_BODY);
     case DMB_OUTPUT_TORQUE_ON_BIT: return means(m, DMB_RESPONSE_BIT, DMB_RX, DMB_FRAME_BODY);
     case DMB_OUTPUT_BIT_SPEED:
@@ -142,7 +142,7 @@ static int32_t of_section(const meaning *m, int32_t q)
     return not_linear(m);
 }
 
-/* Speeds below this are rest [m/s, rad/s]. */
+/* [m/s, rad/s] Speeds below this count as rest. */
 #define DMB_OUTPUT_AT_REST 1e-9
 
 static int32_t moves(const meaning *m, int from)
@@ -154,9 +154,9 @@ static int32_t moves(const meaning *m, int from)
     return most > DMB_OUTPUT_AT_REST;
 }
 
-/* About a state that turns, axes of the world turn in those of the linear system, and what a query tells of them is no
- * constant multiple of the motion; neither is a body-frame speed across a motion of the state, to which the turning of
- * the body adds, d' + v^ d. Components along and about the axis of motion are. */
+/* 1: the output has constant coefficients. About a rotating state, world axes rotate in those of the linear system, so
+ * that a query in world axes is no constant multiple of the motion; nor is a body-frame speed across a motion of the
+ * state, which contains the rotation of the body, d' + v^ d. Components along and about the axis of motion are. */
 static int32_t is_steady(const meaning *m, int32_t q)
 {
     const int32_t c = q % 10;
@@ -234,8 +234,8 @@ int32_t dmb_response_output_of(const dmb_sim *sim, const dmb_response_output *ou
 
 /* ---- Values of the answer ---------------------------------------------------------------------------------------- */
 
-/* The value of an output for a motion x e^(i w t): its functional, the forces of supports and constraints that it
- * takes, and what a drive adds that is itself the input. */
+/* The value of an output for a motion x e^(i w t): its functional, forces of supports and constraints, and the direct
+ * contribution of a drive that is the input. */
 
 /* (i w)^rate sum (pose + i w speed - w^2 acceleration) d */
 static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dmb_linear_output *output,
@@ -258,7 +258,7 @@ static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dm
     return sum;
 }
 
-/* Reaction in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
+/* Reaction in a constrained row: (A x - f)_r + (B^T multiplier)_r. */
 static dmb_complex_number of_constrained_row(const dmb_dynamic_stiffness *s, const dmb_linear_output *output,
                                              uint32_t held, dmb_complex_array x, dmb_complex_array f)
 {

@@ -28,7 +28,7 @@ dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t excitati
     return response;
 }
 
-/* At most 1e6 points and what refinement adds, 1024 excitations and outputs: below 2^63 bytes. */
+/* Sizes: at most 1e6 points and those of refinement, 1024 excitations and outputs: below 2^63 bytes. */
 int32_t dmb_response_resize(dmb_response *response, uint32_t points)
 {
     const uint64_t numbers = (uint64_t)points * (1 + 2 * (uint64_t)response->excitations * response->outputs);

@@ -1,4 +1,4 @@
-/* Speeds to avoid: responses at the orders of the rotary speed, held against limits (eq:response.severity). */
+/* Speeds to avoid: responses at the orders of the rotary speed, compared with limits (eq:response.severity). */
 #include "analysis/response/response.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ static int32_t read_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
     return DMB_ERR_STRUCT_SIZE;
 }
 
-/* Order number i of the caller's array, whose items are as far apart as the first one says. */
+/* Order i of the caller's array, with the item size of the first one. */
 static int32_t take_order(const speeds_run *r, uint32_t i, dmb_order *out)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "order", i);

@@ -1,4 +1,4 @@
-/* Stepped sine: the response by a run in time. */
+/* Stepped sine: response from a simulation in time. */
 #include <math.h>
 #include <string.h>
 
@@ -86,7 +86,7 @@ static double sample_of(const dmb_sim *sim, const sine_output *output)
  *     A_k = 2/n sum_j (x_j - s (t_j - t_m)) e^(-i k w t_j),     mean = 1/n sum_j (x_j - s (t_j - t_m)),
  *
  * s being the drift of a displacement from the first to the last instant over the length of the window and t_m its
- * middle. Successive windows that differ by c_1, c_2 = q c_1, ... leave c_2 q/(1 - q) to come (Aitken). */
+ * middle. If successive windows differ by c_1, c_2 = q c_1, ..., the remaining change is c_2 q/(1 - q) (Aitken). */
 
 DMB_DECLARE_STRUCT(dmb_stepped_sine_report)
 
@@ -114,7 +114,7 @@ static uint32_t steps_of(const sine_run *r)
     return r->options.periods * r->options.steps_per_period;
 }
 
-/* Cosine and minus sine of the harmonics at an instant, as the sums take them. */
+/* Cosine and minus sine of the harmonics at an instant, as used in the sums. */
 static void turn_of(const sine_run *r, double time, double *turn)
 {
     for (size_t k = 0; k <= r->options.harmonics; k++) {
@@ -159,7 +159,7 @@ static void end_window(sine_run *r)
     }
 }
 
-/* Each step ends at a whole number of steps from the start of the window, so that nothing adds up. */
+/* Runs one window. Each step ends at a whole number of steps from its start, so that rounding does not accumulate. */
 static int32_t run_window(sine_run *r)
 {
     const uint32_t n = steps_of(r);
@@ -203,7 +203,7 @@ static void compare(sine_run *r)
     r->change[1] = worst;
 }
 
-/* Changes that no longer fall come from the motion itself, from window to window (eq:response.sine). */
+/* Changes between windows that no longer decrease belong to the motion itself (eq:response.sine). */
 static double remaining(const sine_run *r)
 {
     const double q = r->change[1] / r->change[0];
