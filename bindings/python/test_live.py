@@ -13,7 +13,7 @@ needs("numpy")
 
 from drillmbd import enums, live, live_scene, scene  # noqa: E402
 from drillmbd.errors import Usage  # noqa: E402
-from drillmbd.model import Model, remake  # noqa: E402
+from drillmbd.model import Model  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = sorted((ROOT / "examples" / "live").glob("*.toml"))

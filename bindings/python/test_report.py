@@ -20,7 +20,7 @@ import tomllib  # noqa: E402
 from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
 from drillmbd._structs import SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
-from drillmbd.errors import Usage, status_text  # noqa: E402
+from drillmbd.errors import status_text  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
 from drillmbd.frames import SpeedBands  # noqa: E402
 from drillmbd.operating import BIT_FRICTION, Operating, largest_of, operating  # noqa: E402

@@ -12,7 +12,7 @@ import sys
 import time
 import unittest
 
-from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+from shared_tests import ENVIRONMENT, FolderTest, needs
 
 needs("h5py", "numpy", "scipy")
 

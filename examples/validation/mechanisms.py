@@ -56,7 +56,7 @@ def pendulum(pictures):
     angle = float(pendulum_closed(10.0))
     want, rows, steps, errors = (math.cos(angle), math.sin(angle)), [], (4e-3, 2e-3, 1e-3, 5e-4), []
     with planar() as model:
-        bob = body(model, (-1.0, 0.0), 0.0, 1.0, 1e-6)
+        body(model, (-1.0, 0.0), 0.0, 1.0, 1e-6)
         model.compile()
         with model.sim() as sim:
             start = sim.energy().gravity
@@ -156,8 +156,6 @@ def squeezer(step, end=0.03):
         crank = body(model, (0.0, 0.0), q["beta"], 0.04325, 2.194e-6, 9.2e-4)
         pin = (7e-3 * math.cos(q["beta"]), 7e-3 * math.sin(q["beta"]))
         rod = body(model, pin, q["beta"] + q["theta"] + math.pi, 0.00365, 4.410e-7, 11.5e-3)
-        turned = q["beta"] + q["theta"]
-        f = (pin[0] - 28e-3 * math.cos(turned), pin[1] - 28e-3 * math.sin(turned))
         triangle = body(model, b, q["gamma"], 0.02373, 5.255e-6, 18.74e-3, 10.43e-3)
         arm5 = body(model, a, q["delta"], 0.07050, 1.169e-5, 23.08e-3, 9.16e-3)
         e = (a[0] + 0.04 * math.cos(q["delta"]), a[1] + 0.04 * math.sin(q["delta"]))

@@ -8,7 +8,7 @@ from typing import Any
 from . import rotating, station
 from ._optional import need
 from ._progress import INTERRUPTS
-from .results import RPM, CommandOutput, count_fatigue, file_name, note_bounces, note_steps, record, tell_fatigue
+from .results import CommandOutput, count_fatigue, file_name, note_bounces, note_steps, record, tell_fatigue
 from .enums import Status
 from .errors import Usage
 from .language import Phrase

@@ -485,7 +485,6 @@ def orbit(y: Any, z: Any, clearance: float | None = None, title: str = "") -> An
 
 def over_time(recorder: ProfileRecorder, quantity: int = 0, title: str = "") -> Any:
     """One quantity of a ProfileRecorder along the string over time, as a map; quantity: its number among the recorder's."""
-    numpy = need("numpy")
     values = recorder.values[:, :, quantity]
     figure, ((axes,),) = _axes(1, 1, (11, 5))
     picture = axes.pcolormesh(recorder.time, recorder.along, values.T, cmap="cividis", shading="nearest")

@@ -10,7 +10,6 @@ from typing import Any
 from . import __version__, enums, commands
 from ._optional import need
 from ._progress import INTERRUPTS
-from .analysis import OPERATIONS
 from .results import CommandOutput, count_fatigue, finite, note_bounces, note_steps, tell_fatigue
 from .enums import Status
 from .errors import Error, Usage

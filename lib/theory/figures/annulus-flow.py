@@ -1,7 +1,7 @@
 """Speed and shear stress over the radius of a concentric annulus, for two exponents of the power law."""
 import numpy as np
 
-from drawing import BLUE, GREY, INK, ORANGE, RED, graph, save
+from drawing import BLUE, GREY, INK, ORANGE, graph, save
 
 RATIO = 0.5
 

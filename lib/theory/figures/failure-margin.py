@@ -1,7 +1,7 @@
 """Samples of two normal numbers, the line where the margin vanishes and the closest failure; levels of a subset."""
 import numpy as np
 
-from drawing import BLUE, GREY, INK, LIGHT, ORANGE, RED, arrow, graph, save
+from drawing import BLUE, INK, ORANGE, RED, arrow, graph, save
 
 
 def margin(x, y):

@@ -2,7 +2,7 @@
 import numpy as np
 from matplotlib.patches import Ellipse
 
-from drawing import BLUE, GREEN, GREY, INK, LIGHT, RED, arrow, save, sketch
+from drawing import BLUE, GREEN, GREY, INK, RED, arrow, save, sketch
 
 
 def frame(axes, place, angle, name, colour, size=0.75):

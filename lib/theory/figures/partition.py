@@ -1,5 +1,4 @@
 """Partition of the equations of a cluster, before and after the choice of rows and columns."""
-import numpy as np
 from matplotlib.patches import Rectangle
 
 from drawing import BLUE, GREEN, GREY, INK, LIGHT, RED, arrow, save, sketch

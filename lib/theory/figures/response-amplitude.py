@@ -1,7 +1,7 @@
 """Amplitude of one mode by a constant force and by an eccentric mass; Campbell diagram of a rotor."""
 import numpy as np
 
-from drawing import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, RED, graph, save
+from drawing import BLUE, GREEN, GREY, LIGHT, RED, graph, save
 
 figure, (left, right) = graph(7.4, 3.1, ncols=2)
 x = np.geomspace(0.08, 6, 900)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .._structs import Id, Excitation, Order, ResponseOutput, Place
+from .._structs import Excitation, Order, ResponseOutput, Place
 from ..enums import EXCITATION_ECCENTRICITY
 from ..model import Model, map_ids
 from ..sim import Sim

@@ -4,7 +4,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from .. import enums
 from .._structs import Motor
 from ..outputs import Named
 from . import failure, hole, sub, variability
