@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 VALIDATION = ROOT / "examples" / "validation"
 sys.path.insert(0, str(VALIDATION))
 import page
+import stick_slip
 import study
 from case import CASES, MET, MISSED, Case, Row
 
@@ -40,6 +41,14 @@ class CaseTest(unittest.TestCase):
             for row, (quantity, settings, error, _) in zip(case.rows, rows):
                 near = MEASURED_AGAIN * abs(error) + 0.01 * (row.bound or abs(error)) + 1e-12
                 self.assertLess(abs(row.error - error), near, f"{name}: {quantity}, {settings}")
+
+    def test_two_solutions_of_stick_slip_wind_up_alike(self):
+        """Before the string breaks off; the case itself takes 11 s and runs for the page only."""
+        ours, theirs = stick_slip.simulate(end=6.0, cells=30), stick_slip.upwind(end=6.0, cells=120)
+        for time in (3.0, 5.9):
+            torque, want = (float(curve[1][abs(curve[0] - time) < 0.55].mean()) for curve in (ours, theirs))
+            self.assertGreater(want, 4e3)
+            self.assertLess(abs(torque / want - 1.0), 0.1)
 
     def test_verdicts(self):
         row = Row("length", "m", 2.0, 2.1, "", 0.04)
