@@ -2,18 +2,7 @@
 
 #include "base/failure.h"
 
-/* The bound of a value: as text, and as a range where it is one. */
-typedef struct limits {
-    const char *text;
-    double low, high; /* NaN: no range */
-} limits;
-
-static limits limits_of(const char *text)
-{
-    return (limits){text, (double)NAN, (double)NAN};
-}
-
-static void fail_component(dmb_check *check, int32_t status, const dmb_field_value *is, const limits *must)
+void dmb_check_fail_value(dmb_check *check, int32_t status, const dmb_field_value *is, const dmb_check_bound *must)
 {
     if (check->status < 0) return;
     check->status = status;
@@ -25,19 +14,19 @@ static void fail_component(dmb_check *check, int32_t status, const dmb_field_val
 void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double value, const char *bound)
 {
     const dmb_field_value is = {field, DMB_NONE, value};
-    const limits must = limits_of(bound);
-    fail_component(check, status, &is, &must);
+    const dmb_check_bound must = {bound, (double)NAN, (double)NAN};
+    dmb_check_fail_value(check, status, &is, &must);
 }
 
-static const limits any_finite = {"finite", -(double)INFINITY, (double)INFINITY};
+static const dmb_check_bound any_finite = {"finite", -(double)INFINITY, (double)INFINITY};
 
 /* Checks one number; `holds` is the result for a finite value. */
-static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const limits *must)
+static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const dmb_check_bound *must)
 {
     if (!dmb_is_finite(is->value)) {
-        fail_component(check, DMB_ERR_NOT_FINITE, is, must);
+        dmb_check_fail_value(check, DMB_ERR_NOT_FINITE, is, must);
     } else if (!holds) {
-        fail_component(check, DMB_ERR_VALUE, is, must);
+        dmb_check_fail_value(check, DMB_ERR_VALUE, is, must);
     }
 }
 
@@ -46,7 +35,7 @@ static void judge_bound(dmb_check *check, const dmb_field_value *is, bool holds,
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(is->value))) return;
     dmb_message_set(&text, "finite and %s %g", relation, bound);
-    const limits must = {text.text, bound, (double)INFINITY};
+    const dmb_check_bound must = {text.text, bound, (double)INFINITY};
     judge(check, is, holds, &must);
 }
 
@@ -58,7 +47,7 @@ static void judge_range(dmb_check *check, const dmb_field_value *is, bool closed
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(value))) return;
     dmb_message_set(&text, closed ? "finite, >= %g and <= %g" : "finite, > %g and < %g", low, high);
-    const limits must = {text.text, low, high};
+    const dmb_check_bound must = {text.text, low, high};
     judge(check, is, holds, &must);
 }
 
@@ -99,7 +88,7 @@ static void judge_field(dmb_check *check, const dmb_field_value *is, bool holds,
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(is->value) && dmb_is_finite(other->value))) return;
     dmb_message_set(&text, "finite and %s %s (%g)", relation, other->field, other->value);
-    const limits must = {text.text, other->value, (double)INFINITY};
+    const dmb_check_bound must = {text.text, other->value, (double)INFINITY};
     judge(check, is, holds && dmb_is_finite(other->value), &must);
 }
 
@@ -142,8 +131,8 @@ void dmb_check_choice(dmb_check *check, const char *field, int32_t value, int32_
     if (value >= low && value <= high) return;
     dmb_message_set(&text, "%d .. %d", low, high);
     const dmb_field_value is = {field, DMB_NONE, value};
-    const limits must = {text.text, low, high};
-    fail_component(check, DMB_ERR_VALUE, &is, &must);
+    const dmb_check_bound must = {text.text, low, high};
+    dmb_check_fail_value(check, DMB_ERR_VALUE, &is, &must);
 }
 
 void dmb_check_count(dmb_check *check, const char *field, uint32_t value, uint32_t low, uint32_t high)
@@ -152,8 +141,8 @@ void dmb_check_count(dmb_check *check, const char *field, uint32_t value, uint32
     if (value >= low && value <= high) return;
     dmb_message_set(&text, "%u .. %u", low, high);
     const dmb_field_value is = {field, DMB_NONE, value};
-    const limits must = {text.text, low, high};
-    fail_component(check, DMB_ERR_VALUE, &is, &must);
+    const dmb_check_bound must = {text.text, low, high};
+    dmb_check_fail_value(check, DMB_ERR_VALUE, &is, &must);
 }
 
 void dmb_check_mask(dmb_check *check, const char *field, int32_t value, int32_t allowed)

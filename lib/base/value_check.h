@@ -39,6 +39,12 @@ static inline dmb_check dmb_check_of(dmb_message *message, const char *part, uin
 
 /* Fails with status and "<part> <index>: <field> = <value>, must be <bound>", unless a check has failed before. */
 void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double value, const char *bound);
+/* The same of an element of an array, with a bound that may be a range. */
+typedef struct dmb_check_bound {
+    const char *text;
+    double low, high; /* NaN: no range */
+} dmb_check_bound;
+void dmb_check_fail_value(dmb_check *check, int32_t status, const dmb_field_value *is, const dmb_check_bound *must);
 
 /* One number. */
 void dmb_check_finite(dmb_check *check, const char *field, double value);

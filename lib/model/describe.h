@@ -1,5 +1,5 @@
 /* The calls that add parts to a model share: reading and writing of the structs of drillmbd/scene.h, whose T_init stand
- * in describe_defaults.c, and the release of what the model has copied. */
+ * in fields/fields.c, checks, and the release of what the model has copied. */
 #ifndef DMB_MODEL_DESCRIBE_H
 #define DMB_MODEL_DESCRIBE_H
 
@@ -8,24 +8,19 @@
 #include "model/model.h"
 
 DMB_DECLARE_STRUCT(dmb_model_options)
-DMB_DECLARE_STRUCT(dmb_environment_def)
-DMB_DECLARE_STRUCT(dmb_segment)
-DMB_DECLARE_STRUCT(dmb_wall_def)
-DMB_DECLARE_STRUCT(dmb_string_def)
-DMB_DECLARE_STRUCT(dmb_pipe_def)
-DMB_DECLARE_STRUCT(dmb_body_def)
-DMB_DECLARE_STRUCT(dmb_bit_def)
-DMB_DECLARE_STRUCT(dmb_joint_def)
-DMB_DECLARE_STRUCT(dmb_coupling_def)
-DMB_DECLARE_STRUCT(dmb_constraint_def)
-DMB_DECLARE_STRUCT(dmb_drive_def)
-DMB_DECLARE_STRUCT(dmb_load_def)
-DMB_DECLARE_STRUCT(dmb_spring_def)
-DMB_DECLARE_STRUCT(dmb_force_def)
-DMB_DECLARE_STRUCT(dmb_stuck_def)
-DMB_DECLARE_STRUCT(dmb_stabiliser_def)
-DMB_DECLARE_STRUCT(dmb_compile_options)
 DMB_DECLARE_STRUCT(dmb_model_info)
+#define DMB_DECLARE_DESCRIBED(number, T, word, kind, oldest, FIELDS) DMB_DECLARE_STRUCT(T)
+DMB_DESCRIBED(DMB_DECLARE_DESCRIBED)
+#undef DMB_DECLARE_DESCRIBED
+
+/* Relations between the fields of a definition, each of which is within its own bounds. */
+typedef void (*dmb_relations_fn)(dmb_check *check, dmb_model *model, const void *def);
+/* A whole call that adds a part of a kind whose definition is all that the model keeps: reads the caller's struct into
+ * `read`, which has the defaults, checks its fields, then `relations` (NULL: none), and appends it. */
+int32_t dmb_describe_add(dmb_model *model, const dmb_field_list *list, const void *def, void *read,
+                         dmb_relations_fn relations, dmb_id *id);
+/* The checks of it, for kinds that the model keeps in another form. */
+int32_t dmb_describe_check(dmb_model *model, const dmb_field_list *list, const void *def, dmb_relations_fn relations);
 
 /* Frees a time function's copy of terms and tables. */
 void dmb_time_function_release(dmb_time_function *time_function, const dmb_allocator *allocator);

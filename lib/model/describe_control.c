@@ -11,11 +11,7 @@
 
 DMB_DECLARE_STRUCT(dmb_input_info)
 
-/* clang-format off */
-DMB_DEFINE_INIT(dmb_input_def, 88, {.initial = (double)NAN, .low = -1e30, .high = 1e30})
-
 DMB_DEFINE_INIT(dmb_input_info, 96, {.target = 0})
-/* clang-format on */
 
 /* ---- Targets ----------------------------------------------------------------------------------------------------- */
 
@@ -82,18 +78,21 @@ static int same_id(dmb_id a, dmb_id b)
 
 static void check_apart(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
 {
-    static const char *const what[] = {"target", "name"};
-    static const char *const advice[] = {"one input moves it, name that one", "give it a name of its own"};
-    if (check->status < 0) return;
-    for (uint32_t i = 0; i < model->inputs.count; i++) {
+    for (uint32_t i = 0; i < model->inputs.count && check->status >= 0; i++) {
         const dmb_input_def *other = DMB_LIST_AT(const dmb_input_def, model->inputs, i);
-        const int same_name = strcmp(other->name, def->name) == 0;
-        if (!same_name && (other->target != def->target || !same_id(other->part, def->part))) continue;
+        if (other->target != def->target || !same_id(other->part, def->part)) continue;
         check->status = DMB_ERR_VALUE;
-        dmb_message_set(check->message, "%s: its %s is that of input %u (%s); %s", check->part, what[same_name], i,
-                        other->name, advice[same_name]);
-        return;
+        dmb_message_set(check->message, "%s: its target is that of input %u (%s); one input moves it, name that one",
+                        check->part, i, other->name);
     }
+}
+
+/* Inputs and events are found by their names. */
+static void check_has_name(dmb_check *check, const char *name, const char *why)
+{
+    if (name[0] != '\0') return;
+    check->status = DMB_ERR_VALUE;
+    dmb_message_set(check->message, "%s: name is empty, %s", check->part, why);
 }
 
 /* The part has such a target. */
@@ -123,8 +122,6 @@ static void check_target(dmb_check *check, const dmb_model *model, const dmb_inp
 static void check_bounds(dmb_check *check, const dmb_input_def *def)
 {
     const double low = dmb_input_low(def), high = dmb_input_high(def);
-    dmb_check_within(check, "low", def->low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(check, "high", def->high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_at_least_field(check, "high", def->high, "low", def->low);
     if (check->status >= 0 && low > high)
         dmb_check_fail(check, DMB_ERR_VALUE, def->low > targets[def->target].high ? "low" : "high",
@@ -137,8 +134,6 @@ static void check_bounds(dmb_check *check, const dmb_input_def *def)
 static void check_limits(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
 {
     const dmb_drive_def *drive = drive_of(model, def);
-    dmb_check_zero_or_within(check, "rate_limit", def->rate_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
-    dmb_check_zero_or_within(check, "slope_limit", def->slope_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
     if (check->status < 0) return;
     if (!dmb_input_is_time_function(def->target) && (def->rate_limit > 0.0 || def->slope_limit > 0.0))
         dmb_check_fail(check, DMB_ERR_UNSUPPORTED, def->rate_limit > 0.0 ? "rate_limit" : "slope_limit",
@@ -149,37 +144,23 @@ static void check_limits(dmb_check *check, const dmb_model *model, const dmb_inp
                        "> 0, the largest acceleration of a drive of kind DMB_DRIVE_MOTION, whose speed may not jump");
 }
 
-static int32_t check_input(dmb_model *model, const dmb_input_def *def)
+static void relate_input(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "input", model->inputs.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
-    if (check.status >= 0 && def->name[0] == '\0') {
-        check.status = DMB_ERR_VALUE;
-        dmb_message_set(check.message, "%s: name is empty, must be there: inputs are looked up by it", check.part);
-    }
-    dmb_check_choice(&check, "target", def->target, 0, DMB_TARGET_FLOW_RATE);
-    if (check.status >= 0 && def->target == DMB_TARGET_COUNT)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "target", def->target, "a DMB_TARGET_..., of which this is none");
-    dmb_check_choice(&check, "outside", def->outside, DMB_OUTSIDE_REFUSED, DMB_OUTSIDE_CLAMPED);
-    check_target(&check, model, def);
-    if (check.status < 0) return check.status;
-    check_apart(&check, model, def);
-    check_bounds(&check, def);
-    check_limits(&check, model, def);
-    return check.status;
+    const dmb_input_def *def = part;
+    check_has_name(check, def->name, "must be there: inputs are looked up by it");
+    if (check->status >= 0 && def->target == DMB_TARGET_COUNT)
+        dmb_check_fail(check, DMB_ERR_VALUE, "target", def->target, "a DMB_TARGET_..., of which this is none");
+    if (check->status >= 0) check_target(check, model, def);
+    if (check->status < 0) return;
+    check_apart(check, model, def);
+    check_bounds(check, def);
+    check_limits(check, model, def);
 }
 
 int32_t dmb_model_add_input(dmb_model *model, const dmb_input_def *def, dmb_id *input)
 {
     dmb_input_def read = dmb_input_def_default();
-    int32_t status = dmb_describe_open(model, "input", def);
-    if (status < 0) return status;
-    status = dmb_input_def_read(&read, def);
-    if (status >= 0) status = check_input(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->inputs, &read, sizeof read, DMB_PART_INPUT, input);
-    return dmb_describe_end(model, "input", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_input_def), def, &read, relate_input, input);
 }
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
@@ -221,62 +202,26 @@ int32_t dmb_model_find_input(const dmb_model *model, const char *name, dmb_id *i
     return dmb_model_refuse_name(model, "input", name);
 }
 
-/* Events: an output that crosses a level. */
+/* ---- Events: an output that crosses a level ---------------------------------------------------------------------- */
 
-/* ---- Events ------------------------------------------------------------------------------------------------------ */
-
-/* clang-format off */
-DMB_DEFINE_INIT(dmb_event_def, 88, {.direction = DMB_EVENT_RISING, .tolerance = 1e-9})
-/* clang-format on */
-
-static void check_hold(dmb_check *check, const dmb_event_def *def)
+/* That the scene has the output is found out when a sim is made. */
+static void relate_event(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_check_within(check, "hold", def->hold, 0.0, DMB_TIME_MAX);
-    if (check->status < 0 || def->direction != DMB_EVENT_EITHER || def->hold == 0.0) return;
-    dmb_check_fail(check, DMB_ERR_VALUE, "hold", def->hold,
-                   "0 with DMB_EVENT_EITHER: an output that crosses either way is on no side to be held on");
-}
-
-static void check_event_apart(dmb_check *check, const dmb_model *model, const char *name)
-{
-    for (uint32_t i = 0; i < model->events.count && check->status >= 0; i++) {
-        if (strcmp(DMB_LIST_AT(const dmb_event_def, model->events, i)->name, name) != 0) continue;
-        check->status = DMB_ERR_VALUE;
-        dmb_message_set(check->message, "%s: its name is that of event %u; give it a name of its own", check->part, i);
-    }
-}
-
-/* That the output can be asked of the scene is found out when a sim is made. */
-static int32_t check_event(dmb_model *model, const dmb_event_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "event", model->events.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
-    if (check.status >= 0 && def->name[0] == '\0') {
-        check.status = DMB_ERR_VALUE;
-        dmb_message_set(check.message, "%s: name is empty, is required: events are reported by it", check.part);
-    }
-    dmb_check_choice(&check, "direction", def->direction, DMB_EVENT_EITHER, DMB_EVENT_FALLING);
-    dmb_check_within(&check, "level", def->level, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(&check, "tolerance", def->tolerance, DMB_TIME_MIN, 1.0);
-    check_hold(&check, def);
-    check_event_apart(&check, model, def->name);
-    if (check.status < 0 || model->events.count < DMB_EVENTS_MAX) return check.status;
-    dmb_message_set(&model->message, "%s: events = %d, must be <= %d, a bit for each", part.text, DMB_EVENTS_MAX + 1,
+    const dmb_event_def *def = part;
+    check_has_name(check, def->name, "is required: events are reported by it");
+    if (check->status >= 0 && def->direction == DMB_EVENT_EITHER && def->hold != 0.0)
+        dmb_check_fail(check, DMB_ERR_VALUE, "hold", def->hold,
+                       "0 with DMB_EVENT_EITHER: an output that crosses either way is on no side to be held on");
+    if (check->status < 0 || model->events.count < DMB_EVENTS_MAX) return;
+    check->status = DMB_ERR_TOO_LARGE;
+    dmb_message_set(check->message, "%s: events = %d, must be <= %d, a bit for each", check->part, DMB_EVENTS_MAX + 1,
                     DMB_EVENTS_MAX);
-    return DMB_ERR_TOO_LARGE;
 }
 
 int32_t dmb_model_add_event(dmb_model *model, const dmb_event_def *def, dmb_id *event)
 {
     dmb_event_def read = dmb_event_def_default();
-    int32_t status = dmb_describe_open(model, "event", def);
-    if (status < 0) return status;
-    status = dmb_event_def_read(&read, def);
-    if (status >= 0) status = check_event(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->events, &read, sizeof read, DMB_PART_EVENT, event);
-    return dmb_describe_end(model, "event", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_event_def), def, &read, relate_event, event);
 }
 
 /* ---- Events: questions ------------------------------------------------------------------------------------------- */

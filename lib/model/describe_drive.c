@@ -45,14 +45,6 @@ static void check_callback(dmb_check *check, const dmb_segment *segment)
 
 static void check_segment(dmb_check *check, const dmb_segment *segment)
 {
-    dmb_check_choice(check, "kind", segment->kind, DMB_SEGMENT_CONSTANT, DMB_SEGMENT_CALLBACK);
-    dmb_check_within(check, "x0", segment->x0, -DMB_TIME_MAX, DMB_TIME_MAX);
-    dmb_check_within(check, "x1", segment->x1, -DMB_TIME_MAX, DMB_TIME_MAX);
-    dmb_check_within(check, "h0", segment->h0, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(check, "h1", segment->h1, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(check, "omega", segment->omega, -DMB_SPEED_MAX, DMB_SPEED_MAX);
-    dmb_check_within(check, "phase", segment->phase, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
-    if (check->status < 0) return;
     if (segment->kind == DMB_SEGMENT_STEP || segment->kind == DMB_SEGMENT_STEP5) check_ramp(check, segment);
     if (segment->kind == DMB_SEGMENT_TABLE) check_table(check, segment);
     if (segment->kind == DMB_SEGMENT_CALLBACK) check_callback(check, segment);
@@ -81,7 +73,8 @@ static int32_t check_segments(dmb_model *model, const dmb_segment *segments, uin
         dmb_segment segment;
         int32_t status = read_segment(segments, i, segments->struct_size, &segment);
         if (status < 0) return status;
-        check_segment(&check, &segment);
+        dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_segment), &segment);
+        if (check.status >= 0) check_segment(&check, &segment);
         if (check.status < 0) return check.status;
         if (segment.kind == DMB_SEGMENT_TABLE) *numbers += 2 * (size_t)segment.table_count; /* at most 64 x 2^21 */
     }
@@ -188,7 +181,7 @@ static void check_driven_body(dmb_check *check, const dmb_model *model, uint32_t
                     check->part, dmb_part_text(&name, "body", body, def->name, sizeof def->name));
 }
 
-/* A coordinate that the joint does not hold, as far as its kind goes. */
+/* A coordinate that the joint leaves free, as far as its kind goes. */
 static void check_driven_joint(dmb_check *check, const dmb_model *model, uint32_t joint, int32_t component)
 {
     const dmb_joint_def *def = DMB_LIST_AT(const dmb_joint_def, model->joints, joint);
@@ -213,33 +206,19 @@ static void check_driven_part(dmb_check *check, const dmb_model *model, const dm
 
 /* ---- Actuators --------------------------------------------------------------------------------------------------- */
 
-#define DMB_ACTUATOR_TIME_MIN 1e-6 /* [s] */
-#define DMB_DELAY_MAX 1e4          /* [s] */
-
-static void check_curve(dmb_check *check, const dmb_drive_def *def)
+/* Columns of pairs whose first numbers increase by more than rounding. */
+static void check_column(dmb_check *check, const char *field, const double *values, uint32_t count)
 {
-    dmb_check_count(check, "curve_count", def->curve_count, 0, DMB_CURVE_POINTS);
-    if (check->status < 0 || def->curve_count == 0) return;
-    dmb_check_count(check, "curve_count", def->curve_count, 2, DMB_CURVE_POINTS);
-    dmb_check_each_within(check, "curve_speed", def->curve_speed, def->curve_count, -DMB_SPEED_MAX, DMB_SPEED_MAX);
-    dmb_check_each_within(check, "curve_force", def->curve_force, def->curve_count, 0.0, DMB_FORCE_MAX);
-    dmb_check_increasing(check, "curve_speed", def->curve_speed, def->curve_count, 1);
-    for (uint32_t i = 1; i < def->curve_count && check->status >= 0; ++i)
-        if (def->curve_speed[i] - def->curve_speed[i - 1] < DMB_SPEED_MIN)
-            dmb_check_fail(check, DMB_ERR_VALUE, "curve_speed", def->curve_speed[i], "> the one before, by 1e-12");
+    dmb_check_increasing(check, field, values, count, 1);
+    for (uint32_t i = 1; i < count && check->status >= 0; ++i)
+        if (values[i] - values[i - 1] < DMB_SPEED_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, field, values[i], "> the one before, by 1e-12");
 }
 
 static void check_gain_table(dmb_check *check, const dmb_drive_def *def)
 {
-    dmb_check_count(check, "gain_count", def->gain_count, 0, DMB_GAIN_POINTS);
-    if (check->status < 0 || def->gain_count == 0) return;
-    dmb_check_count(check, "gain_count", def->gain_count, 2, DMB_GAIN_POINTS);
-    dmb_check_each_within(check, "gain_error", def->gain_error, def->gain_count, -DMB_SPEED_MAX, DMB_SPEED_MAX);
-    dmb_check_each_within(check, "gain_force", def->gain_force, def->gain_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_increasing(check, "gain_error", def->gain_error, def->gain_count, 1);
-    for (uint32_t i = 1; i < def->gain_count && check->status >= 0; ++i)
-        if (def->gain_error[i] - def->gain_error[i - 1] < DMB_SPEED_MIN)
-            dmb_check_fail(check, DMB_ERR_VALUE, "gain_error", def->gain_error[i], "> the one before, by 1e-12");
+    if (def->gain_count == 0) return;
+    check_column(check, "gain_error", def->gain_error, def->gain_count);
     if (check->status >= 0 && def->gain > 0.0)
         dmb_check_fail(check, DMB_ERR_VALUE, "gain", def->gain, "0 with gain_count > 0, the table in its place");
     if (check->status >= 0 && def->kind != DMB_DRIVE_CONTROL)
@@ -248,7 +227,6 @@ static void check_gain_table(dmb_check *check, const dmb_drive_def *def)
 
 static void check_mud_pressure(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
 {
-    dmb_check_within(check, "mud_pressure", def->mud_pressure, 0.0, DMB_MODULUS_MAX);
     if (check->status < 0 || !(def->mud_pressure > 0.0)) return;
     if (def->component == DMB_RX && dmb_model_part_index(model, def->part, DMB_PART_JOINT) != DMB_NONE) return;
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "mud_pressure", def->mud_pressure,
@@ -258,7 +236,6 @@ static void check_mud_pressure(dmb_check *check, const dmb_model *model, const d
 /* The inertia turns with the part about its x axis; along and across it, and in joints, bodies have it. */
 static void check_rotor(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
 {
-    dmb_check_zero_or_within(check, "inertia", def->inertia, DMB_INERTIA_MIN, DMB_INERTIA_MAX);
     if (check->status < 0 || !(def->inertia > 0.0)) return;
     if (def->component == DMB_RX && dmb_model_part_index(model, def->part, DMB_PART_JOINT) == DMB_NONE) return;
     dmb_check_fail(
@@ -268,12 +245,7 @@ static void check_rotor(dmb_check *check, const dmb_model *model, const dmb_driv
 
 static void check_actuator(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
 {
-    dmb_check_zero_or_within(check, "delay", def->delay, DMB_ACTUATOR_TIME_MIN, DMB_DELAY_MAX);
-    dmb_check_zero_or_within(check, "force_rate", def->force_rate, DMB_SPEED_MIN, DMB_FORCE_MAX);
-    dmb_check_zero_or_within(check, "lag", def->lag, DMB_ACTUATOR_TIME_MIN, DMB_TIME_MAX);
-    dmb_check_within(check, "drag", def->drag, 0.0, DMB_FORCE_MAX);
-    dmb_check_within(check, "back_drag", def->back_drag, 0.0, DMB_FORCE_MAX);
-    check_curve(check, def);
+    check_column(check, "curve_speed", def->curve_speed, def->curve_count);
     check_rotor(check, model, def);
     if (check->status < 0 || def->kind != DMB_DRIVE_MOTION) return;
     if (!(def->delay > 0.0 || def->force_rate > 0.0 || def->lag > 0.0 || def->drag > 0.0 || def->back_drag > 0.0) &&
@@ -286,63 +258,24 @@ static void check_actuator(dmb_check *check, const dmb_model *model, const dmb_d
                     check->part, (int)def->kind);
 }
 
-static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
+static void relate_drive(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "drive", model->drives.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_DRIVE, def->name);
-    dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
-    dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
-    check_driven_part(&check, model, def);
-    dmb_check_id(&check, model, "time_function", def->time_function, DMB_PART_TIME_FUNCTION, "time function");
-    dmb_check_id_or_none(&check, model, "excitation", def->excitation, DMB_PART_TIME_FUNCTION, "time function");
-    dmb_check_within(&check, "gain", def->gain, 0.0, DMB_FORCE_MAX);
-    dmb_check_within(&check, "integral_gain", def->integral_gain, 0.0, DMB_FORCE_MAX);
-    dmb_check_within(&check, "limit_low", def->limit_low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_within(&check, "limit_high", def->limit_high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_above_field(&check, "limit_high", def->limit_high, "limit_low", def->limit_low);
-    check_gain_table(&check, def);
-    check_mud_pressure(&check, model, def);
-    check_actuator(&check, model, def);
-    return check.status;
+    const dmb_drive_def *def = part;
+    check_driven_part(check, model, def);
+    dmb_check_above_field(check, "limit_high", def->limit_high, "limit_low", def->limit_low);
+    check_gain_table(check, def);
+    check_mud_pressure(check, model, def);
+    check_actuator(check, model, def);
 }
 
 int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive)
 {
     dmb_drive_def read = dmb_drive_def_default();
-    int32_t status = dmb_describe_open(model, "drive", def);
-    if (status < 0) return status;
-    status = dmb_drive_def_read(&read, def);
-    if (status >= 0) status = check_drive(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->drives, &read, sizeof read, DMB_PART_DRIVE, drive);
-    return dmb_describe_end(model, "drive", &read, sizeof read, status);
-}
-
-/* ---- Loads ------------------------------------------------------------------------------------------------------- */
-
-static int32_t check_load(dmb_model *model, const dmb_load_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_LOAD, def->name);
-    dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_HOLE);
-    dmb_check_place(&check, model, "place", &def->place);
-    dmb_check_each_within(&check, "offset", def->offset, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
-    dmb_check_each_within(&check, "force", def->force, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_each_within(&check, "moment", def->moment, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    dmb_check_id_or_none(&check, model, "time_function", def->time_function, DMB_PART_TIME_FUNCTION, "time function");
-    return check.status;
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_drive_def), def, &read, relate_drive, drive);
 }
 
 int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load)
 {
     dmb_load_def read = dmb_load_def_default();
-    int32_t status = dmb_describe_open(model, "load", def);
-    if (status < 0) return status;
-    status = dmb_load_def_read(&read, def);
-    if (status >= 0) status = check_load(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->loads, &read, sizeof read, DMB_PART_LOAD, load);
-    return dmb_describe_end(model, "load", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_load_def), def, &read, NULL, load);
 }

@@ -6,17 +6,12 @@
 #include "model/field_check.h"
 #include "model/model.h"
 
-enum { TABLE_MAX = 1 << 16 };
-
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
-static void check_point(dmb_check *check, const dmb_model *model, const char *place_field, const dmb_place *place,
-                        const char *offset_field, const double offset[3])
+/* On a part an offset is an arm; on the ground it is a position, whose range the list has. */
+static void check_arm(dmb_check *check, const dmb_place *place, const char *field, const double offset[3])
 {
-    const bool ground = dmb_id_is_none(place->part);
-    const double reach = ground ? DMB_POSITION_MAX : DMB_LENGTH_MAX;
-    if (!ground) dmb_check_place(check, model, place_field, place);
-    dmb_check_each_within(check, offset_field, offset, 3, -reach, reach);
+    if (!dmb_id_is_none(place->part)) dmb_check_each_within(check, field, offset, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
 }
 
 static bool is_same_point(const dmb_spring_def *def)
@@ -29,10 +24,10 @@ static bool is_same_point(const dmb_spring_def *def)
     return true;
 }
 
-static void check_points(dmb_check *check, const dmb_model *model, const dmb_spring_def *def)
+static void check_points(dmb_check *check, const dmb_spring_def *def)
 {
-    check_point(check, model, "place_a", &def->place_a, "offset_a", def->offset_a);
-    check_point(check, model, "place_b", &def->place_b, "offset_b", def->offset_b);
+    check_arm(check, &def->place_a, "offset_a", def->offset_a);
+    check_arm(check, &def->place_b, "offset_b", def->offset_b);
     if (check->status < 0) return;
     if (dmb_id_is_none(def->place_a.part) && dmb_id_is_none(def->place_b.part)) {
         check->status = DMB_ERR_VALUE;
@@ -49,12 +44,6 @@ static void check_points(dmb_check *check, const dmb_model *model, const dmb_spr
 static void check_table(dmb_check *check, const dmb_spring_def *def)
 {
     const double *x = def->table_elongation, *f = def->table_force;
-    dmb_check_count(check, "table_count (0, or 2 and more)", def->table_count, 2, TABLE_MAX);
-    dmb_check_pointer(check, "table_elongation", x);
-    dmb_check_pointer(check, "table_force", f);
-    if (check->status < 0) return;
-    dmb_check_each_within(check, "table_elongation", x, def->table_count, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_each_within(check, "table_force", f, def->table_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_increasing(check, "table_elongation", x, def->table_count, 1);
     for (uint32_t i = 1; i < def->table_count && check->status == DMB_OK; ++i) {
         if (x[i] - x[i - 1] < DMB_DEPTH_MIN)
@@ -64,31 +53,15 @@ static void check_table(dmb_check *check, const dmb_spring_def *def)
     }
 }
 
-static void check_law(dmb_check *check, const dmb_spring_def *def)
+static void relate_spring(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_check_choice(check, "acts", def->acts, DMB_SPRING_BOTH, DMB_SPRING_COMPRESSION);
-    dmb_check_choice(check, "table_kind", def->table_kind, DMB_TABLE_LINES, DMB_TABLE_CUBIC);
-    dmb_check_finite(check, "free_length", def->free_length);
-    if (def->free_length < 0.0 ? def->free_length > -1.0 || def->free_length < -1.0 : def->free_length > DMB_LENGTH_MAX)
-        dmb_check_fail(check, DMB_ERR_VALUE, "free_length", def->free_length, "0 .. 1e6, or -1: as described");
-    dmb_check_within(check, "stiffness", def->stiffness, 0.0, DMB_STIFFNESS_MAX);
-    dmb_check_within(check, "damping", def->damping, 0.0, DMB_DAMPING_MAX);
-    dmb_check_within(check, "preload", def->preload, -DMB_FORCE_MAX, DMB_FORCE_MAX);
-    if (def->table_count > 0 && check->status >= 0) check_table(check, def);
+    const dmb_spring_def *def = part;
+    (void)model;
+    check_points(check, def);
+    if (check->status >= 0) check_table(check, def);
     if (def->stiffness > 0.0 || def->damping > 0.0 || fabs(def->preload) > 0.0 || def->table_count > 0) return;
     dmb_check_fail(check, DMB_ERR_VALUE, "stiffness", def->stiffness,
                    "> 0, or damping, preload or a table: nothing acts");
-}
-
-static int32_t check_spring(dmb_model *model, const dmb_spring_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "spring", model->springs.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_SPRING, def->name);
-    check_points(&check, model, def);
-    check_law(&check, def);
-    return check.status;
 }
 
 /* ---- The model's copy -------------------------------------------------------------------------------------------- */
@@ -145,7 +118,7 @@ int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def, dmb_id
     int32_t status = dmb_describe_open(model, "spring", def);
     if (status < 0) return status;
     status = dmb_spring_def_read(&read, def);
-    if (status >= 0) status = check_spring(model, &read);
+    if (status >= 0) status = dmb_describe_check(model, DMB_FIELDS_OF(dmb_spring_def), &read, relate_spring);
     if (status >= 0) status = append_spring(model, &read, spring);
     return dmb_describe_end(model, "spring", &read, sizeof read, status);
 }
@@ -179,71 +152,31 @@ static void check_argument(dmb_check *check, const dmb_model *model, const dmb_f
     dmb_check_each_within(check, offset.text, def->offset + 3 * i, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
 }
 
-static int32_t check_force(dmb_model *model, const dmb_force_def *def)
+static void relate_force(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "force", model->forces.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_FORCE, def->name);
-    dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
-    dmb_check_count(&check, "place_count", def->place_count, 1, DMB_CONSTRAINT_PLACES);
-    for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) check_argument(&check, model, def, i);
-    dmb_check_mask(&check, "provides", def->provides, DMB_PROVIDES_TANGENT | DMB_PROVIDES_POTENTIAL);
-    dmb_check_within(&check, "pose_step", def->pose_step, 1e-12, 1.0);
-    dmb_check_within(&check, "speed_step", def->speed_step, 1e-12, 1.0);
-    dmb_check_pointer(&check, "callback", def->callback != NULL ? def : NULL);
-    return check.status;
+    const dmb_force_def *def = part;
+    for (uint32_t i = 0; i < def->place_count && check->status >= 0; ++i) check_argument(check, model, def, i);
 }
 
 int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, dmb_id *force)
 {
     dmb_force_def read = dmb_force_def_default();
-    int32_t status = dmb_describe_open(model, "force", def);
-    if (status < 0) return status;
-    status = dmb_force_def_read(&read, def);
-    if (status >= 0) status = check_force(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->forces, &read, sizeof read, DMB_PART_FORCE, force);
-    return dmb_describe_end(model, "force", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_force_def), def, &read, relate_force, force);
 }
 
 /* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
 
-/* Places that can be stuck. */
-
-enum { EVERYTHING = DMB_STUCK_AXIAL | DMB_STUCK_ROTATION | DMB_STUCK_LATERAL };
-
-static void check_release(dmb_check *check, const dmb_stuck_def *def)
+static void relate_stuck(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_check_zero_or_within(check, "overpull", def->overpull, DMB_DEPTH_MIN, DMB_FORCE_MAX);
-    dmb_check_zero_or_within(check, "overtorque", def->overtorque, DMB_DEPTH_MIN, DMB_FORCE_MAX);
-    if (check->status < 0 || def->overtorque <= def->stiffness[1]) return;
-    dmb_check_fail(check, DMB_ERR_VALUE, "overtorque", def->overtorque, "<= stiffness[1] times 1 rad");
-}
-
-static int32_t check_stuck(dmb_model *model, const dmb_stuck_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "stuck", model->stuck.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_STUCK, def->name);
-    dmb_check_mask(&check, "holds", def->holds, EVERYTHING);
-    if (check.status >= 0 && def->holds == 0)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "holds", def->holds, "> 0: nothing is held");
-    dmb_check_place(&check, model, "place", &def->place);
-    dmb_check_choice(&check, "stuck", def->stuck, 0, 1);
-    dmb_check_each_within(&check, "stiffness", def->stiffness, 3, DMB_DEPTH_MIN, DMB_STIFFNESS_MAX);
-    dmb_check_each_within(&check, "damping", def->damping, 3, 0.0, DMB_DAMPING_MAX);
-    check_release(&check, def);
-    return check.status;
+    const dmb_stuck_def *def = part;
+    (void)model;
+    if (def->holds == 0) dmb_check_fail(check, DMB_ERR_VALUE, "holds", def->holds, "> 0: nothing is held");
+    if (def->overtorque > def->stiffness[1])
+        dmb_check_fail(check, DMB_ERR_VALUE, "overtorque", def->overtorque, "<= stiffness[1] times 1 rad");
 }
 
 int32_t dmb_model_add_stuck(dmb_model *model, const dmb_stuck_def *def, dmb_id *stuck)
 {
     dmb_stuck_def read = dmb_stuck_def_default();
-    int32_t status = dmb_describe_open(model, "stuck", def);
-    if (status < 0) return status;
-    status = dmb_stuck_def_read(&read, def);
-    if (status >= 0) status = check_stuck(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->stuck, &read, sizeof read, DMB_PART_STUCK, stuck);
-    return dmb_describe_end(model, "stuck", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_stuck_def), def, &read, relate_stuck, stuck);
 }

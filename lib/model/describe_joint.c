@@ -14,11 +14,10 @@ static bool same_place(const dmb_place *a, const dmb_place *b)
            !(a->fraction < b->fraction) && !(a->fraction > b->fraction);
 }
 
+/* Place b is on a part, place a on another one or the ground. */
 static void check_places(dmb_check *check, const dmb_model *model, const dmb_joint_def *def)
 {
-    const bool ground = dmb_id_is_none(def->place_a.part);
-    if (!ground) dmb_check_place(check, model, "place_a", &def->place_a);
-    if (ground && dmb_id_is_none(def->place_b.part) && check->status >= 0) {
+    if (dmb_id_is_none(def->place_a.part) && dmb_id_is_none(def->place_b.part)) {
         check->status = DMB_ERR_VALUE;
         dmb_message_set(check->message, "%s: place_b = the ground as place_a, must be on a part", check->part);
     }
@@ -57,25 +56,11 @@ static void check_frames(dmb_check *check, const dmb_joint_def *def)
 static void check_stops(dmb_check *check, const dmb_joint_def *def)
 {
     dmb_message field, other;
-    dmb_check_each_within(check, "stop_low", def->stop_low, 6, -DMB_STOP_MAX, DMB_STOP_MAX);
-    dmb_check_each_within(check, "stop_high", def->stop_high, 6, -DMB_STOP_MAX, DMB_STOP_MAX);
     for (unsigned k = 0; k < 6 && check->status >= 0; ++k) {
         dmb_message_set(&field, "stop_high[%u]", k);
         dmb_message_set(&other, "stop_low[%u]", k);
         dmb_check_above_field(check, field.text, def->stop_high[k], other.text, def->stop_low[k]);
     }
-    dmb_check_within(check, "stop_stiffness", def->stop_stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
-    dmb_check_within(check, "stop_damping", def->stop_damping, 0.0, DMB_DAMPING_MAX);
-}
-
-static void check_laws(dmb_check *check, const dmb_joint_def *def)
-{
-    dmb_check_each_within(check, "stiffness", def->stiffness, 6, 0.0, DMB_STIFFNESS_MAX);
-    dmb_check_each_within(check, "damping", def->damping, 6, 0.0, DMB_DAMPING_MAX);
-    dmb_check_each_within(check, "rest", def->rest, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_each_within(check, "friction", def->friction, 6, 0.0, DMB_FORCE_MAX);
-    dmb_check_within(check, "friction_speed", def->friction_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
-    check_stops(check, def);
 }
 
 /* The place along the hole is not a coordinate with an origin of its own, so no law can act on it. */
@@ -136,41 +121,26 @@ static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
 
 static void check_initial(dmb_check *check, const dmb_joint_def *def)
 {
-    if (check->status < 0) return; /* the kind may be none */
-    dmb_check_free_set(check, "initial_mask", def->initial_mask);
-    if (check->status >= 0) check_initial_free(check, def);
+    check_initial_free(check, def);
     if (check->status >= 0) check_initial_room(check, def);
-    dmb_check_each_within(check, "initial_position", def->initial_position, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_each_within(check, "initial_speed", def->initial_speed, 6, -DMB_SPEED_MAX, DMB_SPEED_MAX);
 }
 
-static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
+static void relate_joint(dmb_check *check, dmb_model *model, const void *part)
 {
+    const dmb_joint_def *def = part;
     const bool sized = def->kind == DMB_JOINT_DISTANCE || def->kind == DMB_JOINT_ROLLING;
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_JOINT, def->name);
-    dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_SCHOENFLIES);
-    check_places(&check, model, def);
-    check_frames(&check, def);
-    dmb_check_choice(&check, "state", def->state, DMB_JOINT_ACTIVE, DMB_JOINT_OPEN);
-    dmb_check_within(&check, "length", def->length, sized ? DMB_LENGTH_MIN : 0.0, DMB_LENGTH_MAX);
-    check_laws(&check, def);
-    check_point_on_hole(&check, def);
-    check_initial(&check, def);
-    return check.status;
+    check_places(check, model, def);
+    check_frames(check, def);
+    dmb_check_within(check, "length", def->length, sized ? DMB_LENGTH_MIN : 0.0, DMB_LENGTH_MAX);
+    check_stops(check, def);
+    check_point_on_hole(check, def);
+    check_initial(check, def);
 }
 
 int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *joint)
 {
     dmb_joint_def read = dmb_joint_def_default();
-    int32_t status = dmb_describe_open(model, "joint", def);
-    if (status < 0) return status;
-    status = dmb_joint_def_read(&read, def);
-    if (status >= 0) status = check_joint(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->joints, &read, sizeof read, DMB_PART_JOINT, joint);
-    return dmb_describe_end(model, "joint", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_joint_def), def, &read, relate_joint, joint);
 }
 
 /* ---- Couplings --------------------------------------------------------------------------------------------------- */
@@ -210,76 +180,36 @@ static void check_another(dmb_check *check, const dmb_coupling_def *def, uint32_
     }
 }
 
-static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
+static void relate_coupling(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_message part;
-    dmb_check check =
-        dmb_check_of(&model->message,
-                     dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_COUPLING, def->name);
+    const dmb_coupling_def *def = part;
     for (uint32_t k = 0; k < DMB_COUPLED; ++k) {
         const dmb_coupled_coordinate c = dmb_coupled_coordinate_of(def, k);
         if (k >= 2 && dmb_id_is_none(c.joint)) continue;
-        check_coordinate(&check, model, &c);
-        check_another(&check, def, k);
-        if (k > 0) check_ratio(&check, c.ratio_field, c.ratio);
+        check_coordinate(check, model, &c);
+        check_another(check, def, k);
+        if (k > 0) check_ratio(check, c.ratio_field, c.ratio);
     }
-    return check.status;
 }
 
 int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling)
 {
     dmb_coupling_def read = dmb_coupling_def_default();
-    int32_t status = dmb_describe_open(model, "coupling", def);
-    if (status < 0) return status;
-    status = dmb_coupling_def_read(&read, def);
-    if (status >= 0) status = check_coupling(model, &read);
-    if (status >= 0) {
-        status = dmb_describe_append(model, &model->couplings, &read, sizeof read, DMB_PART_COUPLING, coupling);
-    }
-    return dmb_describe_end(model, "coupling", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_coupling_def), def, &read, relate_coupling, coupling);
 }
 
-/* Constraints that the caller's function defines. */
+/* ---- Constraints that the caller's function defines -------------------------------------------------------------- */
 
-enum { ROWS_MAX = DMB_CONSTRAINT_ROWS, PLACES_MAX = DMB_CONSTRAINT_PLACES };
-
-static void check_kind(dmb_check *check, const dmb_constraint_def *def)
+static void relate_constraint(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_check_choice(check, "kind", def->kind, DMB_CONSTRAINT_HOLONOMIC, DMB_CONSTRAINT_NONHOLONOMIC);
-    dmb_check_mask(check, "provides", def->provides, DMB_PROVIDES_JACOBIAN);
-    if (def->kind == DMB_CONSTRAINT_NONHOLONOMIC && (def->provides & DMB_PROVIDES_JACOBIAN) == 0) {
+    const dmb_constraint_def *def = part;
+    (void)model;
+    if (def->kind == DMB_CONSTRAINT_NONHOLONOMIC && (def->provides & DMB_PROVIDES_JACOBIAN) == 0)
         dmb_check_fail(check, DMB_ERR_VALUE, "provides", def->provides, "1 for a nonholonomic constraint");
-    }
-    dmb_check_pointer(check, "callback", def->callback != NULL ? def : NULL);
-}
-
-static int32_t check_constraint(dmb_model *model, const dmb_constraint_def *def)
-{
-    dmb_message part, field;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "constraint", model->constraints.count, def->name, sizeof def->name),
-        DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_CONSTRAINT, def->name);
-    dmb_check_count(&check, "row_count", def->row_count, 1, ROWS_MAX);
-    dmb_check_count(&check, "place_count", def->place_count, 1, PLACES_MAX);
-    for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) {
-        dmb_message_set(&field, "place[%u]", i);
-        dmb_check_place(&check, model, field.text, &def->place[i]);
-    }
-    check_kind(&check, def);
-    return check.status;
 }
 
 int32_t dmb_model_add_constraint(dmb_model *model, const dmb_constraint_def *def, dmb_id *constraint)
 {
     dmb_constraint_def read = dmb_constraint_def_default();
-    int32_t status = dmb_describe_open(model, "constraint", def);
-    if (status < 0) return status;
-    status = dmb_constraint_def_read(&read, def);
-    if (status >= 0) status = check_constraint(model, &read);
-    if (status >= 0) {
-        status = dmb_describe_append(model, &model->constraints, &read, sizeof read, DMB_PART_CONSTRAINT, constraint);
-    }
-    return dmb_describe_end(model, "constraint", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_constraint_def), def, &read, relate_constraint, constraint);
 }

@@ -6,30 +6,13 @@
 #include "model/model.h"
 #include "model/section.h"
 
-static int32_t check_string(dmb_model *model, const dmb_string_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "string", model->strings.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_STRING, def->name);
-    dmb_check_choice(&check, "follows_hole", def->follows_hole, 0, 1);
-    dmb_check_within(&check, "start_depth", def->start_depth, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_each_within(&check, "offset", def->offset, 2, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
-    dmb_check_each_within(&check, "position", def->position, 3, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_each_within(&check, "rotation", def->rotation, 3, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
-    dmb_check_each_within(&check, "velocity", def->velocity, 6, -DMB_SPEED_MAX, DMB_SPEED_MAX);
-    dmb_check_motion_mask(&check, "start_free", def->start_free);
-    dmb_check_motion_mask(&check, "end_free", def->end_free);
-    return check.status;
-}
-
 int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id *string)
 {
     dmb_string_plan plan = {dmb_string_def_default(), 0, 0};
     int32_t status = dmb_describe_open(model, "string", def);
     if (status < 0) return status;
     status = dmb_string_def_read(&plan.def, def);
-    if (status >= 0) status = check_string(model, &plan.def);
+    if (status >= 0) status = dmb_describe_check(model, DMB_FIELDS_OF(dmb_string_def), &plan.def, NULL);
     if (status >= 0) {
         status = dmb_describe_append(model, &model->strings, &plan, sizeof plan, DMB_PART_STRING, string);
     }
@@ -40,42 +23,11 @@ int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id
 
 enum { COUNT_MAX = 1 << 20 };
 
-static void check_tube(dmb_check *check, const dmb_pipe_def *def)
-{
-    dmb_check_within(check, "length", def->length, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_within(check, "inner_diameter", def->inner_diameter, 0.0, DMB_LENGTH_MAX);
-    dmb_check_above_field(check, "outer_diameter", def->outer_diameter, "inner_diameter", def->inner_diameter);
-    dmb_check_within(check, "outer_diameter", def->outer_diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-}
-
-static void check_material(dmb_check *check, const dmb_pipe_def *def)
-{
-    dmb_check_within(check, "young_modulus", def->young_modulus, DMB_MODULUS_MIN, DMB_MODULUS_MAX);
-    dmb_check_between(check, "poisson_ratio", def->poisson_ratio, -1.0, 0.5);
-    dmb_check_within(check, "density", def->density, DMB_DENSITY_MIN, DMB_DENSITY_MAX);
-    dmb_check_within(check, "shear_factor", def->shear_factor, DMB_NUMBER_MIN, DMB_NUMBER_MAX);
-    dmb_check_within(check, "damping_time", def->damping_time, 0.0, DMB_TIME_MAX);
-    dmb_check_each_zero_or_within(check, "yield_strength", &def->yield_strength, 1, DMB_MODULUS_MIN, DMB_MODULUS_MAX);
-}
-
-static void check_section(dmb_check *check, const dmb_pipe_def *def)
-{
-    dmb_check_each_zero_or_within(check, "section_stiffness", def->section_stiffness, 6, DMB_STIFFNESS_MIN,
-                                  DMB_STIFFNESS_MAX);
-    dmb_check_zero_or_within(check, "section_mass", def->section_mass, DMB_MASS_MIN, DMB_MASS_MAX);
-    dmb_check_each_zero_or_within(check, "section_inertia", def->section_inertia, 2, DMB_INERTIA_MIN, DMB_INERTIA_MAX);
-}
-
-/* The pipe's own diameter stands in for one that is 0. */
+/* The pipe's own diameter stands in for one of its joint that is 0. */
 static void check_joint(dmb_check *check, const dmb_pipe_def *def)
 {
     const double outer = def->joint_outer_diameter > 0.0 ? def->joint_outer_diameter : def->outer_diameter;
     const double inner = def->joint_inner_diameter > 0.0 ? def->joint_inner_diameter : def->inner_diameter;
-    dmb_check_within(check, "joint_length", def->joint_length, 0.0, DMB_LENGTH_MAX);
-    dmb_check_zero_or_within(check, "joint_inner_diameter", def->joint_inner_diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_zero_or_within(check, "joint_outer_diameter", def->joint_outer_diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_zero_or_within(check, "joint_mass", def->joint_mass, DMB_MASS_MIN, DMB_MASS_MAX);
-    dmb_check_each_zero_or_within(check, "joint_inertia", def->joint_inertia, 2, DMB_INERTIA_MIN, DMB_INERTIA_MAX);
     if (!(def->joint_length > 0.0)) return;
     dmb_check_above_field(check, "joint_outer_diameter", outer, "joint_inner_diameter", inner);
     if (!(def->length - def->joint_length >= DMB_LENGTH_MIN)) {
@@ -92,20 +44,10 @@ static void check_rigid_parts(dmb_check *check, const dmb_pipe_def *def)
     if (def->kind == DMB_PIPE_RIGID) dmb_check_rigid_pipe_inertia(check, def);
 }
 
-static void check_eccentricity(dmb_check *check, const dmb_pipe_def *def)
-{
-    dmb_check_within(check, "eccentricity", def->eccentricity, 0.0, DMB_LENGTH_MAX);
-    dmb_check_within(check, "eccentricity_angle", def->eccentricity_angle, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
-    dmb_check_within(check, "eccentricity_spread", def->eccentricity_spread, 0.0, DMB_LENGTH_MAX);
-    dmb_check_within(check, "angle_spread", def->angle_spread, 0.0, DMB_ANGLE_MAX);
-}
-
 /* Half a turn of one element is where its deformation stops being unique. */
 static void check_curvature(dmb_check *check, const dmb_pipe_def *def)
 {
     const double *k = def->curvature;
-    dmb_check_each_within(check, "curvature", k, 3, -DMB_CURVATURE_MAX, DMB_CURVATURE_MAX);
-    if (check->status < 0) return;
     const double bend =
         sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * (def->length - def->joint_length) / def->elements;
     if (bend <= DMB_REST_ROTATION_MAX) return;
@@ -117,18 +59,13 @@ static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def
 {
     dmb_message part;
     dmb_check check = dmb_check_of(&model->message, dmb_pipes_text(&part, string, def), DMB_NONE);
-    dmb_check_pipes_name(&check, model, def->name);
     dmb_check_count(&check, "count", count, 1, COUNT_MAX);
-    dmb_check_choice(&check, "kind", def->kind, DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID);
-    dmb_check_count(&check, "elements", def->elements, 1, DMB_PIPE_ELEMENTS_MAX);
-    if (def->contact_points != 0)
-        dmb_check_count(&check, "contact_points (0, or)", def->contact_points, 3, DMB_LOBATTO_MOST);
-    check_tube(&check, def);
-    check_material(&check, def);
-    check_section(&check, def);
+    dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_pipe_def), def);
+    dmb_check_pipes_name(&check, model, def->name);
+    dmb_check_above_field(&check, "outer_diameter", def->outer_diameter, "inner_diameter", def->inner_diameter);
+    if (check.status < 0) return check.status;
     check_joint(&check, def);
     check_rigid_parts(&check, def);
-    check_eccentricity(&check, def);
     check_curvature(&check, def);
     return check.status;
 }
@@ -182,50 +119,22 @@ int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, uint32_t 
     return dmb_describe_part(model, &given, status);
 }
 
-/* Rings on strings, as the caller gives them. */
-
-/* ---- Rings ------------------------------------------------------------------------------------------------------- */
-
-DMB_DEFINE_INIT(dmb_stabiliser_def, 96,
-                {.fraction = 0.5, .outer_diameter = 0.09, .length = 0.3, .density = 7850.0, .added_mass = {0.0, -1.0}})
+/* ---- Stabilisers ------------------------------------------------------------------------------------------------- */
 
 /* One of the two inertias may be that of the cylinder, whose inner diameter is known when the string is: it is judged
  * with none, where its share about the axis is least. */
-static void check_mass(dmb_check *check, const dmb_stabiliser_def *def)
+static void relate_stabiliser(dmb_check *check, dmb_model *model, const void *part)
 {
-    dmb_rigid_part part;
-    dmb_check_zero_or_within(check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
-    dmb_check_each_zero_or_within(check, "inertia", def->inertia, 2, DMB_INERTIA_MIN, DMB_INERTIA_MAX);
-    dmb_check_within(check, "density", def->density, DMB_DENSITY_MIN, DMB_DENSITY_MAX);
-    if (check->status < 0) return;
-    dmb_ring_body_of(def, 0.0, &part);
-    dmb_check_inertia_of_revolution(check, "inertia", part.inertia);
+    const dmb_stabiliser_def *def = part;
+    dmb_rigid_part body;
+    (void)model;
+    dmb_check_each_within(check, "added_mass", def->added_mass, 1, 0.0, DMB_MASS_MAX);
+    dmb_ring_body_of(def, 0.0, &body);
+    dmb_check_inertia_of_revolution(check, "inertia", body.inertia);
 }
 
-static int32_t check_ring(dmb_model *model, const dmb_stabiliser_def *def)
-{
-    dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "stabiliser", model->rings.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_part_name(&check, model, DMB_PART_STABILISER, def->name);
-    dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
-    dmb_check_within(&check, "fraction", def->fraction, 0.0, 1.0);
-    dmb_check_within(&check, "outer_diameter", def->outer_diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_within(&check, "length", def->length, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    check_mass(&check, def);
-    dmb_check_within(&check, "added_mass along", def->added_mass[0], 0.0, DMB_MASS_MAX);
-    if (def->added_mass[1] != -1.0)
-        dmb_check_within(&check, "added_mass across", def->added_mass[1], 0.0, DMB_MASS_MAX);
-    return check.status;
-}
-
-int32_t dmb_model_add_stabiliser(dmb_model *model, const dmb_stabiliser_def *def, dmb_id *ring)
+int32_t dmb_model_add_stabiliser(dmb_model *model, const dmb_stabiliser_def *def, dmb_id *stabiliser)
 {
     dmb_stabiliser_def read = dmb_stabiliser_def_default();
-    int32_t status = dmb_describe_open(model, "stabiliser", def);
-    if (status < 0) return status;
-    status = dmb_stabiliser_def_read(&read, def);
-    if (status >= 0) status = check_ring(model, &read);
-    if (status >= 0) status = dmb_describe_append(model, &model->rings, &read, sizeof read, DMB_PART_STABILISER, ring);
-    return dmb_describe_end(model, "stabiliser", &read, sizeof read, status);
+    return dmb_describe_add(model, DMB_FIELDS_OF(dmb_stabiliser_def), def, &read, relate_stabiliser, stabiliser);
 }

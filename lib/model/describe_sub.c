@@ -291,8 +291,6 @@ static int32_t add_all(dmb_model *model, const dmb_sub_def *def, dmb_sub *made)
     return status < 0 ? status : join(model, def->after, at_body, def->length, at_section, &made->after);
 }
 
-DMB_DECLARE_STRUCT(dmb_sub_def)
-DMB_DEFINE_INIT(dmb_sub_def, 56, {.length = 0.0})
 DMB_DECLARE_STRUCT(dmb_sub)
 DMB_DEFINE_INIT(dmb_sub, 64, {.reserved = 0})
 

@@ -9,7 +9,7 @@
 #include "model/field_check.h"
 #include "model/model.h"
 
-enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16, CUTS_MAX = 1 << 18 };
+enum { CUTS_MAX = 1 << 18 };
 
 static const double rounding = 1e-9; /* [rad] a survey's last digits may lie beyond the bounds */
 
@@ -26,7 +26,6 @@ static void check_angle(dmb_check *check, uint32_t station, const char *name, do
 static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_def *def)
 {
     dmb_check station;
-    dmb_check_count(check, "survey_count", def->survey_count, STATIONS_MIN, STATIONS_MAX);
     dmb_check_pointer(check, "survey", def->survey);
     for (uint32_t i = 0; i < def->survey_count && check->status == DMB_OK; ++i) {
         const double *row = def->survey + 3 * (size_t)i;
@@ -43,54 +42,28 @@ static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_
 static void check_direction(dmb_check *check, const dmb_wall_def *def)
 {
     const double *d = def->direction;
-    dmb_check_all_finite(check, "direction", d, 3);
     if (fabs(d[0]) > 0.0 || fabs(d[1]) > 0.0 || fabs(d[2]) > 0.0) return;
     dmb_check_fail(check, DMB_ERR_VALUE, "direction", 0.0, "of length > 0");
 }
 
-static void check_normal_law(dmb_check *check, const dmb_wall_def *def)
-{
-    const int32_t law = def->normal_law;
-    dmb_check_choice(check, "normal_law", law, DMB_NORMAL_NONE, DMB_NORMAL_IMPACT);
-    dmb_check_within(check, "stiffness", def->stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
-    dmb_check_within(check, "exponent", def->exponent, 1.0, 3.0);
-    dmb_check_within(check, "restitution", def->restitution, 0.0, 1.0);
-    if (law == DMB_NORMAL_FLORES) dmb_check_above(check, "restitution", def->restitution, 0.0); /* its mu is like 1/e */
-    dmb_check_within(check, "damping", def->damping, 0.0, DMB_DAMPING_MAX);
-    dmb_check_within(check, "impact_depth", def->impact_depth, DMB_DEPTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_within(check, "approach_speed", def->approach_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
-}
-
 /* Bounds between two fields are asked for only where the law uses both. */
-static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
+static void check_laws(dmb_check *check, const dmb_wall_def *def)
 {
     const int32_t law = def->friction_law;
-    dmb_check_choice(check, "friction_law", law, DMB_FRICTION_NONE, DMB_FRICTION_BRISTLE);
-    dmb_check_within(check, "mu_dynamic", def->mu_dynamic, 0.0, DMB_NUMBER_MAX);
-    dmb_check_within(check, "mu_static", def->mu_static, 0.0, DMB_NUMBER_MAX);
-    if (def->friction_table_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE)) {
+    if (def->normal_law == DMB_NORMAL_FLORES)
+        dmb_check_above(check, "restitution", def->restitution, 0.0); /* its mu is like 1/e */
+    if (def->friction_table_count == 0 && (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE))
         dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
-    }
-    dmb_check_within(check, "stribeck_speed", def->stribeck_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
-    dmb_check_within(check, "smoothing_speed", def->smoothing_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
-    dmb_check_within(check, "full_speed", def->full_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
-    if (law == DMB_FRICTION_AMBROSIO) {
+    if (law == DMB_FRICTION_AMBROSIO)
         dmb_check_above_field(check, "full_speed", def->full_speed, "smoothing_speed", def->smoothing_speed);
-    }
-    dmb_check_within(check, "bristle_stiffness", def->bristle_stiffness, DMB_NUMBER_MIN, DMB_DAMPING_MAX);
-    dmb_check_within(check, "bristle_damping", def->bristle_damping, 0.0, DMB_DAMPING_MAX);
 }
 
 /* The table of the coefficient against the speed. */
 static void check_friction_table(dmb_check *check, const dmb_wall_def *def)
 {
     const uint32_t n = def->friction_table_count;
-    dmb_check_count(check, "friction_table_count", n, 0, DMB_FRICTION_POINTS);
     if (check->status < 0 || n == 0) return;
-    dmb_check_count(check, "friction_table_count (0, or 2 and more)", n, 2, DMB_FRICTION_POINTS);
-    dmb_check_each_within(check, "friction_table_speed", def->friction_table_speed, n, 0.0, DMB_SPEED_MAX);
     dmb_check_increasing(check, "friction_table_speed", def->friction_table_speed, n, 1);
-    dmb_check_each_within(check, "friction_table_mu", def->friction_table_mu, n, 0.0, DMB_NUMBER_MAX);
     if (check->status < 0) return;
     dmb_check_within(check, "friction_table_speed[0]", def->friction_table_speed[0], 0.0, 0.0);
     for (uint32_t i = 1; i < n && check->status >= 0; ++i)
@@ -108,9 +81,6 @@ static void check_friction_table(dmb_check *check, const dmb_wall_def *def)
 /* At least four stations: those at both ends are never cut. */
 static void check_cuts(dmb_check *check, const dmb_wall_def *def)
 {
-    dmb_check_zero_or_within(check, "cut_spacing", def->cut_spacing, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    dmb_check_within(check, "cut_start", def->cut_start, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_within(check, "cut_end", def->cut_end, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     if (check->status < 0 || !(def->cut_spacing > 0.0)) return;
     dmb_check_at_least(check, "cut_end", def->cut_end, def->cut_start + 3.0 * def->cut_spacing);
     if (check->status < 0 || def->cut_end - def->cut_start <= (CUTS_MAX - 1) * def->cut_spacing) return;
@@ -119,27 +89,26 @@ static void check_cuts(dmb_check *check, const dmb_wall_def *def)
                    "<= 262143; give a larger spacing or a shorter part");
 }
 
-static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
+/* The ends of a table are the coefficients at rest and in fast sliding. */
+static void take_friction_table(dmb_wall_def *def)
+{
+    if (def->friction_table_count == 0) return;
+    def->mu_static = def->friction_table_mu[0];
+    def->mu_dynamic = def->friction_table_mu[def->friction_table_count - 1];
+}
+
+static int32_t check_wall(dmb_model *model, dmb_wall_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "wall", DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
-    dmb_check_each_within(&check, "origin", def->origin, 3, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_wall_def), def);
+    if (check.status < 0) return check.status;
+    take_friction_table(def);
     check_direction(&check, def);
-    dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    check_normal_law(&check, def);
-    check_friction_law(&check, def);
+    check_laws(&check, def);
     check_friction_table(&check, def);
     check_cuts(&check, def);
     if (def->survey_count != 0) check_survey(&check, &model->message, def);
     return check.status;
-}
-
-/* The ends of a table are the coefficients at rest and in fast sliding. */
-static void take_friction_table(dmb_wall_def *def)
-{
-    if (def->friction_table_count == 0 || def->friction_table_count > DMB_FRICTION_POINTS) return;
-    def->mu_static = def->friction_table_mu[0];
-    def->mu_dynamic = def->friction_table_mu[def->friction_table_count - 1];
 }
 
 static size_t survey_size(const dmb_wall_def *wall)
@@ -187,7 +156,6 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
         return dmb_describe_end(model, "wall", NULL, 0, DMB_ERR_ORDER);
     }
     status = dmb_wall_def_read(&read, def);
-    if (status >= 0) take_friction_table(&read);
     if (status >= 0) status = check_wall(model, &read);
     if (status >= 0) status = copy_survey(&read, &model->allocator);
     if (status >= 0) {
@@ -200,23 +168,9 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
 
 /* Gravity, fluid and external damping. */
 
-/* 0 .. high, or -1 for what the definition says of it. */
-static void check_or_minus_one(dmb_check *check, const char *field, double value, double high, const char *bound)
-{
-    dmb_check_finite(check, field, value);
-    if ((value >= -1.0 && value <= -1.0) || (value >= 0.0 && value <= high)) return;
-    dmb_check_fail(check, DMB_ERR_VALUE, field, value, bound);
-}
-
 /* mesh_flow looks at what the scene must be for it. */
 static void check_flow(dmb_check *check, const dmb_environment_def *def)
 {
-    dmb_check_within(check, "flow_rate", def->flow_rate, 0.0, DMB_FLOW_MAX);
-    dmb_check_zero_or_within(check, "consistency", def->consistency, DMB_CONSISTENCY_MIN, DMB_CONSISTENCY_MAX);
-    dmb_check_within(check, "flow_exponent", def->flow_exponent, DMB_FLOW_EXPONENT_MIN, DMB_FLOW_EXPONENT_MAX);
-    dmb_check_within(check, "yield_stress", def->yield_stress, 0.0, DMB_YIELD_STRESS_MAX);
-    dmb_check_zero_or_within(check, "nozzle_area", def->nozzle_area, DMB_AREA_MIN, DMB_FLOW_MAX);
-    dmb_check_within(check, "flow_eccentricity", def->flow_eccentricity, 0.0, DMB_FLOW_ECCENTRICITY_MAX);
     if (check->status >= 0 && def->flow_eccentricity > 0.0)
         dmb_check_within(check, "flow_exponent", def->flow_exponent, DMB_FLOW_ECCENTRIC_EXPONENT,
                          DMB_FLOW_EXPONENT_MAX);
@@ -234,14 +188,8 @@ static void check_flow(dmb_check *check, const dmb_environment_def *def)
 static int32_t check_environment(dmb_model *model, const dmb_environment_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "environment", DMB_NONE);
-    dmb_check_each_within(&check, "gravity", def->gravity, 3, -DMB_ACCELERATION_MAX, DMB_ACCELERATION_MAX);
-    dmb_check_within(&check, "fluid_density", def->fluid_density, 0.0, DMB_DENSITY_MAX);
-    check_or_minus_one(&check, "inner_density", def->inner_density, DMB_DENSITY_MAX, "0 .. 1e6, or -1: as outside");
-    check_or_minus_one(&check, "added_mass", def->added_mass, DMB_NUMBER_MAX, "0 .. 1e6, or -1: by the annulus");
+    dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_environment_def), def);
     check_flow(&check, def);
-    dmb_check_within(&check, "lateral_damping", def->lateral_damping, 0.0, DMB_DAMPING_MAX);
-    dmb_check_within(&check, "axial_damping", def->axial_damping, 0.0, DMB_DAMPING_MAX);
-    dmb_check_within(&check, "torsional_damping", def->torsional_damping, 0.0, DMB_DAMPING_MAX);
     return check.status;
 }
 
@@ -258,44 +206,7 @@ int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *d
 
 /* ---- Sections of the hole ---------------------------------------------------------------------------------------- */
 
-/* Sections of the hole, as the caller gives them. */
-
 enum { SECTIONS_MAX = 1 << 18 };
-#define BY_WALL (-1.0) /* a field that is the wall's */
-
-/* clang-format off */
-DMB_DEFINE_INIT(dmb_hole_section, 104, {
-    .shape = DMB_HOLE_STEP,
-    .transition = 0.1,
-    .diameter = BY_WALL,
-    .stiffness = BY_WALL,
-    .restitution = BY_WALL,
-    .damping = BY_WALL,
-    .mu_static = BY_WALL,
-    .mu_dynamic = BY_WALL,
-})
-/* clang-format on */
-
-/* -1, or low <= value <= high */
-static void check_value(dmb_check *check, const char *field, double value, double low, double high)
-{
-    if (value != BY_WALL) dmb_check_within(check, field, value, low, high);
-}
-
-static void check_section(dmb_check *check, const dmb_hole_section *section)
-{
-    dmb_check_choice(check, "shape", section->shape, DMB_HOLE_STEP, DMB_HOLE_LINE);
-    dmb_check_within(check, "depth", section->depth, -DMB_POSITION_MAX, DMB_POSITION_MAX);
-    dmb_check_within(check, "transition", section->transition, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    check_value(check, "diameter", section->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
-    check_value(check, "stiffness", section->stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
-    check_value(check, "restitution", section->restitution, 0.0, 1.0);
-    check_value(check, "damping", section->damping, 0.0, DMB_DAMPING_MAX);
-    check_value(check, "mu_static", section->mu_static, 0.0, DMB_NUMBER_MAX);
-    check_value(check, "mu_dynamic", section->mu_dynamic, 0.0, DMB_NUMBER_MAX);
-    dmb_check_within(check, "strength", section->strength, 0.0, DMB_MODULUS_MAX);
-    dmb_check_name(check, "name", section->name, sizeof section->name);
-}
 
 /* Sections stand one after the other, as far apart as the first one says. All say the same. */
 static int32_t read_section(const dmb_hole_section *sections, uint32_t i, dmb_hole_section *out)
@@ -316,7 +227,7 @@ static int32_t check_sections(dmb_model *model, const dmb_hole_section *sections
         dmb_check check = dmb_check_of(&model->message, "hole section", before + i);
         const int32_t status = read_section(sections, i, &read);
         if (status < 0) return status;
-        check_section(&check, &read);
+        dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_hole_section), &read);
         if (before + i > 0) dmb_check_at_least(&check, "depth", read.depth, above + DMB_LENGTH_MIN);
         if (check.status < 0) return check.status;
         above = read.depth;

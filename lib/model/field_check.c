@@ -1,9 +1,12 @@
 #include "model/field_check.h"
-#include "model/section.h"
 
 #include <string.h>
 
-static bool within(double value, double low, double high)
+#include "model/section.h"
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+static bool is_within(double value, double low, double high)
 {
     return value >= low && value <= high;
 }
@@ -13,22 +16,57 @@ static bool is_zero(double value)
     return !(value < 0.0) && !(value > 0.0) && dmb_is_finite(value);
 }
 
-typedef struct limits {
-    double low, high;
-    bool zero_allowed;
-} limits;
-
-static void judge_each(dmb_check *check, const char *field, const double *values, size_t count, const limits *l)
+static bool holds(const dmb_def_field *field, double value)
 {
-    dmb_message bound;
-    for (size_t i = 0; i < count && check->status == DMB_OK; ++i) {
-        if (within(values[i], l->low, l->high) || (l->zero_allowed && is_zero(values[i]))) continue;
-        dmb_message_set(&bound, "finite%s, >= %g and <= %g", l->zero_allowed ? ", 0 or" : "", l->low, l->high);
-        check->status = dmb_is_finite(values[i]) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
-        const dmb_field_value is = {field, (uint32_t)i, values[i]};
-        dmb_message_component(check->message, check->part, check->index, &is, bound.text);
-        const dmb_refused_number number = {values[i], l->low, l->high};
-        dmb_failure_note(check->message, &number);
+    switch (field->bound) {
+    case DMB_BOUND_FINITE: return dmb_is_finite(value);
+    case DMB_BOUND_BETWEEN: return value > field->low && value < field->high;
+    case DMB_BOUND_BITS: return ((uint32_t)(int32_t)value & ~(uint32_t)field->high) == 0;
+    case DMB_BOUND_ZERO_OR: return is_zero(value) || is_within(value, field->low, field->high);
+    case DMB_BOUND_MINUS_ONE_OR: return is_within(value, -1.0, -1.0) || is_within(value, field->low, field->high);
+    default: return is_within(value, field->low, field->high);
+    }
+}
+
+/* The bound in words, and as a range where it is one. */
+static dmb_check_bound bound_of(const dmb_def_field *field, dmb_message *text)
+{
+    const char * or = field->bound == DMB_BOUND_ZERO_OR        ? "0 or "
+                      : field->bound == DMB_BOUND_MINUS_ONE_OR ? "-1 or "
+                                                               : "";
+    dmb_check_bound bound = {text->text, field->low, field->high};
+    if (field->bound == DMB_BOUND_FINITE) {
+        dmb_message_set(text, "finite");
+        bound = (dmb_check_bound){text->text, -(double)INFINITY, (double)INFINITY};
+    } else if (field->bound == DMB_BOUND_BITS) {
+        dmb_message_set(text, "made of the bits of %g", field->high);
+        bound.low = bound.high = (double)NAN;
+    } else if (field->bound == DMB_BOUND_BETWEEN) {
+        dmb_message_set(text, "finite, > %g and < %g", field->low, field->high);
+    } else if (field->type == DMB_TYPE_REAL || field->type == DMB_TYPE_REALS) {
+        dmb_message_set(text, "finite, %s>= %g and <= %g", or, field->low, field->high);
+    } else {
+        dmb_message_set(text, "%s%g .. %g", or, field->low, field->high);
+    }
+    return bound;
+}
+
+static bool is_array(const dmb_def_field *field)
+{
+    return field->type == DMB_TYPE_REALS || field->size > dmb_field_element_size(field);
+}
+
+static void check_numbers(dmb_check *check, const dmb_def_field *field, const void *def)
+{
+    const size_t count = dmb_field_elements(field, def);
+    if (count > 0) dmb_check_pointer(check, field->name, dmb_field_at(field, def));
+    for (size_t i = 0; i < count && check->status >= 0; ++i) {
+        const dmb_field_value is = {field->name, is_array(field) ? (uint32_t)i : DMB_NONE,
+                                    dmb_field_number(field, def, i)};
+        dmb_message text;
+        if (holds(field, is.value)) continue;
+        const dmb_check_bound must = bound_of(field, &text);
+        dmb_check_fail_value(check, dmb_is_finite(is.value) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE, &is, &must);
     }
 }
 
@@ -40,29 +78,17 @@ void dmb_check_zero_or_within(dmb_check *check, const char *field, double value,
 void dmb_check_each_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
                            double high)
 {
-    const limits l = {low, high, false};
-    judge_each(check, field, values, count, &l);
-}
-
-void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
-                                   double high)
-{
-    const limits l = {low, high, true};
-    judge_each(check, field, values, count, &l);
-}
-
-void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size)
-{
-    dmb_message bound;
-    if (memchr(name, '\0', size) == NULL) {
-        dmb_message_set(&bound, "characters, at most %zu, and a 0", size - 1);
-        dmb_check_fail(check, DMB_ERR_VALUE, field, (double)size, bound.text);
-    } else if (check->status >= 0 && !dmb_is_text(name, size)) {
-        check->status = DMB_ERR_VALUE;
-        dmb_message_set(check->message, "%s: %s is no text, must be UTF-8 without control characters", check->part,
-                        field);
+    dmb_message text;
+    dmb_message_set(&text, "finite, >= %g and <= %g", low, high);
+    const dmb_check_bound must = {text.text, low, high};
+    for (size_t i = 0; i < count && check->status >= 0; ++i) {
+        const dmb_field_value is = {field, (uint32_t)i, values[i]};
+        if (!is_within(is.value, low, high))
+            dmb_check_fail_value(check, dmb_is_finite(is.value) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE, &is, &must);
     }
 }
+
+/* ---- Ids and places ---------------------------------------------------------------------------------------------- */
 
 void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
                   const char *what)
@@ -111,6 +137,62 @@ void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask)
                    "a closed set, DMB_FREE_NONE, _ALL, _X, _Y, _Z, _XY, _XZ, _YZ, _TRANSLATIONS, _RX, _RY, _RZ, "
                    "_SPHERICAL, or _CYLINDRICAL, _PLANAR, _SCHOENFLIES (of x, y, z); hold others by a joint");
 }
+
+/* ---- All fields -------------------------------------------------------------------------------------------------- */
+
+/* Ids and places, whose messages name the element of an array as part of the field. */
+static void check_reference(dmb_check *check, const dmb_model *model, const dmb_def_field *field, const void *def)
+{
+    const uint32_t kind = (uint32_t)field->low;
+    for (size_t i = 0; i < dmb_field_elements(field, def) && check->status >= 0; ++i) {
+        const void *at = (const char *)dmb_field_at(field, def) + i * dmb_field_element_size(field);
+        const dmb_id id = *(const dmb_id *)at; /* a place begins with one */
+        const bool may_be_none = field->bound == DMB_BOUND_PART_OR_NONE || field->bound == DMB_BOUND_GROUND_OR_PLACE;
+        dmb_message name;
+        if (is_array(field))
+            dmb_message_set(&name, "%s[%zu]", field->name, i);
+        else
+            dmb_message_set(&name, "%s", field->name);
+        if (may_be_none && dmb_id_is_none(id)) continue;
+        if (field->type == DMB_TYPE_ID)
+            dmb_check_id(check, model, name.text, id, kind, dmb_part_word(kind));
+        else
+            dmb_check_place(check, model, name.text, at);
+    }
+}
+
+/* The bytes of a pointer of any kind: a function's need not be an object's. */
+static void check_is_there(dmb_check *check, const dmb_def_field *field, const void *def)
+{
+    static const unsigned char null[sizeof(void (*)(void))];
+    const void *at = (const char *)def + field->offset;
+    dmb_check_pointer(check, field->name, memcmp(at, null, field->size) != 0 ? at : NULL);
+}
+
+static void check_field(dmb_check *check, const dmb_model *model, const dmb_def_field *field, const void *def)
+{
+    switch (field->bound) {
+    case DMB_BOUND_ANY:
+    case DMB_BOUND_TEXT: break;
+    case DMB_BOUND_SET: dmb_check_free_set(check, field->name, (int32_t)dmb_field_number(field, def, 0)); break;
+    case DMB_BOUND_MOTION: dmb_check_motion_mask(check, field->name, (int32_t)dmb_field_number(field, def, 0)); break;
+    case DMB_BOUND_PART:
+    case DMB_BOUND_PART_OR_NONE:
+    case DMB_BOUND_PLACE:
+    case DMB_BOUND_GROUND_OR_PLACE: check_reference(check, model, field, def); break;
+    case DMB_BOUND_POINTER: check_is_there(check, field, def); break;
+    default: check_numbers(check, field, def);
+    }
+}
+
+void dmb_check_fields(dmb_check *check, const dmb_model *model, const dmb_field_list *list, const void *def)
+{
+    const dmb_def_field *name = dmb_field_name(list); /* first, since messages about the others state it */
+    if (name != NULL) dmb_check_part_name(check, model, list->kind, dmb_field_at(name, def));
+    for (uint32_t i = 0; i < list->count && check->status >= 0; ++i) check_field(check, model, &list->fields[i], def);
+}
+
+/* ---- Inertias ---------------------------------------------------------------------------------------------------- */
 
 /* Principal moments of inertia, and the bound that every distribution of mass keeps. With E the second moments of the
  * mass, J = (tr E) I - E; the principal moments are J1 = E2 + E3, J2 = E1 + E3, J3 = E1 + E2 with E1, E2, E3 >= 0, so

@@ -1,5 +1,5 @@
-/* Bounds on what may be described, besides those that the public header states. They are far from any drill string, and
- * they keep every product that the compile step forms finite: no stiffness, mass or length can overflow. */
+/* Checks of what is described: of all fields of a struct by its table (fields/fields.h), of single ones beyond those of
+ * base/value_check.h, and of inertias. */
 #ifndef DMB_MODEL_FIELD_CHECK_H
 #define DMB_MODEL_FIELD_CHECK_H
 
@@ -7,41 +7,9 @@
 
 #include "base/value_check.h"
 #include "drillmbd/scene.h"
+#include "fields/bounds.h"
+#include "fields/fields.h"
 #include "model/model.h"
-
-#define DMB_LENGTH_MIN 1e-6      /* [m] of lengths and diameters that must be > 0 */
-#define DMB_LENGTH_MAX 1e6       /* [m] */
-#define DMB_DEPTH_MIN 1e-12      /* [m] of depths over which a force is taken up */
-#define DMB_POSITION_MAX 1e9     /* [m] coordinates and measured depths; map coordinates fit in */
-#define DMB_ANGLE_MAX 1e9        /* [rad] */
-#define DMB_CURVATURE_MAX 1e6    /* [rad/m] */
-#define DMB_SPEED_MIN 1e-12      /* [m/s] of regularisation speeds */
-#define DMB_SPEED_MAX 1e9        /* [m/s, rad/s] */
-#define DMB_ACCELERATION_MAX 1e9 /* [m/s2] of gravity */
-#define DMB_TIME_MIN 1e-12       /* [s] width of a ramp */
-#define DMB_TIME_MAX 1e12        /* [s] */
-#define DMB_DENSITY_MIN 1e-9     /* [kg/m3] */
-#define DMB_DENSITY_MAX 1e9
-#define DMB_MODULUS_MIN 1e-6 /* [Pa] */
-#define DMB_MODULUS_MAX 1e15
-#define DMB_MASS_MIN 1e-12 /* [kg, kg/m] */
-#define DMB_MASS_MAX 1e15
-#define DMB_INERTIA_MIN 1e-18 /* [kg m2, kg m] */
-#define DMB_INERTIA_MAX 1e18
-#define DMB_STIFFNESS_MIN 1e-12 /* [N, N m2] of a section; [N/m^(n+1)] of the wall */
-#define DMB_STIFFNESS_MAX 1e30
-#define DMB_DAMPING_MAX 1e15     /* [N s/m2, N s] */
-#define DMB_FLOW_MAX 1e6         /* [m3/s], [m2] of nozzles */
-#define DMB_AREA_MIN 1e-12       /* [m2] of nozzles */
-#define DMB_CONSISTENCY_MIN 1e-9 /* [Pa s^n] */
-#define DMB_CONSISTENCY_MAX 1e9
-#define DMB_YIELD_STRESS_MAX 1e6 /* [Pa] of mud */
-#define DMB_NUMBER_MIN 1e-6      /* [-] of ratios and factors that must be > 0 */
-#define DMB_NUMBER_MAX 1e6
-#define DMB_RATIO_MIN 1e-12 /* [-, m/rad, rad/m] of coupled coordinates */
-#define DMB_RATIO_MAX 1e12
-#define DMB_STOP_MAX 1e30  /* [m, rad] of stops; as far away as that there is none */
-#define DMB_FORCE_MAX 1e30 /* [N, N m, unit of a time function] */
 
 /* [rad] largest unstressed bend of one element, as of DMB_BEAM_ROTATION_MAX */
 #define DMB_REST_ROTATION_MAX 2.5
@@ -54,20 +22,14 @@ enum {
     DMB_CLUSTER_ROWS_MAX = 4800     /* equations on them, room for locking included */
 };
 
-/* Checks of fields, beyond those of base/value_check.h: numbers and arrays between two bounds, zero standing for "by
- * default", names, ids and places. */
+/* Every field by its own bound, in the order of the list. Relations between fields come after it. */
+void dmb_check_fields(dmb_check *check, const dmb_model *model, const dmb_field_list *list, const void *def);
 
 /* Zero, or low <= value <= high. */
 void dmb_check_zero_or_within(dmb_check *check, const char *field, double value, double low, double high);
 /* low <= value <= high for each of count values; the message names the component. */
 void dmb_check_each_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
                            double high);
-/* Zero, or low <= value <= high, likewise. */
-void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
-                                   double high);
-
-/* The 0 at the end of a name in size bytes. */
-void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size);
 
 static inline bool dmb_id_is_none(dmb_id id)
 {

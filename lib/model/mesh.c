@@ -245,8 +245,7 @@ static int32_t read_options(dmb_model *model, const dmb_compile_options *given, 
         const int32_t status = dmb_compile_options_read(read, given);
         if (status < 0) return status;
     }
-    dmb_check_mask(&check, "features", read->features, DMB_FEATURE_ALL);
-    dmb_check_choice(&check, "pipe_kind", read->pipe_kind, -1, DMB_PIPE_RIGID);
+    dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_compile_options), read);
     return check.status;
 }
 

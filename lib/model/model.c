@@ -8,6 +8,9 @@
 #include "model/field_check.h"
 #include "model/scene.h"
 
+DMB_DEFINE_INIT(dmb_model_options, 48, {.log = NULL})
+DMB_DEFINE_INIT(dmb_model_info, 72, {.strings = 0})
+
 /* Stamps are unique within a process (up to 2^32 models), so that an id of another model is recognised. */
 uint32_t dmb_new_stamp(void)
 {

@@ -10,6 +10,7 @@
 #include "base/message.h"
 #include "base/value_check.h"
 #include "drillmbd/scene.h"
+#include "fields/fields.h"
 #include "force/time_function.h"
 #include "model/scene.h"
 
@@ -63,8 +64,6 @@ typedef struct dmb_string_plan {
 int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string);
 
 /* One call of dmb_model_add_pipes. */
-enum { DMB_PIPE_ELEMENTS_MAX = 1024 }; /* of one pipe */
-
 typedef struct dmb_pipe_run {
     dmb_pipe_def def;
     uint32_t string; /* index of the string it lengthens */
@@ -172,6 +171,8 @@ int32_t dmb_list_append(dmb_list *list, const dmb_allocator *allocator, const vo
 void dmb_list_release(dmb_list *list, const dmb_allocator *allocator, size_t item_size);
 #define DMB_LIST_AT(T, list, i) ((T *)(list).items + (i))
 
+/* The list of the parts of a kind; NULL: the wall, or no kind. */
+const dmb_list *dmb_model_list(const dmb_model *model, uint32_t kind);
 /* The id of a part; and an append that writes it to *id unless that is NULL. */
 dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index);
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
@@ -202,9 +203,13 @@ typedef struct dmb_time_function_name {
     char name[DMB_NAME_SIZE];
 } dmb_time_function_name;
 
-/* Fails the check where `name`, the field of that length, is no text or another part of the kind has it. */
+/* The word of a kind of parts in messages, "time function". */
+const char *dmb_part_word(uint32_t kind);
+
+/* Fails the check where `name`, the field of that length, is no text or another part of the kind has it (0: no kind).
+ */
 void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name);
-/* The same for pipes that are added together. */
+/* Fails where other pipes have it; that it is text was checked. */
 void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name);
 
 /* DMB_ERR_ID: no part has the name. */

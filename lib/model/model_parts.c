@@ -29,27 +29,31 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
     return id;
 }
 
+const dmb_list *dmb_model_list(const dmb_model *model, uint32_t kind)
+{
+    static const size_t lists[] = {[DMB_PART_TIME_FUNCTION] = offsetof(dmb_model, time_functions),
+                                   [DMB_PART_STRING] = offsetof(dmb_model, strings),
+                                   [DMB_PART_BODY] = offsetof(dmb_model, bodies),
+                                   [DMB_PART_BIT] = offsetof(dmb_model, bits),
+                                   [DMB_PART_DRIVE] = offsetof(dmb_model, drives),
+                                   [DMB_PART_LOAD] = offsetof(dmb_model, loads),
+                                   [DMB_PART_JOINT] = offsetof(dmb_model, joints),
+                                   [DMB_PART_COUPLING] = offsetof(dmb_model, couplings),
+                                   [DMB_PART_CONSTRAINT] = offsetof(dmb_model, constraints),
+                                   [DMB_PART_INPUT] = offsetof(dmb_model, inputs),
+                                   [DMB_PART_SPRING] = offsetof(dmb_model, springs),
+                                   [DMB_PART_EVENT] = offsetof(dmb_model, events),
+                                   [DMB_PART_FORCE] = offsetof(dmb_model, forces),
+                                   [DMB_PART_STUCK] = offsetof(dmb_model, stuck),
+                                   [DMB_PART_STABILISER] = offsetof(dmb_model, rings)};
+    if (kind >= sizeof lists / sizeof lists[0] || lists[kind] == 0) return NULL;
+    return (const dmb_list *)(const void *)((const char *)model + lists[kind]);
+}
+
 uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
 {
-    switch (kind) {
-    case DMB_PART_TIME_FUNCTION: return model->time_functions.count;
-    case DMB_PART_WALL: return model->wall_count;
-    case DMB_PART_STRING: return model->strings.count;
-    case DMB_PART_BODY: return model->bodies.count;
-    case DMB_PART_BIT: return model->bits.count;
-    case DMB_PART_DRIVE: return model->drives.count;
-    case DMB_PART_LOAD: return model->loads.count;
-    case DMB_PART_JOINT: return model->joints.count;
-    case DMB_PART_COUPLING: return model->couplings.count;
-    case DMB_PART_CONSTRAINT: return model->constraints.count;
-    case DMB_PART_INPUT: return model->inputs.count;
-    case DMB_PART_SPRING: return model->springs.count;
-    case DMB_PART_EVENT: return model->events.count;
-    case DMB_PART_FORCE: return model->forces.count;
-    case DMB_PART_STUCK: return model->stuck.count;
-    case DMB_PART_STABILISER: return model->rings.count;
-    default: return 0;
-    }
+    const dmb_list *list = dmb_model_list(model, kind);
+    return kind == DMB_PART_WALL ? model->wall_count : list == NULL ? 0 : list->count;
 }
 
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)

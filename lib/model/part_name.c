@@ -11,38 +11,43 @@
 /* In a list of the model. */
 typedef struct name_place {
     const char *word;
-    size_t list, item, name; /* [byte] of the list in the model; of an item; of the name in it */
+    size_t item, name; /* [byte] of an item of the model's list; of the name in it */
 } name_place;
 
-#define PLACE(word, list, T)                                             \
-    {                                                                    \
-        word, offsetof(dmb_model, list), sizeof(T), offsetof(T, name[0]) \
+#define PLACE(word, T)                        \
+    {                                         \
+        word, sizeof(T), offsetof(T, name[0]) \
     }
-#define PLAN(word, list, T)                                                  \
-    {                                                                        \
-        word, offsetof(dmb_model, list), sizeof(T), offsetof(T, def.name[0]) \
+#define PLAN(word, T)                             \
+    {                                             \
+        word, sizeof(T), offsetof(T, def.name[0]) \
     }
 
 enum { KINDS = DMB_PART_EVENT + 1 };
 
 static const name_place places[KINDS] = {
-    [DMB_PART_TIME_FUNCTION] = {"time function", 0, 0, 0},
-    [DMB_PART_WALL] = {"wall", 0, 0, 0},
-    [DMB_PART_STRING] = PLAN("string", strings, dmb_string_plan),
-    [DMB_PART_BODY] = PLACE("body", bodies, dmb_body_def),
-    [DMB_PART_BIT] = PLACE("bit", bits, dmb_bit_def),
-    [DMB_PART_DRIVE] = PLACE("drive", drives, dmb_drive_def),
-    [DMB_PART_LOAD] = PLACE("load", loads, dmb_load_def),
-    [DMB_PART_JOINT] = PLACE("joint", joints, dmb_joint_def),
-    [DMB_PART_COUPLING] = PLACE("coupling", couplings, dmb_coupling_def),
-    [DMB_PART_CONSTRAINT] = PLACE("constraint", constraints, dmb_constraint_def),
-    [DMB_PART_SPRING] = PLAN("spring", springs, dmb_spring_plan),
-    [DMB_PART_FORCE] = PLACE("force", forces, dmb_force_def),
-    [DMB_PART_STABILISER] = PLACE("stabiliser", rings, dmb_stabiliser_def),
-    [DMB_PART_STUCK] = PLACE("stuck", stuck, dmb_stuck_def),
-    [DMB_PART_INPUT] = PLACE("input", inputs, dmb_input_def),
-    [DMB_PART_EVENT] = PLACE("event", events, dmb_event_def),
+    [DMB_PART_TIME_FUNCTION] = {"time function", 0, 0},
+    [DMB_PART_WALL] = {"wall", 0, 0},
+    [DMB_PART_STRING] = PLAN("string", dmb_string_plan),
+    [DMB_PART_BODY] = PLACE("body", dmb_body_def),
+    [DMB_PART_BIT] = PLACE("bit", dmb_bit_def),
+    [DMB_PART_DRIVE] = PLACE("drive", dmb_drive_def),
+    [DMB_PART_LOAD] = PLACE("load", dmb_load_def),
+    [DMB_PART_JOINT] = PLACE("joint", dmb_joint_def),
+    [DMB_PART_COUPLING] = PLACE("coupling", dmb_coupling_def),
+    [DMB_PART_CONSTRAINT] = PLACE("constraint", dmb_constraint_def),
+    [DMB_PART_SPRING] = PLAN("spring", dmb_spring_plan),
+    [DMB_PART_FORCE] = PLACE("force", dmb_force_def),
+    [DMB_PART_STABILISER] = PLACE("stabiliser", dmb_stabiliser_def),
+    [DMB_PART_STUCK] = PLACE("stuck", dmb_stuck_def),
+    [DMB_PART_INPUT] = PLACE("input", dmb_input_def),
+    [DMB_PART_EVENT] = PLACE("event", dmb_event_def),
 };
+
+const char *dmb_part_word(uint32_t kind)
+{
+    return places[kind].word;
+}
 
 static uint32_t name_of_time_function(const dmb_model *model, uint32_t index)
 {
@@ -60,8 +65,7 @@ static const char *name_of(const dmb_model *model, uint32_t kind, uint32_t index
         const uint32_t i = name_of_time_function(model, index);
         return i == DMB_NONE ? "" : DMB_LIST_AT(const dmb_time_function_name, model->names, i)->name;
     }
-    const dmb_list *list = (const dmb_list *)(const void *)((const char *)model + place->list);
-    return (const char *)list->items + index * place->item + place->name;
+    return (const char *)dmb_model_list(model, kind)->items + index * place->item + place->name;
 }
 
 /* The part of a kind that has the name; DMB_NONE: none. */
@@ -91,9 +95,22 @@ static void refuse_taken(dmb_check *check, const char *word, uint32_t index, con
                     name, word, index);
 }
 
+/* The 0 at the end, and the characters before it. */
+static void check_text(dmb_check *check, const char *name)
+{
+    dmb_message bound;
+    if (memchr(name, '\0', DMB_NAME_SIZE) == NULL) {
+        dmb_message_set(&bound, "characters, at most %d, and a 0", DMB_NAME_SIZE - 1);
+        dmb_check_fail(check, DMB_ERR_VALUE, "name", DMB_NAME_SIZE, bound.text);
+    } else if (check->status >= 0 && !dmb_is_text(name, DMB_NAME_SIZE)) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: name is no text, must be UTF-8 without control characters", check->part);
+    }
+}
+
 void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name)
 {
-    dmb_check_name(check, "name", name, DMB_NAME_SIZE);
+    check_text(check, name);
     if (check->status < 0) return;
     const uint32_t other = find_in(model, kind, name);
     if (other != DMB_NONE) refuse_taken(check, places[kind].word, other, name);
@@ -101,7 +118,6 @@ void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind
 
 void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name)
 {
-    dmb_check_name(check, "name", name, DMB_NAME_SIZE);
     if (check->status < 0) return;
     const uint32_t other = find_run(model, name);
     if (other == DMB_NONE) return;

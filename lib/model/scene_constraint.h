@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "drillmbd/scene.h"
+#include "fields/bounds.h"
 
 /* A material point at any place, or a point of the ground. */
 typedef struct dmb_scene_point {
@@ -23,7 +24,7 @@ enum {
     DMB_OF_SPRING = 4,
     DMB_OF_FORCE = 5
 };
-enum { DMB_CONSTRAINT_PLACES = 4, DMB_CONSTRAINT_NODES = 8, DMB_CONSTRAINT_COLUMNS = 48, DMB_CONSTRAINT_ROWS = 6 };
+enum { DMB_CONSTRAINT_NODES = 8, DMB_CONSTRAINT_COLUMNS = 48 };
 
 /* A frame fixed to a node's frame, or standing in the world. */
 typedef struct dmb_scene_frame {

@@ -273,7 +273,8 @@ static void inputs_and_events(void **state)
     def = input_named("one", DMB_TARGET_LOAD_FACTOR, load[0]);
     must_model(&c.s, dmb_model_add_input(c.s.model, &def, NULL));
     def = input_named("one", DMB_TARGET_LOAD_FACTOR, load[1]);
-    refused(&c, dmb_model_add_input(c.s.model, &def, NULL), DMB_ERR_VALUE, "its name is that of input 0 (one)");
+    refused(&c, dmb_model_add_input(c.s.model, &def, NULL), DMB_ERR_VALUE,
+            "name = one, must be of its own, and input 0 has it");
     def = input_named("two", DMB_TARGET_LOAD_FACTOR, load[0]);
     refused(&c, dmb_model_add_input(c.s.model, &def, NULL), DMB_ERR_VALUE, "its target is that of input 0 (one)");
     def = input_named("two", DMB_TARGET_LOAD_FACTOR, load[1]); /* the same target of another load */
@@ -283,7 +284,8 @@ static void inputs_and_events(void **state)
     refused(&c, dmb_model_add_event(c.s.model, &event, NULL), DMB_ERR_VALUE, "name is empty");
     (void)snprintf(event.name, sizeof event.name, "first");
     must_model(&c.s, dmb_model_add_event(c.s.model, &event, NULL));
-    refused(&c, dmb_model_add_event(c.s.model, &event, NULL), DMB_ERR_VALUE, "its name is that of event 0");
+    refused(&c, dmb_model_add_event(c.s.model, &event, NULL), DMB_ERR_VALUE,
+            "name = first, must be of its own, and event 0 has it");
     (void)snprintf(event.name, sizeof event.name, "second");
     event.direction = DMB_EVENT_EITHER;
     event.hold = 1.0;

@@ -405,10 +405,10 @@ static void what_it_cannot_is_refused(void **state)
     bit.added_mass[1] = -0.5;
     check_refused(&s, dmb_model_add_bit(s.model, &bit, NULL), "added_mass");
     ring.added_mass[0] = -1.0;
-    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass along");
+    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass[0] = ");
     ring.added_mass[0] = 0.0;
     ring.added_mass[1] = -0.5;
-    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass across");
+    check_refused(&s, dmb_model_add_stabiliser(s.model, &ring, NULL), "added_mass[1] = ");
     body.added_mass[1] = 0.0;
     body.added_mass[0] = (double)NAN;
     assert_int_equal(dmb_model_add_body(s.model, &body, NULL), DMB_ERR_NOT_FINITE);

@@ -114,7 +114,7 @@ static void pipes_make_the_first_string(void **state)
     pipe.outer_diameter = -1.0;
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, &id), DMB_ERR_VALUE);
     assert_string_equal(dmb_model_message(model),
-                        "pipes of string 0: outer_diameter = -1, must be finite and > inner_diameter (0.061)");
+                        "pipes of string 0: outer_diameter = -1, must be finite, >= 1e-06 and <= 1000000");
     assert_int_equal(id.generation, 0);
     assert_int_equal(model->strings.count, 0);
     pipe.outer_diameter = 0.073;

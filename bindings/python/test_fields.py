@@ -1,0 +1,119 @@
+"""The list of fields in C (lib/fields/lists.h) against the public header: each member has a row with the unit of its comment, and the
+default that the comment states is that of the library."""
+import ctypes
+import math
+import pathlib
+import re
+import sys
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import generate  # noqa: E402
+from drillmbd import _structs, enums  # noqa: E402
+
+LISTS = HERE.parents[1] / "lib" / "fields" / "lists.h"
+NUMBER = r"-?(?:\d[\d.]*(?:e[+-]?\d+)?|[A-Z][A-Z0-9_]+|NaN)(?![\w/])"
+# "default 0.5", "default (0, 0, -9.81)", "default AXIAL and ROTATION"; "-1 (default)", "FEED (X, default)"
+STATED = re.compile(rf"default:? (?:DMB_)?\(?({NUMBER}(?:(?:,| and) {NUMBER})*)|({NUMBER}) \((?:\w+, )?default\)")
+PREFIXES = ("", "STUCK_", "DRIVE_", "SPRING_")
+
+
+def lists():
+    """{struct: {field: (number, unit)}} of lists.h."""
+    text = LISTS.read_text(encoding="utf-8").replace("\\\n", " ")
+    rows = {}
+    for name, body in re.findall(r"#define (DMB_\w+_FIELDS)\(FIELD, ARRAY, T\)(.*?)\n\n", text, re.S):
+        found = re.findall(r'FIELD\(T, (\d+), (\w+), "(.*?)"', body) + re.findall(r'ARRAY\(T, (\d+), (\w+), \w+, \d+, "(.*?)"', body)
+        rows[name] = {field: (int(number), unit) for number, field, unit in found}
+    return {struct: rows[name] for struct, name in re.findall(r"X\(\d+, (\w+), .*?, (DMB_\w+_FIELDS)\)", text)}
+
+
+def value_of(word):
+    """A number or the name of a constant; None: neither."""
+    if word == "NaN":
+        return math.nan
+    for prefix in PREFIXES:
+        if hasattr(enums, prefix + word):
+            return float(getattr(enums, prefix + word))
+    try:
+        return float(word)
+    except ValueError:
+        return None
+
+
+def stated(text):
+    """The numbers of the default that a comment states; []: it states none, or one in words."""
+    match = STATED.search(text)
+    if match is None:
+        return []
+    words = re.split(r", | and ", match[1] or match[2])
+    values = [value_of(word) for word in words]
+    if " and " in (match[1] or "") and None not in values and words[0].isidentifier():  # bits of a mask
+        return [sum(values)]
+    return [] if None in values else values
+
+
+def given(value):
+    """The numbers of a field; []: of a struct or a pointer."""
+    if isinstance(value, ctypes.Array) and value._type_ in (ctypes.c_double, ctypes.c_int32, ctypes.c_uint32):
+        return [float(one) for one in value]
+    return [float(value)] if isinstance(value, (int, float)) else []
+
+
+def same(wanted, found):
+    """The numbers that are stated; they may be the first ones of an array."""
+    return all(a == b or (math.isnan(a) and math.isnan(b)) for a, b in zip(wanted, found))
+
+
+class Fields(unittest.TestCase):
+    """Lists in C, header, and structs of the library."""
+
+    @classmethod
+    def setUpClass(cls):
+        reader = generate.Reader(generate.header_text())
+        cls.structs = {name: fields for name, fields, _ in reader.structs()}
+        cls.lists = lists()
+
+    def members(self, struct):
+        """Members of a struct, without those that are reserved."""
+        return [field for field in self.structs[struct] if field[0] != "struct_size" and not re.search(r"reserved\d*$", field[0])]
+
+    def test_every_member_has_a_row(self):
+        self.assertEqual(len(self.lists), 21)
+        for struct, rows in self.lists.items():
+            self.assertEqual({name for name, *_ in self.members(struct)}, set(rows), struct)
+            self.assertEqual(sorted(number for number, _ in rows.values()), list(range(1, len(rows) + 1)), struct)
+
+    def test_every_description_has_a_list(self):
+        self.assertEqual({name for name in self.structs if name.endswith("_def")} - set(self.lists), set())
+
+    def test_units(self):
+        for struct, rows in self.lists.items():
+            for name, _, unit, _ in self.members(struct):
+                self.assertEqual(rows[name][1], unit, f"{struct}.{name}")
+
+    def test_stated_defaults(self):
+        compared = 0
+        for struct in self.lists:
+            blank = getattr(_structs, generate.class_name(struct))()
+            comments = [text for _, _, _, text in self.members(struct)]
+            for number, (name, _, _, text) in enumerate(self.members(struct)):
+                wanted, found = stated(text), given(getattr(blank, name))
+                if len(wanted) > len(found) == 1:  # a comment of several members
+                    wanted = wanted[number - comments.index(text):][:1]
+                if wanted and found:
+                    compared += 1
+                    self.assertTrue(same(wanted, found), f"{struct}.{name}: default {wanted} in the header, {found} in the library")
+        self.assertGreater(compared, 130)
+
+    def test_defaults_that_are_read(self):
+        """The reader of comments itself."""
+        for text, wanted in (("x; default 0", [0.0]), ("default (0, 0, -9.81), shape (3)", [0.0, 0.0, -9.81]), ("0 .. ; -1 (default): as outside", [-1.0]),
+                             ("PIPE_..., default PIPE_FLEXIBLE", [0.0]), ("mask; default AXIAL and ROTATION", [3.0]), ("none here", []),
+                             ("default 1e-3 on the diagonal", [1e-3]), ("default -1e30, shape (6)", [-1e30])):
+            self.assertEqual(stated(text), wanted, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
