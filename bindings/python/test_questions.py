@@ -22,7 +22,7 @@ from drillmbd import scene
 from drillmbd.operating import operating, operations_of
 from drillmbd.probability import auto, demands, engines, limits, soft, until
 from drillmbd.probability.draw import CannotDraw
-from drillmbd.probability.estimates import Estimate, counted
+from drillmbd.probability.estimates import Estimate, clopper_pearson, counted
 from drillmbd.probability.sampling import Points, drawn
 from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study, read_rows
@@ -291,6 +291,18 @@ class DemandTest(unittest.TestCase):
             inside += low <= stats.norm.ppf(0.95) <= high
         self.assertGreaterEqual(inside, 372)
 
+    def test_lost_samples(self):
+        """The interval of a percentile holds whatever the lost samples are."""
+        ranked, lost = np.sort(np.random.default_rng(4).standard_normal(200)), 20
+        for percent in demands.PERCENTS:
+            _, low, high = demands.percentile(ranked, percent, 0.95, lost)
+            for guess in (-9.0, 0.0, 9.0):
+                whole = demands.percentile(np.sort(np.concatenate([ranked, np.full(lost, guess)])), percent, 0.95)
+                self.assertTrue(low <= whole[1] and whole[2] <= high, (percent, guess))
+        one = scene.loads(LEVEL + failure("rig-push", limit="12 kN")).failures[0]
+        found = demands.demand_of(one, np.append(ranked, [math.nan] * lost), np.zeros((220, 1)), ["x"], 0.95)
+        self.assertIn("of the 200 of 220 samples that have one", found.sentence(0.95))
+
     def test_matters(self):
         rng = np.random.default_rng(2)
         inputs = rng.standard_normal((500, 3))
@@ -325,6 +337,23 @@ class UntilTest(FolderTest):
             with self.assertRaisesRegex(Exception, "write a share of the probability"):
                 until.rule(text)
 
+    def test_verdicts_hold(self):
+        """A study that stops as soon as its interval leaves the bound, at a probability that is the bound: a verdict is wrong in 5 of 100 cases at
+        most, though there are eleven looks."""
+        rng, bound, repeats, wrong = np.random.default_rng(5), 0.02, 400, 0
+        confidence, most = until.spent(0.95, 20_000), 20_000
+        for _ in range(repeats):
+            failures = samples = 0
+            while samples < most:
+                more = until.following(samples, most)
+                failures += int(rng.binomial(more - samples, bound))
+                samples = more
+                low, high = clopper_pearson(failures, samples, confidence)
+                if high < bound or low > bound:
+                    wrong += 1
+                    break
+        self.assertLessEqual(wrong, 0.05 * repeats)
+
     def test_command(self):
         """Stops at the first look at which the rule is met, and at --samples where it never is."""
         out = self.ask("probability", self.scene, "-o", self.folder / "out", "--until", "30%", "--engine", "serial")
@@ -336,7 +365,7 @@ class UntilTest(FolderTest):
         while looks[-1] < len(margins):
             looks.append(until.following(looks[-1], until.MOST))
         self.assertEqual((looks[-1], len(looks) > 1), (len(margins), True))
-        self.assertFalse(until.rule("30%").met(counted(margins[:looks[-2]])))
+        self.assertFalse(until.rule("30%").met(counted(margins[:looks[-2]], confidence=until.spent(0.95, until.MOST))))
         out = self.ask("probability", self.scene, "--until", "below 1e-6", "--samples", 300, "--engine", "serial")
         self.assertIn("after", out)
         self.assertIn("write a share", self.ask("probability", self.scene, "--until", "soon", status=2))

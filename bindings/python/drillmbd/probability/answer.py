@@ -6,12 +6,14 @@ import math
 import os
 import sys
 import time as clock
+from dataclasses import replace
 from typing import Any
 
 from .._optional import need
 from ..results import CommandOutput
 from ..errors import Usage
 from . import engines
+from .assessed import Assessed
 from ..scene.failure import KINDS
 from .demands import Demand, amount, demand_of
 from .estimates import Estimate, Indices, Subset, Surrogate, counted, effective, plan, sobol_indices
@@ -19,13 +21,14 @@ from .sampling import Points
 from .sample import FAILED, Result, SceneSample
 from .study import Progress, Study, StudyFile, usable
 from .ticking import ticking
-from .until import MOST, Rule, following, rule
+from .until import MOST, Rule, following, looks, rule, spent
 
 ANY = "any failure"
+MOST_SAMPLES = 10_000_000
 LEFT_OUT = {"torque-drag": "by torque and drag of a soft string: pulled out, pushed in and rotated with the load of the bit; dynamics and bending within the "
                            "clearance of the hole are left out",
             "static": "by static states of the stiff string: pushed in, pulled out and rotated with the load of the bit; dynamics are left out",
-            "run": "by a run in time of each sample"}
+            "run": "by a run in time of each sample, whose largest and smallest values are those of regular looks ([variability] look)"}
 
 
 class Asked:
@@ -48,6 +51,24 @@ class Asked:
             raise Usage("--until adds samples to a Monte Carlo study: leave --indices, --surrogate and other methods out")
         if self.rule is not None:
             self.samples = options.samples or MOST
+        if not self.samples <= MOST_SAMPLES:
+            raise Usage(f"{self.samples} samples, must be <= {MOST_SAMPLES}: each is kept in memory; for rare failures use --method subset")
+        if options.surrogate and self.sampling in ("subset", "indices"):
+            raise Usage("--surrogate is fitted to plain samples: leave --indices and --method subset out")
+        self.assessed = Assessed(sample)
+        self.assessed.refuse(self.failures)
+
+    @property
+    def each_look(self) -> float:
+        """Confidence of the interval of one look."""
+        return spent(self.confidence, self.samples) if self.rule is not None else self.confidence
+
+    def counted(self, margins: Any, replicates: int = 1) -> Estimate:
+        """The estimate of counted failures, whose interval holds at all looks of --until together."""
+        found = counted(margins, self.method, replicates, self.each_look)
+        if self.rule is not None:
+            found = replace(found, confidence=self.confidence, about=f"{found.about}, for {looks(self.samples)} looks together")
+        return found
 
     @property
     def sampling(self) -> str:
@@ -80,6 +101,8 @@ class Answer:
         for one in asked.failures:
             if one.assumed:
                 output.note_text(f"{one.name}: limit {amount(one.limit, KINDS[one.kind].unit)} is assumed, because the scene gives none: {KINDS[one.kind].source}")
+        for text in asked.assessed.notes(asked.failures):
+            output.note_text(text)
         self.question = self.sample.question
         self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
         self.scales = None if self.options.failure else asked.scales()
@@ -150,9 +173,9 @@ class Answer:
         results = self._until(study, points) if asked.rule is not None else study.run(range(points.samples), points.z)
         margins = numpy.array([one.margins for one in results])
         for i, name in enumerate(self.sample.names):
-            self.tell(name, counted(margins[:, i], asked.method, points.replicates, asked.confidence))
+            self.tell(name, asked.counted(margins[:, i], points.replicates))
         least = (margins / numpy.array(asked.scales())).min(axis=1)
-        self.tell(ANY, counted(least, asked.method, points.replicates, asked.confidence))
+        self.tell(ANY, asked.counted(least, points.replicates))
         if asked.rule is not None:
             self.output.say(f"--until {self.options.until}: {self.asked.of}: {asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
         self.say_demands(results)
@@ -170,7 +193,7 @@ class Answer:
             results = study.run(range(count), points.z)
             margins = numpy.array([one.margins for one in results])
             column = (margins / numpy.array(asked.scales())).min(axis=1) if self.scales else margins[:, self.limit]
-            if count >= asked.samples or asked.rule.met(counted(column, confidence=asked.confidence)):
+            if count >= asked.samples or asked.rule.met(asked.counted(column)):
                 return results
 
     def say_demands(self, results: list[Result]) -> None:
@@ -191,12 +214,15 @@ class Answer:
 
     def _say_matters(self, found: Demand) -> None:
         counting = [one for one in found.matters if abs(one.rank) > one.least]
+        if found.same:
+            self.output.note_text(f"{found.failure.name}: the demand is the same in all samples: nothing that varies acts on it, and its probability is that of "
+                                  "the scene as it is written")
         if not found.matters:
             self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same in all samples or there are "
                             "fewer than 10")
             return
         told = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of the uncertain parameters"
-        self.output.say(f"{found.failure.name}: goes with {told} (rank correlation; below {found.matters[0].least:.2f} is chance)")
+        self.output.say(f"{found.failure.name}: goes with {told} (rank correlation; chance alone makes {found.matters[0].least:.2f})")
 
     def _surrogate(self, z: Any, margins: Any) -> None:
         """The estimate by a polynomial; a reason where the samples allow none."""
@@ -207,7 +233,7 @@ class Answer:
             with ticking("surrogate", known.seconds, not self.options.quiet and sys.stderr.isatty()):
                 found = Surrogate(z, margins)
         except ValueError as error:
-            self.output.note_text(f"surrogate: not assessed, because of {error}; compute more samples")
+            self.output.note_text(f"surrogate: not assessed, because of {error}" + ("; compute more samples" if "must be" in str(error) else ""))
             return
         self.tell(f"{self.asked.of}, by a surrogate", found.estimate(self.asked.seed, confidence=self.asked.confidence))
         self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -53,6 +54,9 @@ def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
     keys = [one for key, _ in found for one in keys_of(key)]
     if len(set(keys)) < len(keys):
         raise Usage("--vary: each key once")
+    settings = [one for one in keys if re.fullmatch(r"variability\.\w+", one)]
+    if settings:
+        raise Usage(f"--vary {settings[0]}: is a setting of the study, which all cells have in common; change it in the scene or by an option of the command")
     count = math.prod(len(values) for _, values in found)
     if count > MOST_CELLS:
         raise Usage(f"--vary asks for {count} cells, must be <= {MOST_CELLS}")

@@ -44,6 +44,9 @@ class Demand:
     infinite: int           #: samples in which the string locks up
     matters: list[Matter]   #: the largest first
     limit_varies: bool = False  #: the limit is that of the scene file, and samples have others
+    samples: int = 0        #: with a demand
+    lost: int = 0           #: without one, which the intervals count as the smallest or the largest
+    same: bool = False      #: one demand in all of several samples
 
     @property
     def worst(self) -> Percentile:
@@ -58,7 +61,8 @@ class Demand:
         limit = "limit of the scene file," if self.limit_varies else "limit"
         share = f"{100.0 * worst.share:.3g} % of the {limit} {amount(self.failure.limit, unit)}" if math.isfinite(worst.share) else \
             f"{limit} {amount(self.failure.limit, unit)}"
-        return f"{self.failure.name}: demand {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
+        known = f" (of the {self.samples} of {self.samples + self.lost} samples that have one)" if self.lost else ""
+        return f"{self.failure.name}: demand{known} {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
 
     def record(self) -> dict[str, Any]:
         """For summary.json."""
@@ -75,13 +79,15 @@ def amount(value: float, unit: str, units: Units = SI) -> str:
     return shown(value, unit, units) if unit in ("N", "N m", "Pa") else f"{value:.3g}" if unit == "-" else units.text(value, unit, ".3g")
 
 
-def percentile(ranked: Any, percent: int, confidence: float) -> tuple[float, float, float]:
+def percentile(ranked: Any, percent: int, confidence: float, lost: int = 0) -> tuple[float, float, float]:
     """Value and interval of a percentile of n ranked values, by order statistics: x_(i) is below the percentile q with the probability that a
-    binomial number of n and q is i at least (David and Nagaraja 2003)."""
-    binom, n, q = need("scipy.stats").binom, len(ranked), percent / 100.0
+    binomial number of n and q is i at least (David and Nagaraja 2003). Lost samples may be anything: the lower end counts them as the smallest
+    values, the upper one as the largest."""
+    binom, known, q = need("scipy.stats").binom, len(ranked), percent / 100.0
+    n = known + lost
     low, high = int(binom.ppf(0.5 * (1.0 - confidence), n, q)), int(binom.isf(0.5 * (1.0 - confidence), n, q)) + 1
-    return (float(ranked[max(0, math.ceil(q * n) - 1)]), float(ranked[low - 1]) if low >= 1 else -math.inf,
-            float(ranked[high - 1]) if high <= n else math.inf)
+    return (float(ranked[max(0, math.ceil(q * known) - 1)]), float(ranked[low - lost - 1]) if low - lost >= 1 else -math.inf,
+            float(ranked[high - 1]) if high <= known else math.inf)
 
 
 def _share(value: float, failure: Failure) -> float:
@@ -120,9 +126,10 @@ def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str],
     known = demands[good]
     if not len(known):
         return None
-    ranked = numpy.sort(known)
+    ranked, lost = numpy.sort(known), int(len(demands) - len(known))
     finite = known[numpy.isfinite(known)]
     counts, edges = numpy.histogram(finite, BINS) if len(finite) else (numpy.zeros(0, int), numpy.zeros(0))
-    points = [(percent, *percentile(ranked, percent, confidence)) for percent in PERCENTS]
+    points = [(percent, *percentile(ranked, percent, confidence, lost)) for percent in PERCENTS]
     return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(), counts.tolist(),
-                  int(len(known) - len(finite)), matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names), margins is not None)
+                  int(len(known) - len(finite)), matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names), margins is not None,
+                  len(known), lost, len(known) > 1 and bool(ranked[0] == ranked[-1]))

@@ -141,8 +141,11 @@ class Subset:
         low, high = low - bias, high + bias
         if not (probability > 0.0 and math.isfinite(scatter)):
             low, high = 0.0, 1.0  # nothing seen in so many levels says nothing
+        about = early or f"Student's t of {self.replicates} independent runs, and the bias"
+        if self.lost:
+            about += f"; counts the {self.lost} samples without a margin as safe, as its interval does"
         return Estimate(probability, max(0.0, low), min(1.0, high), confidence, "subset", self.evaluated,
-                        int((margins <= 0.0).sum()), self.lost, early or f"Student's t of {self.replicates} independent runs, and the bias",
+                        int((margins <= 0.0).sum()), self.lost, about,
                         {"levels": levels, "deviation of one run": scatter})
 
     def _ends(self, r: int, margins: Any, result: Any, last: bool) -> bool:
@@ -281,6 +284,11 @@ def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: 
     if kept < 8:
         raise ArithmeticError(f"{kept} of {len(good)} rows have all of their margins, must be >= 8")
     output = margins[:, good].reshape(-1, 1)
+    if not numpy.isfinite(output).all():
+        raise ArithmeticError(f"{int((~numpy.isfinite(output)).sum())} of {output.size} margins are infinite, as where a string locks up; they have no variance "
+                              "to share out: choose a failure by --failure whose demand stays finite")
+    if numpy.ptp(output) == 0.0:
+        raise ArithmeticError("the margin is the same in all samples; nothing that varies acts on it")
     dummy = ot.Sample(numpy.zeros((len(output), len(names))))  # only its size is looked at
     ot.RandomGenerator.SetSeed(seed)
     algorithm = ot.JansenSensitivityAlgorithm(dummy, ot.Sample(output - output.mean()), kept)
@@ -343,6 +351,10 @@ class Surrogate:
         z, margins = numpy.asarray(z, dtype=float), numpy.asarray(margins, dtype=float)
         good = ~numpy.isnan(margins)
         z, margins = z[good], margins[good]
+        if not numpy.isfinite(margins).all():
+            raise ValueError(f"{int((~numpy.isfinite(margins)).sum())} margins that are infinite, as where a string locks up, which no polynomial follows")
+        if len(margins) and numpy.ptp(margins) == 0.0:
+            raise ValueError("margins that are all the same")
         test = numpy.arange(len(z)) % 5 == 4
         if test.sum() < 2:
             raise ValueError(f"{len(z)} samples with margins, must be >= 10")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..errors import Usage
 from .estimates import Estimate
 
-FIRST, GROWTH, MOST = 100, 1.5, 100_000  #: samples of the first look, factor of the next, most where --samples does not say
+FIRST, GROWTH, MOST = 100, 2.0, 100_000  #: samples of the first look, factor of the next, most where --samples does not say
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,20 @@ def rule(text: str) -> Rule:
     except ValueError:
         pass
     raise Usage(f'--until {text!r}: write a share of the probability within 0.1 % .. 100 %, as "30%", or a bound within 1e-9 .. 1, as "below 1e-2"')
+
+
+def looks(most: int) -> int:
+    """Number of looks at most."""
+    count, samples = 0, 0
+    while samples < most:
+        count, samples = count + 1, following(samples, most)
+    return count
+
+
+def spent(confidence: float, most: int) -> float:
+    """Confidence of the interval of one look, with which the intervals of all looks hold together with the given one (Bonferroni). Without it a study
+    that stops as soon as its interval leaves a bound does so wrongly in 14 of 100 cases instead of 2.5 (measured, probability at the bound)."""
+    return 1.0 - (1.0 - confidence) / looks(most)
 
 
 def following(samples: int, most: int) -> int:

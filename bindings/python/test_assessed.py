@@ -1,0 +1,78 @@
+"""Tests of verdicts that would be all-clears: failures that no sample can show are refused, demands that nothing acts on are named."""
+import unittest
+
+from shared_tests import FolderTest, needs
+
+needs("h5py", "matplotlib", "numpy", "scipy")
+
+from test_questions import LEVEL, failure
+
+TURNING = LEVEL.replace('question = "torque-drag"', 'look = "10 ms"').replace('end = "2 s"', 'end = "50 ms"')
+SURVEY = """[[variability.field]]
+name = "survey"
+key = "hole.survey.inclination"
+distribution = "normal"
+mean = 0
+deviation = "0.5 deg"
+correlation_length = "10 m"
+"""
+FEW = ("--samples", 4, "--engine", "serial")
+
+
+class AssessedTest(FolderTest):
+    SCENE = LEVEL
+
+    def told(self, text, status, *more):
+        return self.ask("probability", self.write("scene.toml", text), *FEW, *more, status=status)
+
+    def still(self, text):
+        """The scene with a string that is not turned."""
+        name = text.index('name = "turning"')
+        end = text.index("[[", name)
+        return text[:name] + 'name = "turning"\nunit = "rad/s"\nsegment = {h0 = 0}\n' + text[end:]
+
+    def test_a_string_that_does_not_turn(self):
+        for kind, more in (("stick-slip", {}), ("bit-stuck", {"limit": "1 s"})):
+            told = self.told(self.still(TURNING) + failure(kind, **more), 2)
+            self.assertIn("not assessed, because the drive of rotation does not turn", told)
+            self.told(TURNING + failure(kind, **more), 0)
+
+    def test_torque_of_rotation(self):
+        text = failure("rig-torque", limit="1 kN m")
+        self.assertIn("torque of rotation is not assessed", self.told(self.still(TURNING) + text, 0))
+        self.assertNotIn("torque of rotation is not assessed", self.told(TURNING + text, 0))
+
+    def test_a_bit_without_load(self):
+        free = LEVEL.replace('"8 kN"', '"0 kN"')
+        self.assertNotEqual(free, LEVEL)
+        self.assertIn("not assessed, because the scene gives the bit no load", self.told(free + failure("lock-up"), 2))
+        self.told(LEVEL + failure("lock-up"), 0)
+
+    def test_a_course_that_does_not_vary(self):
+        self.assertIn("nothing that varies changes the course", self.told(LEVEL + failure("leaves-seam", limit="1 m"), 2))
+        self.told(LEVEL + SURVEY + failure("leaves-seam", limit="1 m"), 0)
+
+    def test_maps(self):
+        """A cell that is not assessed says so, and the map has status 1."""
+        told = self.told(TURNING + failure("stick-slip"), 1, "--vary", "time_function[1].segment.h0=0,10")
+        self.assertNotIn("Traceback", told)
+        for key in ("seed", "samples", "question"):
+            self.assertIn("is a setting of the study", self.told(LEVEL + failure("rig-push", limit="9 kN"), 2, "--vary", f"variability.{key}=1,2"))
+
+    def test_demands_that_nothing_acts_on(self):
+        text = LEVEL + failure("rig-push", limit="9 kN")
+        mud = text.replace('keys = ["hole.mu_static", "hole.mu_dynamic"]\ndistribution = "normal"\nmean = 0.3\ndeviation = 0.03',
+                           'key = "hole.restitution"\ndistribution = "uniform"\nlow = 0.3\nhigh = 0.4')
+        self.assertNotEqual(mud, text)
+        self.assertIn("nothing that varies acts on it", self.told(mud, 0))
+        self.assertNotIn("nothing that varies acts on it", self.told(text, 0))
+
+    def test_nonsense(self):
+        text = LEVEL + failure("rig-push", limit="9 kN")
+        for words, told in ((("--samples", 10 ** 12), "must be <= 10000000"), (("--surrogate", "--method", "subset"), "--surrogate is fitted"),
+                            (("--surrogate", "--indices", 8), "--surrogate is fitted")):
+            self.assertIn(told, self.told(text, 2, *words))
+
+
+if __name__ == "__main__":
+    unittest.main()
