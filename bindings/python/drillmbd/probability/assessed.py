@@ -53,7 +53,7 @@ class Assessed:
                 raise CannotDraw(f"{one.name} ({one.kind}): not assessed, because {reason}. Or take the failure out")
 
     def notes(self, failures: list[Failure]) -> list[str]:
-        """What the estimates leave out."""
+        """Parts that the estimates leave out."""
         torques = [one.name for one in failures if one.kind in TORQUES]
         if self.question == "run" and self.still and torques:
             return [f"{', '.join(torques)}: torque of rotation is not assessed, because the drive of rotation does not turn in this scene"]
