@@ -216,7 +216,7 @@ static size_t rounded(size_t size)
     return (size + DMB_ALIGNMENT - 1) / DMB_ALIGNMENT * DMB_ALIGNMENT;
 }
 
-static void *pool_take(void *context, size_t size, size_t alignment)
+static void *pool_allocate(void *context, size_t size, size_t alignment)
 {
     pool *p = context;
     gap **link = &p->first;
@@ -290,7 +290,7 @@ static void describe(dmb_allocator *allocator, pool *p)
     memcpy(allocator, &none, FIRST_RELEASE);
     allocator->struct_size = FIRST_RELEASE;
     allocator->context = p;
-    allocator->allocate = pool_take;
+    allocator->allocate = pool_allocate;
     allocator->release = pool_give;
 }
 
@@ -312,6 +312,6 @@ int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator)
 
 size_t dmb_pool_peak(const dmb_allocator *allocator)
 {
-    if (allocator == NULL || allocator->allocate != pool_take || allocator->context == NULL) return 0;
+    if (allocator == NULL || allocator->allocate != pool_allocate || allocator->context == NULL) return 0;
     return ((const pool *)allocator->context)->peak;
 }

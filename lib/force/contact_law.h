@@ -103,7 +103,7 @@ static inline void dmb_contact_normal_force(const dmb_local_normal *law, const d
 }
 
 /* Normal force and derivative of the rings `own` give way to a force and its derivative by the depth. */
-static inline void dmb_contact_take_own(dmb_mask own, dmb_real force, dmb_real by_depth, dmb_contact_force *out)
+static inline void dmb_contact_set_own(dmb_mask own, dmb_real force, dmb_real by_depth, dmb_contact_force *out)
 {
     out->F[0] = dmb_real_select(own, -force, out->F[0]);
     out->by_depth[0] = dmb_real_select(own, -by_depth, out->by_depth[0]);

@@ -354,7 +354,7 @@ void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3])
     widening[2] = by * step[2] / (hole->cut_spacing * hole->cut_spacing);
 }
 
-double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s)
+double dmb_hole_fraction_of_cut(const dmb_hole *hole, uint32_t j, double s)
 {
     const double x = 1.0 - fabs((s - hole->cut_start) / hole->cut_spacing - (double)j);
     double step[3];
@@ -364,7 +364,7 @@ double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s)
 }
 
 /* Sets mu from the restitution at depth s. */
-static void take_restitution(const dmb_hole_piece *piece, double s, dmb_normal_law *law)
+static void set_restitution(const dmb_hole_piece *piece, double s, dmb_normal_law *law)
 {
     if (piece->slope[DMB_WALL_RESTITUTION] == 0.0 && piece->bend[DMB_WALL_RESTITUTION] == 0.0)
         law->mu = piece->factor;
@@ -377,7 +377,7 @@ static dmb_normal_law normal_at(const dmb_hole_piece *piece, const dmb_normal_la
     dmb_normal_law local = *law;
     local.stiffness = dmb_hole_piece_value(piece, DMB_WALL_STIFFNESS, s);
     local.damping = dmb_hole_piece_value(piece, DMB_WALL_DAMPING, s);
-    take_restitution(piece, s, &local);
+    set_restitution(piece, s, &local);
     return local;
 }
 

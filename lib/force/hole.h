@@ -199,7 +199,7 @@ static inline double dmb_hole_described_radius(const dmb_hole *hole, double s)
 /* [m, -, 1/m] widening at a depth and its derivatives by depth. O(1). */
 void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3]);
 /* [-] Weight of the value at station j in the widening at depth s: widening = sum of weights times values. */
-double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s);
+double dmb_hole_fraction_of_cut(const dmb_hole *hole, uint32_t j, double s);
 
 static inline double dmb_hole_cut_depth(const dmb_hole *hole, uint32_t j)
 {
@@ -342,15 +342,15 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
 }
 
 /* Of a ring that touches. */
-typedef struct dmb_section_ring {
+typedef struct dmb_section_site {
     dmb_real length;          /* [m] of wall that it stands for */
     dmb_real penetration;     /* [m] d */
     dmb_real normal_slope;    /* [N/m2] dN/ds per metre of pipe where N is not 0 */
     int32_t friction, memory; /* 1: friction acts; by bristles */
-} dmb_section_ring;
+} dmb_section_site;
 
 static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force,
-                                     const dmb_section_ring *ring, dmb_section_contact *c)
+                                     const dmb_section_site *ring, dmb_section_contact *c)
 {
     const dmb_normal_law *law = c->normal.law;
     const dmb_real zero = dmb_real_of(0.0), d = ring->penetration, length = ring->length;

@@ -236,7 +236,7 @@ static int32_t open_alone(companion *of)
 /* Repeats the step without the forces of opening contacts, from the leader's final increments (eq:contact.release). */
 static void go_again(companion *of)
 {
-    dmb_step_motion_take(of->sim, of->nominal->sim->increment);
+    dmb_step_motion_set(of->sim, of->nominal->sim->increment);
     dmb_trial_step_refit(of->sim, &of->c, of->trial_step.end.step);
     dmb_step_motion_place(of->sim);
     dmb_trial_step_set_up(of->sim, &of->trial_step.end, &of->trial_step.evaluation);

@@ -114,7 +114,7 @@ static int32_t refactor(dmb_sim *sim, dmb_trial_step *trial_step)
 #define DMB_NEWTON_WORK 1e-7  /* [-] power of the residual over the power exchanged by the forces */
 
 /* [-] Permitted error over the error of the predictor for fast motion (eq:integration.milne). */
-static double share_of(const dmb_sim *sim)
+static double fraction_of(const dmb_sim *sim)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     return DMB_NEWTON_PART * fabs(c.error) * (1.0 - c.am) / (c.beta * (1.0 - c.af));
@@ -129,7 +129,7 @@ static dmb_residual_bound bound_of(const dmb_sim *sim, const dmb_convergence_his
 {
     if (history->linear && history->corrections == 0) aim *= DMB_LINEAR_AIM;
     const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0, 0};
-    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST,
+    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, fraction_of(sim), DMB_NEWTON_MOST,
                                           history->corrections == 0 && !history->linear};
     return follows_error(sim) ? following : given;
 }
@@ -172,7 +172,7 @@ static double excess_of_error(const dmb_sim *sim, double residual, const dmb_con
     if (!(history->work > 0.0)) return (double)INFINITY; /* no rate is known; fmax would ignore a NaN */
     const double rate = fmax(residual / history->last, work_of(sim) / history->work);
     if (!(rate < 1.0)) return (double)INFINITY;
-    return rate * sqrt(history->work / history->most_work) / (share_of(sim) * (1.0 - rate));
+    return rate * sqrt(history->work / history->most_work) / (fraction_of(sim) * (1.0 - rate));
 }
 
 /* [-] Power of the residual over the permitted one (eq:integration.stop-power). */
@@ -420,7 +420,7 @@ void dmb_factor_reuse_end(dmb_sim *sim, const dmb_trial_step *trial_step, const 
     }
 }
 
-void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept)
+void dmb_factor_reuse_revert(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept)
 {
     *sim->reuse = *kept;
     if (trial_step->whole && !trial_step->deferred && trial_step->factored == DMB_FACTORS_FRESH)

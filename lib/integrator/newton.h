@@ -45,6 +45,6 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_trial_step *trial
  * reused factors failed within a step, the next try waits with exponential back-off. */
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_configuration *reached);
 /* A committed step is reverted; `kept`: sim->reuse before it. Factors kept from this step are discarded. */
-void dmb_factor_reuse_take_back(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept);
+void dmb_factor_reuse_revert(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept);
 
 #endif

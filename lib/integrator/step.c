@@ -67,7 +67,7 @@ static int32_t may_jump(dmb_sim *sim, const dmb_trial_step *trial_step, int32_t 
     const dmb_scene *scene = sim->scene;
     *turns = dmb_system_rate_jumps(sim, trial_step->end.time, fmax(trial_step->end.breakpoint, sim->clock->breakpoint));
     if (*turns != 0) return *turns;
-    return scene->hole.cuts > 0 || dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
+    return scene->hole.cuts > 0 || dmb_stuck_largest_ratio(sim, &sim->trial, 1) >= DMB_STUCK_REACHED ||
            dmb_actuators_may_jump(scene);
 }
 
@@ -103,7 +103,7 @@ static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *st
             return DMB_OK;
         }
         if (!stepping->set_aside) dmb_state_restore(sim);
-        dmb_factor_reuse_take_back(sim, trial_step, &kept);
+        dmb_factor_reuse_revert(sim, trial_step, &kept);
     }
     stepping->report.steps--;
     stepping->report.rejected++;
@@ -113,7 +113,7 @@ static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *st
 int32_t dmb_stepping_commit(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *stepping)
 {
     if (sim->follower != NULL) {
-        if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= DMB_STUCK_REACHED) {
+        if (dmb_stuck_largest_ratio(sim, &sim->trial, 1) >= DMB_STUCK_REACHED) {
             dmb_message_set(
                 &sim->message,
                 "step to time %g: a stuck place is released there, which a derivative along the run must not "
@@ -217,7 +217,8 @@ static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double
 }
 
 /* Takes one accepted substep of at most `cut`, halved after each failure. */
-static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts, dmb_stepping *stepping)
+static int32_t advance_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts,
+                               dmb_stepping *stepping)
 {
     dmb_trial_step trial_step;
     for (;;) {
@@ -268,7 +269,7 @@ static int32_t step(dmb_sim *sim, double duration, dmb_step_report *report)
     const dmb_step_end goal = dmb_step_end_after(sim, duration);
     if (!(goal.time > sim->clock->time)) return dmb_stepping_stuck(sim, "duration", duration);
     while (status >= 0 && !stepping.arrived) {
-        status = take_substep(sim, &goal, &cut, &cuts, &stepping);
+        status = advance_substep(sim, &goal, &cut, &cuts, &stepping);
         if (status == DMB_NOTE_WORK_LIMITED) stepping.limited = 1;
     }
     return dmb_stepping_end(sim, status, 1, report, &stepping);

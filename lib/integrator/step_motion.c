@@ -144,7 +144,7 @@ void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double 
     dmb_step_motion_correct(sim, c, h);
 }
 
-void dmb_step_motion_take(dmb_sim *sim, const double *increment)
+void dmb_step_motion_set(dmb_sim *sim, const double *increment)
 {
     for (uint32_t i = 0; i < sim->scene->row_count; i++)
         if (sim->scene->solved_row[i]) sim->increment[i] = increment[i];

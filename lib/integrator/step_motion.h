@@ -67,7 +67,7 @@ void dmb_step_motion_place(dmb_sim *sim);
 /* Moves motion and trial to the given increments, except in prescribed rows. */
 void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double h, const double *increment);
 /* Sets the increments alone. */
-void dmb_step_motion_take(dmb_sim *sim, const double *increment);
+void dmb_step_motion_set(dmb_sim *sim, const double *increment);
 /* Moves motion and trial by sim->correction, a change of h Dq (eq:integration.factors). */
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 

@@ -291,7 +291,7 @@ enum { DMB_RELEASE_TRIALS = 60 };
 /* [-] Force over its release force, less 1; the largest of all stuck places. */
 static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
 {
-    return dmb_stuck_largest_share(sim, configuration, 1) - 1.0;
+    return dmb_stuck_largest_ratio(sim, configuration, 1) - 1.0;
 }
 
 /* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) for the length of the step at which the largest force

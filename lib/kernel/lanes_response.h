@@ -158,7 +158,7 @@ DMB_BLOCK_KERNEL dmb_real pivot_row(int n, int k, const lane_complex *D)
 }
 
 /* Exchanges row k with the row of its pivot, a row of its own in each lane; most often it is there. */
-DMB_BLOCK_KERNEL void take_pivot(const response_lanes *l, int n, int m, int k, response_rows *r)
+DMB_BLOCK_KERNEL void invert_pivot(const response_lanes *l, int n, int m, int k, response_rows *r)
 {
     const size_t next = row_stride(l);
     const dmb_real found = pivot_row(n, k, r->D);
@@ -208,7 +208,7 @@ DMB_BLOCK_KERNEL void solve_lower(response_lanes *l, int n, int m, uint32_t i, r
     const size_t next = row_stride(l);
     lane_complex *D = r->D, *U = r->U;
     for (int k = 0; k < n; k++) {
-        take_pivot(l, n, m, k, r);
+        invert_pivot(l, n, m, k, r);
         const lane_complex inverse = complex_inverse(D[n * k + k]);
         watch_pivot(l, l->args->layout->diag[i] + (uint32_t)(n * k + k), D[n * k + k], inverse);
         D[n * k + k] = inverse;

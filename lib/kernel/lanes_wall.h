@@ -163,7 +163,7 @@ static inline dmb_real speed_before(const dmb_wall_args *args, const wall_group 
 
 /* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
  * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
-static inline void take_impact_speed(const dmb_wall_args *args, wall_group *g)
+static inline void set_impact_speed(const dmb_wall_args *args, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
     const dmb_real back = args->own_factor > 0.0 ? load_line(args->site_history, &g->site) : zero;
@@ -203,7 +203,7 @@ static inline void enter_section(const dmb_wall_args *args, const wall_laws *law
     if (args->dynamic) g->frame.speed[0] = g->frame.speed[0] - g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
 }
 
-static inline void take_laws(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
+static inline void read_laws(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     g->normal_law = &laws->normal;
     g->friction_law = &laws->friction;
@@ -214,7 +214,7 @@ static inline void take_laws(const dmb_wall_args *args, const wall_laws *laws, w
 }
 
 /* Position and motion of the rings, and the part of it that the trial holds. */
-static inline void place_rings(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
+static inline void place_sites(const dmb_wall_args *args, const wall_laws *laws, wall_group *g)
 {
     load_sites(args, g);
     load_motion(args, g);
@@ -224,9 +224,9 @@ static inline void place_rings(const dmb_wall_args *args, const wall_laws *laws,
         dmb_contact_speeds(&g->frame);
     else
         dmb_contact_static_speeds(args->slip, &g->frame);
-    take_laws(args, laws, g);
+    read_laws(args, laws, g);
     g->penetration = g->frame.distance - g->clearance;
-    take_impact_speed(args, g);
+    set_impact_speed(args, g);
     store_line(g->penetration, &g->site, args->trial.penetration);
     store_line(g->impact_speed, &g->site, args->trial.impact_speed);
     store(g->frame.speed + 1, 2, &g->site, args->trial.slip);
@@ -362,8 +362,8 @@ static inline void add_touching(dmb_real x, const wall_group *g, double *to)
 
 /* The powers of a mean force: heat into the wall, friction over the step as the trapezoidal rule counts its end, and
  * what is left (eq:contact.mean). */
-static inline void take_own_powers(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
-                                   dmb_real power[3])
+static inline void set_own_powers(const dmb_wall_args *args, const wall_group *g, const dmb_contact_force *c,
+                                  dmb_real power[3])
 {
     const dmb_real *v = g->frame.speed;
     const dmb_real rubs = (2.0 / args->own_factor) * power[2];
@@ -387,7 +387,7 @@ static inline void add_forces(dmb_wall_args *args, const wall_group *g, const dm
     add_touching(rounding_of(g, c->by_depth[0]), g, &args->rounding);
     if (!args->dynamic) return;
     dmb_real power[3] = {-(c->elastic * v[0]), (c->F[0] + c->elastic) * v[0], c->F[1] * v[1] + c->F[2] * v[2]};
-    if (dmb_mask_any(g->own)) take_own_powers(args, g, c, power);
+    if (dmb_mask_any(g->own)) set_own_powers(args, g, c, power);
     if (has_sections(args))
         power[0] = power[0] - g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
     add_touching(power[0], g, &args->potential);
@@ -433,7 +433,7 @@ static inline void press_section(const dmb_wall_args *args, wall_group *g, const
     const dmb_real depth = dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION));
     dmb_real slope = dmb_section_normal_slope(&g->section, depth, g->frame.speed[0], g->impact_speed);
     if (dmb_mask_any(g->own)) slope = dmb_real_select(g->own, mean_slope(args, g), slope);
-    const dmb_section_ring ring = {.length = g->length,
+    const dmb_section_site ring = {.length = g->length,
                                    .penetration = depth,
                                    .normal_slope = slope,
                                    .friction = friction,
@@ -469,7 +469,7 @@ static inline void come_to_rest(const dmb_wall_args *args, const wall_group *g, 
 /* It stands for the mean force at the end of the step; the wall takes twice its mean power there. Predicted depths are
  * those of free flight: from there Newton would only halve them again and again, so that the tangent is that in the
  * depth to which the ring comes alone. */
-static inline void take_mean_force(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
+static inline void set_mean_force(const dmb_wall_args *args, wall_group *g, dmb_contact_force *c)
 {
     dmb_normal_mean mean;
     const dmb_real scale = args->own_factor * g->length;
@@ -478,13 +478,13 @@ static inline void take_mean_force(const dmb_wall_args *args, wall_group *g, dmb
     mean_of(args, g, depth, &mean);
     g->pressed = scale * mean.force;
     mean.force = mean.force + mean.d_depth * (g->penetration - depth);
-    dmb_contact_take_own(g->own, scale * mean.force, scale * mean.d_depth, c);
+    dmb_contact_set_own(g->own, scale * mean.force, scale * mean.d_depth, c);
     g->heat = -(2.0 / args->step) * (g->length * mean.taken);
 }
 
 /* Where the history of the step has a mean force G already, the end of the step stands for what is more than that: of
  * own_factor N it has own_factor (N - G) + G. Friction is that of the whole mean force. */
-static inline void take_off_history(const dmb_wall_args *args, const wall_group *g, dmb_contact_force *c,
+static inline void subtract_history(const dmb_wall_args *args, const wall_group *g, dmb_contact_force *c,
                                     dmb_real wrench[6])
 {
     const dmb_real zero = dmb_real_of(0.0), carried = dmb_real_max(-load_line(args->site_history, &g->site), zero);
@@ -544,7 +544,7 @@ static inline void press_normally(const dmb_wall_args *args, wall_group *g, dmb_
     dmb_contact_depth at = {dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, NULL};
     if (!args->touches) {
         dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
-        if (dmb_mask_any(g->own)) take_mean_force(args, g, c);
+        if (dmb_mask_any(g->own)) set_mean_force(args, g, c);
         return;
     }
     dmb_normal_touch touch;
@@ -553,7 +553,7 @@ static inline void press_normally(const dmb_wall_args *args, wall_group *g, dmb_
     dmb_contact_normal_force(law, &g->frame, g->length, &at, c);
     g->kept[DMB_TOUCH_FORCE] = c->whole;
     if (has_sections(args)) g->section.damping_slope = g->section.damping_slope * touch.weight;
-    if (dmb_mask_any(g->own)) take_mean_force(args, g, c);
+    if (dmb_mask_any(g->own)) set_mean_force(args, g, c);
 }
 
 static inline void press(dmb_wall_args *args, wall_group *g)
@@ -569,7 +569,7 @@ static inline void press(dmb_wall_args *args, wall_group *g)
     if (args->bounces) keep_presses(args, g, -c.F[0]);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
     if (has_sections(args)) press_section(args, g, &c, wrench);
-    if (dmb_mask_any(g->own)) take_off_history(args, g, &c, wrench);
+    if (dmb_mask_any(g->own)) subtract_history(args, g, &c, wrench);
     if (args->tangent) add_tangent(args, g, g->touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
     add_forces(args, g, &c, wrench);
@@ -581,7 +581,7 @@ static void walls(dmb_wall_args *args)
     for (uint32_t first = 0; first < args->count; first += DMB_REAL_LANES) {
         wall_group g;
         g.site = group_at(first, args->count);
-        place_rings(args, &laws, &g);
+        place_sites(args, &laws, &g);
         const dmb_real zero = dmb_real_of(0.0);
         g.own = dmb_mask_less(zero, zero);
         if (args->bounces) g.own = with_mean_force(args, &g);

@@ -48,7 +48,7 @@ static void lay_out_pattern(dmb_arena *arena, dmb_block_pattern *p)
     p->lower = DMB_ARENA_ARRAY(arena, size_t, p->entries);
 }
 
-static int32_t take_analysis(const dmb_allocator *allocator, analysis *s)
+static int32_t allocate_analysis(const dmb_allocator *allocator, analysis *s)
 {
     dmb_arena arena;
     dmb_arena_count(&arena);
@@ -62,7 +62,7 @@ static int32_t take_analysis(const dmb_allocator *allocator, analysis *s)
     return DMB_OK;
 }
 
-static int32_t take_pattern(const dmb_allocator *allocator, dmb_block_pattern *p)
+static int32_t allocate_pattern(const dmb_allocator *allocator, dmb_block_pattern *p)
 {
     dmb_arena arena;
     dmb_arena_count(&arena);
@@ -232,7 +232,7 @@ static int32_t make(const dmb_allocator *allocator, analysis *s, const uint32_t 
     int32_t status = analyse(allocator, s, edge_count, edges);
     if (status < 0) return status;
     if (!count_entries(s, p)) return DMB_ERR_TOO_LARGE;
-    status = take_pattern(allocator, p);
+    status = allocate_pattern(allocator, p);
     if (status < 0) return status;
     fill_structure(s, p);
     if (fill_places(capacity, p)) return DMB_OK;
@@ -248,7 +248,7 @@ int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const
     if (n >= INT32_MAX || edge_count > INT32_MAX / 2) return DMB_ERR_TOO_LARGE; /* CHOLMOD counts in int */
     for (uint32_t i = 0; i < n; i++)
         if (capacity[i] > DMB_BLOCK_CAPACITY_MAX) return DMB_ERR_TOO_LARGE;
-    int32_t status = take_analysis(allocator, &s);
+    int32_t status = allocate_analysis(allocator, &s);
     if (status < 0) return status;
     status = make(allocator, &s, capacity, edge_count, edges, &made);
     dmb_release(allocator, s.block, s.block_size);

@@ -71,7 +71,7 @@ static double ratio_of(const front *f, uint32_t p)
     return f->length[p] > 0.0 ? -pivot / f->length[p] : 0.0;
 }
 
-static int take_row(const front *f, uint32_t p, double weak)
+static int read_row(const front *f, uint32_t p, double weak)
 {
     const double ratio = ratio_of(f, p), sign = p < f->plus ? 1.0 : -1.0;
     const int left_out = p >= f->plus && weak > 0.0 && ratio < weak;
@@ -167,7 +167,7 @@ int64_t dmb_block_signed_factor(const dmb_block_pattern *pattern, const dmb_bloc
     for (uint32_t k = 0; k < pattern->n; k++) {
         const front f = front_at(pattern, matrix, k);
         for (uint32_t p = 0; p < f.n; p++)
-            if (!take_row(&f, p, weak)) return (int64_t)pattern->order[k];
+            if (!read_row(&f, p, weak)) return (int64_t)pattern->order[k];
         if (f.n > 0) update_later(&f);
     }
     return -1;
@@ -182,7 +182,7 @@ static void choose_rows(const front *f, double weak)
         exchanged[p] = at;
         if (at != p) exchange(f, p, at);
         if (!(ratio_of(f, p) > weak)) break;
-        if (!take_row(f, p, weak)) break;
+        if (!read_row(f, p, weak)) break;
     }
     const uint32_t taken = p;
     for (; p < f->n; p++) {
@@ -197,7 +197,7 @@ void dmb_block_signed_choose(const dmb_block_pattern *pattern, const dmb_block_s
 {
     for (uint32_t k = 0; k < pattern->n; k++) {
         const front f = front_at(pattern, matrix, k);
-        for (uint32_t p = 0; p < f.plus; p++) (void)take_row(&f, p, 0.0);
+        for (uint32_t p = 0; p < f.plus; p++) (void)read_row(&f, p, 0.0);
         choose_rows(&f, weak);
         if (f.n > 0) update_later(&f);
     }

@@ -55,7 +55,7 @@ static void sink(quotient *q, uint32_t at, uint32_t node)
     put(q, at, node);
 }
 
-static uint32_t take_least(quotient *q)
+static uint32_t remove_least(quotient *q)
 {
     const uint32_t least = q->heap[0];
     q->left--;
@@ -199,7 +199,7 @@ int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int
     lay_out(&arena, &q);
     begin(&q, neighbour);
     for (uint32_t k = 0; k < n && status >= 0; k++) {
-        order[k] = take_least(&q);
+        order[k] = remove_least(&q);
         status = eliminate(&q, allocator, order[k]);
     }
     dmb_vector_release(&q.nodes, allocator);

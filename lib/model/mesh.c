@@ -276,7 +276,7 @@ static void warn(dmb_model *model, const dmb_scene *scene)
     const dmb_message counts = model->message;
     dmb_message text;
     int first = 1;
-    for (uint32_t i = dmb_supported_ring(scene, 0, &text); i != DMB_NONE; i = dmb_supported_ring(scene, i + 1, &text)) {
+    for (uint32_t i = dmb_supported_site(scene, 0, &text); i != DMB_NONE; i = dmb_supported_site(scene, i + 1, &text)) {
         dmb_log_text(&log, DMB_LOG_WARNING, text.text);
         if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
         first = 0;

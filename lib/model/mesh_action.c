@@ -31,7 +31,7 @@ static bool is_free(const dmb_mesh_node *node, int32_t component)
 }
 
 /* Reserves a component for a MOTION drive in the mask of reserved components. */
-static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, uint8_t *taken)
+static int32_t reserve_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, uint8_t *taken)
 {
     dmb_message part;
     dmb_check check = dmb_check_of(&mesh->model->message,
@@ -54,7 +54,7 @@ static int32_t prescribe(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *de
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", def->component, "free where the drive acts");
         return check.status;
     }
-    return take_component(mesh, drive, def, &node->prescribed);
+    return reserve_component(mesh, drive, def, &node->prescribed);
 }
 
 static bool has_actuator(const dmb_drive_def *def)
@@ -106,7 +106,7 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .table = def->gain_count > 0 ? (uint32_t)mesh->gain_tables.count : DMB_NONE};
     memcpy(drive.name, def->name, sizeof drive.name);
     const int32_t status = joint != DMB_NONE
-                               ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
+                               ? reserve_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
     if (status < 0) return status;
     if (drive.actuator != DMB_NONE && add_actuator(mesh, def) < 0) return DMB_ERR_NO_MEMORY;
@@ -190,7 +190,7 @@ static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_
 }
 
 /* A bit starts at its reference point and cuts at its far end; a reamer cuts at the middle of its stabiliser. */
-static void take_face(const dmb_mesh *mesh, const dmb_bit_def *def, dmb_scene_bit *bit)
+static void set_face(const dmb_mesh *mesh, const dmb_bit_def *def, dmb_scene_bit *bit)
 {
     bit->face = bit->length = def->length;
     if (!bit->reamer) return;
@@ -210,7 +210,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
                          .history_first = mesh->history_count,
                          .arm = map->arm,
                          .reamer = !dmb_id_is_none(def->stabiliser)};
-    take_face(mesh, def, &bit);
+    set_face(mesh, def, &bit);
     if (bit.law.kind == DMB_ROCK_REGENERATIVE) bit.history_capacity = def->history;
     if (bit.history_capacity > UINT32_MAX - mesh->history_count) return DMB_ERR_TOO_LARGE;
     mesh->history_count += bit.history_capacity;

@@ -95,7 +95,7 @@ dmb_ring_range dmb_mesh_divisions_of(const dmb_mesh *mesh, uint32_t string, uint
 /* ---- Points of forces -------------------------------------------------------------------------------------------- */
 
 /* True if a point is so close to a stabiliser that it uses the node of that. */
-static bool is_by_ring(const dmb_mesh *mesh, const dmb_mesh_ring *point, double reach)
+static bool is_by_stabiliser(const dmb_mesh *mesh, const dmb_mesh_ring *point, double reach)
 {
     const dmb_ring_range rings = dmb_mesh_rings_of(mesh, point->string, point->pipe);
     for (uint32_t i = 0; i < rings.count; i++)
@@ -113,7 +113,7 @@ static int32_t add_point(dmb_mesh *mesh, const dmb_place *place)
     const double along = place->fraction * run->def.length, reach = dmb_ring_reach(&run->def);
     const dmb_mesh_ring point = {.along = along, .string = string, .pipe = place->pipe, .ring = DMB_NONE};
     if (!(along > reach) || !(along < dmb_pipe_body_length(&run->def) - reach)) return DMB_OK;
-    if (is_by_ring(mesh, &point, reach)) return DMB_OK;
+    if (is_by_stabiliser(mesh, &point, reach)) return DMB_OK;
     return dmb_vector_append(&mesh->divisions, &mesh->model->allocator, &point, 1);
 }
 

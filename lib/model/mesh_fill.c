@@ -336,7 +336,7 @@ static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage 
 
 /* ---- Sites near nodes -------------------------------------------------------------------------------------------- */
 
-static int take_near(uint32_t *near_contact, uint32_t from, uint32_t to)
+static int copy_near(uint32_t *near_contact, uint32_t from, uint32_t to)
 {
     if (near_contact[to] != DMB_NONE || near_contact[from] == DMB_NONE) return 0;
     near_contact[to] = near_contact[from];
@@ -347,9 +347,9 @@ static int take_near(uint32_t *near_contact, uint32_t from, uint32_t to)
 static void spread_along(dmb_scene *scene)
 {
     for (uint32_t i = scene->node_count; i-- > 1;)
-        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_contact, i, i - 1);
+        if (scene->node_element[i - 1] != DMB_NONE) (void)copy_near(scene->near_contact, i, i - 1);
     for (uint32_t i = 1; i < scene->node_count; ++i)
-        if (scene->node_element[i - 1] != DMB_NONE) (void)take_near(scene->near_contact, i - 1, i);
+        if (scene->node_element[i - 1] != DMB_NONE) (void)copy_near(scene->near_contact, i - 1, i);
 }
 
 static int spread_across(dmb_scene *scene)
@@ -358,8 +358,8 @@ static int spread_across(dmb_scene *scene)
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         const uint32_t a = scene->joints[j].a.node, b = scene->joints[j].b.node;
         if (a == DMB_NONE) continue;
-        more |= take_near(scene->near_contact, a, b);
-        more |= take_near(scene->near_contact, b, a);
+        more |= copy_near(scene->near_contact, a, b);
+        more |= copy_near(scene->near_contact, b, a);
     }
     return more;
 }

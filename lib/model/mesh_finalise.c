@@ -169,7 +169,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
 
 /* ---- Layout of the block ----------------------------------------------------------------------------------------- */
 
-static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w)
+static void allocate_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w)
 {
     const size_t n = counts->node_count, rows = counts->row_count, held = counts->constrained_count;
     w->size = DMB_ARENA_ARRAY(arena, uint8_t, n);
@@ -199,7 +199,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     if (counts->rotor_count > 0) to->rotors = DMB_ARENA_ARRAY(arena, dmb_scene_rotor, counts->rotor_count);
 }
 
-static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
+static void allocate_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
 {
     const size_t e = counts->element_count;
     to->types = (dmb_element_type *)dmb_arena_allocate(arena, counts->type_count, sizeof *to->types, DMB_ALIGNMENT);
@@ -209,8 +209,8 @@ static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *
     to->batches = DMB_ARENA_ARRAY(arena, dmb_batch, counts->batch_count);
 }
 
-static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w,
-                      const dmb_hole *hole)
+static void allocate_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w,
+                          const dmb_hole *hole)
 {
     w->stations = DMB_ARENA_ARRAY(arena, dmb_hole_station, hole->stations);
     w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
@@ -243,7 +243,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
 }
 
 /* No arrays, not even empty ones, without joints. */
-static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
+static void allocate_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
 {
     const size_t n = counts->node_count;
     if (counts->constraint_count == 0) return;
@@ -269,10 +269,10 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
     dmb_scene *scene = DMB_ARENA_ARRAY(arena, dmb_scene, 1);
     dmb_scene *to = scene != NULL ? scene : &nowhere;
     *to = *counts;
-    take_nodes(arena, counts, to, w);
-    take_elements(arena, counts, to);
-    take_rest(arena, counts, to, w, hole);
-    take_joints(arena, counts, to);
+    allocate_nodes(arena, counts, to, w);
+    allocate_elements(arena, counts, to);
+    allocate_rest(arena, counts, to, w, hole);
+    allocate_joints(arena, counts, to);
     return scene;
 }
 

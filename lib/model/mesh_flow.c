@@ -105,7 +105,7 @@ static int32_t check_reynolds(const flow_iterator *iterator, const dmb_flow_piec
 }
 
 /* Losses of a piece; for equal diameters the shape, the expensive part, is that of the piece before. */
-static void take_losses(flow_iterator *iterator, double hole, dmb_flow_piece *piece)
+static void set_losses(flow_iterator *iterator, double hole, dmb_flow_piece *piece)
 {
     const dmb_mud_flow *flow = &iterator->mesh->flow;
     const dmb_flow_piece *last = &iterator->last;
@@ -121,7 +121,7 @@ static void take_losses(flow_iterator *iterator, double hole, dmb_flow_piece *pi
 }
 
 /* Levers of the force on an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
-static void take_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
+static void set_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
 {
     const double L = piece->length;
     piece->lever[0] = piece->from + 0.5 * L - dmb_mesh_node_at(mesh, piece->node)->at;
@@ -134,12 +134,12 @@ static void take_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
 static int32_t add_piece(flow_iterator *iterator, dmb_flow_piece *piece, int in_tool_joint)
 {
     const double middle = iterator->start + piece->from + 0.5 * piece->length;
-    take_levers(iterator->mesh, piece);
+    set_levers(iterator->mesh, piece);
     const double hole = 2.0 * dmb_hole_radius(&iterator->mesh->hole, middle);
     dmb_pipe_diameters(iterator->pipe, in_tool_joint, piece->diameter);
     int32_t status = check_duct(iterator, piece, hole);
     if (status < 0) return status;
-    take_losses(iterator, hole, piece);
+    set_losses(iterator, hole, piece);
     status = check_reynolds(iterator, piece);
     iterator->last = *piece;
     return status < 0 ? status
@@ -223,7 +223,7 @@ static int32_t check_pump(const dmb_mesh *mesh)
     return DMB_ERR_VALUE;
 }
 
-static void take_flow(dmb_mesh *mesh)
+static void allocate_flow(dmb_mesh *mesh)
 {
     const dmb_environment_def *e = &mesh->model->environment;
     mesh->flow = (dmb_mud_flow){.rate = e->flow_rate,
@@ -238,7 +238,7 @@ static void take_flow(dmb_mesh *mesh)
 }
 
 /* Open end of the string: no loss, but the thrust of the outflow. */
-static int32_t take_end(flow_iterator *iterator)
+static int32_t add_end(flow_iterator *iterator)
 {
     dmb_mud_flow *flow = &iterator->mesh->flow;
     if (flow->open) flow->nozzle_area = dmb_ring_area(iterator->last.diameter[1], 0.0);
@@ -307,7 +307,7 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
                       "in a hole that cutters widen, whose losses would go by the described diameter; leave out the "
                       "flow, or cut_spacing of the wall");
     status = check_motors(mesh);
-    take_flow(mesh);
+    allocate_flow(mesh);
     iterator.start = dmb_mesh_string_def(mesh, 0)->start_depth;
     dmb_pipe_iterator pipes = dmb_pipe_iterator_of(mesh, 0);
     while (status >= 0 && dmb_pipe_iterator_next(&pipes)) {
@@ -317,5 +317,5 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
             add_pipe(&iterator, dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, 0)->first_pipe + pipes.number), from);
         from += iterator.pipe->length;
     }
-    return status < 0 ? status : take_end(&iterator);
+    return status < 0 ? status : add_end(&iterator);
 }

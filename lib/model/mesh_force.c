@@ -45,7 +45,7 @@ dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const cha
 
 /* Derivatives of a callback are known by calls only, so a point inside an element is rigid with the nearer node
  * instead, at most a quarter of the pipe's diameter away (mesh_division.c). */
-static void take_nearer_node(const dmb_mesh *mesh, dmb_scene_point *point)
+static void use_nearer_node(const dmb_mesh *mesh, dmb_scene_point *point)
 {
     if (point->element == DMB_NONE) return;
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, point->element);
@@ -123,7 +123,7 @@ static double length_of(const dmb_mesh *mesh, dmb_scene_spring *spring)
 }
 
 /* Length at time 0 of a force between two points; coincident points have no direction and fail the check. */
-static void take_length(dmb_check *check, const dmb_spring_plan *plan, double length, dmb_scene_spring *spring)
+static void set_length(dmb_check *check, const dmb_spring_plan *plan, double length, dmb_scene_spring *spring)
 {
     dmb_spring_force force;
     if (plan->def.free_length < 0.0) spring->free_length = length;
@@ -149,7 +149,7 @@ static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
     spring.a = dmb_mesh_point(&check, mesh, "place_a", &def->place_a, def->offset_a);
     if (check.status >= 0) spring.b = dmb_mesh_point(&check, mesh, "place_b", &def->place_b, def->offset_b);
     check_ends(&check, &spring);
-    if (check.status >= 0) take_length(&check, plan, length_of(mesh, &spring), &spring);
+    if (check.status >= 0) set_length(&check, plan, length_of(mesh, &spring), &spring);
     if (check.status < 0) return check.status;
     if ((mesh->options.features & DMB_FEATURE_DAMPING) == 0) spring.law.damping = 0.0;
     const int32_t status = append_table(mesh, plan, &spring);
@@ -183,7 +183,7 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
         dmb_message_set(&field, "place[%u]", k);
         if (force.joint[k] == DMB_NONE)
             force.point[k] = dmb_mesh_point(&check, mesh, field.text, &def->place[k], def->offset + 3 * k);
-        take_nearer_node(mesh, &force.point[k]);
+        use_nearer_node(mesh, &force.point[k]);
     }
     return check.status < 0 ? check.status : dmb_vector_append(&mesh->forces, &mesh->model->allocator, &force, 1);
 }

@@ -17,7 +17,7 @@ static bool same_type(const dmb_element_type *a, const dmb_element_type *b)
 }
 
 /* Index of an equal type among the latest, or of a new one. */
-static int32_t share_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t *index)
+static int32_t shared_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t *index)
 {
     const size_t count = mesh->types.count;
     for (size_t i = count; i > 0 && i + RECENT_TYPES > count; --i) {
@@ -76,7 +76,7 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
     const int32_t status = add_mud(mesh, def, &mud, &type);
     if (status < 0) return status;
     if (element->curved) dmb_element_make_curved(def, &type);
-    return share_type(mesh, &type, &element->type);
+    return shared_type(mesh, &type, &element->type);
 }
 
 static int32_t kernel_of(const dmb_mesh *mesh, const dmb_mesh_element *element)

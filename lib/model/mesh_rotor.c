@@ -131,7 +131,7 @@ static void x_axis(const dmb_scene_frame *frame, double e[3])
 }
 
 /* Sets the axis e through x if the mass is axisymmetric about it. */
-static bool take_axis(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const double e[3], const double x[3], int32_t from)
+static bool set_axis(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const double e[3], const double x[3], int32_t from)
 {
     if (!is_round(mesh, rotor, e, x)) return false;
     dmb_vec3_cross(x, e, rotor->rotor.twist);
@@ -149,7 +149,7 @@ static void offer_pivot(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const doubl
     const double arm = dmb_vec3_norm(e);
     if (!(arm > 0.0)) return;
     dmb_vec3_scale(1.0 / arm, e, e);
-    (void)take_axis(mesh, rotor, e, x, OF_PIVOT);
+    (void)set_axis(mesh, rotor, e, x, OF_PIVOT);
 }
 
 /* Candidate axis from one frame of a joint on this body: the first valid bearing, otherwise the first pivot. */
@@ -159,7 +159,7 @@ static void offer(const dmb_mesh *mesh, dmb_mesh_rotor *rotor, const dmb_scene_f
     if (is_bearing(kind, of_b)) {
         rotor->bearings = 1;
         x_axis(frame, e);
-        if (rotor->from != OF_BEARING) (void)take_axis(mesh, rotor, e, frame->x, OF_BEARING);
+        if (rotor->from != OF_BEARING) (void)set_axis(mesh, rotor, e, frame->x, OF_BEARING);
     }
     if (is_pivot(kind) && rotor->from == OF_NOTHING) offer_pivot(mesh, rotor, frame->x);
 }
@@ -173,7 +173,7 @@ static void offer_inertia(const dmb_mesh *mesh, dmb_mesh_rotor *rotor)
     axes_of_inertia(J, axes);
     for (int k = 0; k < 3; ++k) {
         const double e[3] = {axes[k], axes[3 + k], axes[6 + k]};
-        if (take_axis(mesh, rotor, e, c, OF_PIVOT)) return;
+        if (set_axis(mesh, rotor, e, c, OF_PIVOT)) return;
     }
 }
 

@@ -20,7 +20,7 @@ static dmb_check check_of(const dmb_mesh *mesh, uint32_t ring, dmb_message *text
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
-static int32_t place_ring(dmb_mesh *mesh, uint32_t i)
+static int32_t place_stabiliser(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_stabiliser_def *def = def_of(mesh, i);
     dmb_message text;
@@ -82,7 +82,7 @@ static int32_t check_apart(const dmb_mesh *mesh, const dmb_mesh_ring *ring)
 int32_t dmb_mesh_ring_places(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < mesh->model->rings.count && status >= 0; i++) status = place_ring(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->rings.count && status >= 0; i++) status = place_stabiliser(mesh, i);
     if (status < 0) return status;
     dmb_mesh_ring *items = mesh->ring_order.items;
     dmb_mesh_sort_places(items, mesh->ring_order.count);

@@ -98,15 +98,15 @@ static int32_t add_stabiliser(dmb_mesh *mesh, uint32_t map_index, double diamete
     const dmb_site site = {
         .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
     if (!(diameter > 0.0) || node->size == DMB_NODE_AXIAL_TORSIONAL) return DMB_OK;
-    map->supported_ring = !moves_sideways(node, site.offset);
-    if (map->supported_ring) return DMB_OK;
+    map->supported_site = !moves_sideways(node, site.offset);
+    if (map->supported_site) return DMB_OK;
     map->site = (uint32_t)mesh->sites.count;
     return push_site(mesh, &site);
 }
 
 /* Stabilisers on nodes up to the present contact point, which touch the wall first; an axial-torsional node has contact
  * at their diameter. */
-static int32_t pass_rings(site_iterator *iterator)
+static int32_t pass_stabilisers(site_iterator *iterator)
 {
     const dmb_mesh *mesh = iterator->mesh;
     int32_t status = DMB_OK;
@@ -129,7 +129,7 @@ static int32_t pass_rings(site_iterator *iterator)
 static int32_t finish_place(site_iterator *iterator)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(iterator->mesh, iterator->node);
-    const int32_t status = pass_rings(iterator);
+    const int32_t status = pass_stabilisers(iterator);
     if (status < 0) return status;
     const dmb_site site = {.offset = iterator->offset,
                            .radius = 0.5 * iterator->diameter,
@@ -160,7 +160,7 @@ static int32_t pass_stretch(site_iterator *iterator, double length, double diame
 }
 
 /* [-] Fraction of an element's length represented by the points inside. */
-static double share_inside(const dmb_pipe_def *def)
+static double fraction_inside(const dmb_pipe_def *def)
 {
     const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
     return rule == NULL ? 0.0 : 1.0 - 2.0 * rule->weight[0];
@@ -174,11 +174,11 @@ static int32_t pass_elastic_pipe(site_iterator *iterator, const dmb_pipe_map *pi
     const dmb_mesh_element *last = element + pipe->elements - 1;
     int32_t status = DMB_OK;
     for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
-        iterator->inside = share_inside(def) * element[e].length;
+        iterator->inside = fraction_inside(def) * element[e].length;
         status = pass_stretch(iterator, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
     }
     if (status < 0) return status;
-    iterator->inside = share_inside(def) * last->length;
+    iterator->inside = fraction_inside(def) * last->length;
     iterator->joint = iterator->inside > 0.0 ? pipe->joint : 0.0;
     return pass_stretch(iterator, last->length + pipe->joint, def->outer_diameter, last->node + 1,
                         pipe->joint - last->arm[1], number);

@@ -88,7 +88,7 @@ static uint32_t find_run(const dmb_model *model, const char *name)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-static void refuse_taken(dmb_check *check, const char *word, uint32_t index, const char *name)
+static void refuse_used(dmb_check *check, const char *word, uint32_t index, const char *name)
 {
     check->status = DMB_ERR_VALUE;
     dmb_message_set(check->message, "%s: name = %s, must be of its own, and %s %u has it; give another", check->part,
@@ -113,7 +113,7 @@ void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind
     check_text(check, name);
     if (check->status < 0) return;
     const uint32_t other = find_in(model, kind, name);
-    if (other != DMB_NONE) refuse_taken(check, places[kind].word, other, name);
+    if (other != DMB_NONE) refuse_used(check, places[kind].word, other, name);
 }
 
 void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name)
@@ -121,7 +121,7 @@ void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *
     if (check->status < 0) return;
     const uint32_t other = find_run(model, name);
     if (other == DMB_NONE) return;
-    refuse_taken(check, "pipes of string", DMB_LIST_AT(const dmb_pipe_run, model->runs, other)->string, name);
+    refuse_used(check, "pipes of string", DMB_LIST_AT(const dmb_pipe_run, model->runs, other)->string, name);
 }
 
 /* ---- In messages ------------------------------------------------------------------------------------------------- */

@@ -68,7 +68,7 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
 /* Name of the support or joint that constrains the contact point: "its support", a joint by name, or NULL. */
 static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_message *text)
 {
-    if (body->supported_ring) return "the support (free_mask; start_free or end_free of its string)";
+    if (body->supported_site) return "the support (free_mask; start_free or end_free of its string)";
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         const dmb_scene_joint *joint = &scene->joints[j];
         if (is_on_axis(scene, body, joint)) return dmb_part_text(text, "joint", j, joint->name, sizeof joint->name);
@@ -76,7 +76,7 @@ static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_
     return NULL;
 }
 
-uint32_t dmb_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
+uint32_t dmb_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
     const uint32_t rings = scene->body_count - scene->ring_count, bodies = rings - scene->bit_count;
     dmb_message part;

@@ -132,7 +132,7 @@ typedef struct dmb_body_map {
     uint32_t node;
     uint32_t site;           /* its contact point; DMB_NONE: none */
     double arm;              /* [m] along body x from the node to its reference point */
-    uint32_t supported_ring; /* 1: it would have a contact point if its node moved sideways */
+    uint32_t supported_site; /* 1: it would have a contact point if its node moved sideways */
     uint32_t reserved;
     char name[24];
 } dmb_body_map;
@@ -461,6 +461,6 @@ int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator
 
 /* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
  * DMB_NONE: none. */
-uint32_t dmb_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
+uint32_t dmb_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 #endif

@@ -271,7 +271,7 @@ void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const doub
 }
 
 /* [-] Fractions of a pipe without its joint in the mass and in the inertia about the axis that move with it. */
-static void shares_of(const dmb_pipe_def *def, const dmb_pipe_section *section, double share[2])
+static void fractions_of(const dmb_pipe_def *def, const dmb_pipe_section *section, double share[2])
 {
     const double length = dmb_pipe_body_length(def);
     dmb_rigid_part joint;
@@ -314,7 +314,7 @@ void dmb_element_type_along(const dmb_pipe_def *def, double L, const double arm[
     for (int i = 0; i < 3; ++i) type->rest[3 + i] = L * def->curvature[i];
     type->arm[0] = arm[0];
     type->arm[1] = arm[1];
-    shares_of(def, &section, share);
+    fractions_of(def, &section, share);
     dmb_beam_mass_of(&section, L, share, &type->mass);
     type->mass_per_metre = section.mass;
 }

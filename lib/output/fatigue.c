@@ -86,7 +86,7 @@ static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
     return (size_t)fmin(bytes, 0.75 * (double)SIZE_MAX);
 }
 
-static void take_section(const dmb_sim *sim, dmb_place place, dmb_fatigue_section *out)
+static void read_section(const dmb_sim *sim, dmb_place place, dmb_fatigue_section *out)
 {
     const uint32_t string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     const dmb_pipe_def *def = &dmb_pipe_run_of(sim->model, string, place.pipe)->def;
@@ -112,7 +112,7 @@ static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *p
     fatigue->sine = fatigue->cosine + points;
     numbers = fatigue->sine + points;
     turns = (dmb_turn *)(void *)(numbers + counters * classes);
-    for (uint32_t i = 0; i < fatigue->place_count; i++) take_section(sim, places[i], &fatigue->sections[i]);
+    for (uint32_t i = 0; i < fatigue->place_count; i++) read_section(sim, places[i], &fatigue->sections[i]);
     for (uint32_t k = 0; k < points; k++) {
         fatigue->cosine[k] = cos(DMB_TWO_PI * k / points);
         fatigue->sine[k] = sin(DMB_TWO_PI * k / points);
@@ -214,7 +214,7 @@ static void count_cycle(void *context, const dmb_turn *low, const dmb_turn *high
 
 /* ---- Samples ----------------------------------------------------------------------------------------------------- */
 
-static int take_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double stress)
+static int read_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double stress)
 {
     const double classes = fatigue->options.classes;
     const double level = floor((stress / fatigue->options.stress_range + 1.0) * 0.5 * classes);
@@ -226,14 +226,14 @@ static int take_stress(dmb_fatigue *fatigue, dmb_fatigue_counter *to, double str
 }
 
 /* Bending stress at the angle a from y to z (eq:fatigue.stress): N/A + (M_y sin a - M_z cos a) r/I. */
-static void take_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_section *loads)
+static void read_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_section *loads)
 {
     dmb_fatigue_section *at = &fatigue->sections[place];
     int clipped = 0;
     for (uint32_t k = 0; k < fatigue->options.points; k++) {
         const double bending = loads->force[4] * fatigue->sine[k] - loads->force[5] * fatigue->cosine[k];
         const double stress = fatigue->options.concentration * (loads->force[0] / at->area + bending / at->modulus);
-        clipped |= take_stress(fatigue, &fatigue->counters[(size_t)place * fatigue->options.points + k], stress);
+        clipped |= read_stress(fatigue, &fatigue->counters[(size_t)place * fatigue->options.points + k], stress);
     }
     at->clipped += (uint64_t)clipped;
 }
@@ -262,7 +262,7 @@ int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
     for (uint32_t i = 0; i < fatigue->place_count; i++) {
         dmb_section loads = dmb_section_default();
         (void)dmb_answer_section(sim, fatigue->sections[i].place, &loads);
-        take_section_stress(fatigue, i, &loads);
+        read_section_stress(fatigue, i, &loads);
     }
     if (fatigue->samples++ == 0) fatigue->first = dmb_sim_time(sim);
     fatigue->last = dmb_sim_time(sim);

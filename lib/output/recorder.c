@@ -146,7 +146,7 @@ static int32_t read_structs(const dmb_profile_recorder *given, dmb_profile_recor
 }
 
 /* The row is counted only when it is complete. */
-static int32_t take_profile(dmb_profile_recorder *recorder, const dmb_sim *sim, dmb_message *why)
+static int32_t record_profile(dmb_profile_recorder *recorder, const dmb_sim *sim, dmb_message *why)
 {
     int32_t status = dmb_sim_check(sim);
     dmb_profile_recorder r;
@@ -176,7 +176,7 @@ int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim 
 {
     dmb_message why;
     dmb_message_clear(&why);
-    const int32_t status = take_profile(recorder, sim, &why);
+    const int32_t status = record_profile(recorder, sim, &why);
     return status < 0 ? dmb_sim_fail(sim, status, "profile recorder", why.text) : status;
 }
 

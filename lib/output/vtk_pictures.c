@@ -133,7 +133,7 @@ typedef struct tube {
 } tube;
 
 /* The last ring is at depth1 for any spacing. */
-static double ring_depth(const tube *t, double spacing, uint64_t ring)
+static double circle_depth(const tube *t, double spacing, uint64_t ring)
 {
     return ring + 1 == t->rings ? t->depth1 : t->depth0 + (double)ring * spacing;
 }
@@ -153,8 +153,8 @@ static void transfer_direction(const dmb_hole *hole, double depth, const double 
     dmb_vec3_set(R[1], R[4], R[7], y);
 }
 
-static void put_ring(dmb_text_file *file, const tube *t, double radius, const double x[3], const double y[3],
-                     const double z[3])
+static void put_circle(dmb_text_file *file, const tube *t, double radius, const double x[3], const double y[3],
+                       const double z[3])
 {
     for (uint32_t k = 0; k < t->around; k++) {
         const double angle = DMB_TWO_PI * k / t->around;
@@ -172,11 +172,11 @@ static void put_points(dmb_text_file *file, const tube *t, double spacing)
     dmb_vtk_open_tag(file, "Points");
     dmb_vtk_begin_numbers(file, "position", 3);
     for (uint64_t ring = 0; ring < t->rings; ring++) {
-        const double depth = ring_depth(t, spacing, ring);
+        const double depth = circle_depth(t, spacing, ring);
         dmb_hole_frame(t->hole, depth, x, tangent, NULL);
         transfer_direction(t->hole, depth, tangent, y);
         dmb_vec3_cross(tangent, y, z);
-        put_ring(file, t, dmb_hole_radius(t->hole, depth), x, y, z);
+        put_circle(file, t, dmb_hole_radius(t->hole, depth), x, y, z);
     }
     dmb_vtk_end_array(file);
     dmb_vtk_close_tag(file, "Points");
@@ -187,7 +187,7 @@ static void put_depths(dmb_text_file *file, const tube *t, double spacing)
     dmb_vtk_open_tag(file, "PointData Scalars=\"depth\"");
     dmb_vtk_begin_numbers(file, "depth", 1);
     for (uint64_t ring = 0; ring < t->rings; ring++) {
-        const double depth = ring_depth(t, spacing, ring);
+        const double depth = circle_depth(t, spacing, ring);
         for (uint32_t k = 0; k < t->around; k++) dmb_vtk_put_tuple(file, &depth, 1);
     }
     dmb_vtk_end_array(file);

@@ -136,7 +136,7 @@ static uint32_t section_at(const dmb_model *model, double depth)
     return low > 0 ? low - 1 : DMB_NONE;
 }
 
-static void take_wall(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
+static void read_wall(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
 {
     const dmb_wall_def *wall = &model->wall;
     const uint32_t section = section_at(model, depth);
@@ -175,7 +175,7 @@ static int32_t report_hole(const dmb_model *model, const dmb_hole *hole, double 
     for (int i = 0; i < 3; i++) answer.normal[i] = answer.curvature > 0.0 ? bend[i] / answer.curvature : 0.0;
     answer.dogleg_severity = answer.curvature * 30.0 * 180.0 / DMB_PI;
     direction(&answer);
-    take_wall(model, hole, depth, &answer);
+    read_wall(model, hole, depth, &answer);
     return dmb_hole_point_write(point, &answer);
 }
 
@@ -216,7 +216,7 @@ int32_t dmb_answer_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *stat
             answer.force[k] = -hold.force[k];
             answer.energy += 0.5 * stiffness[k] * hold.s[k] * hold.s[k];
         }
-        answer.share = dmb_stuck_share(sim, &sim->now, i, 1);
+        answer.share = dmb_stuck_ratio(sim, &sim->now, i, 1);
     }
     return dmb_stuck_state_write(state, &answer);
 }

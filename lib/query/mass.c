@@ -49,7 +49,7 @@ static void add_part(dmb_rigid_mass *share, const dmb_rigid_part *part, double x
     if (pipe != NULL && pipe->eccentric) dmb_rigid_mass_shift(share, part->mass, x, pipe->offset);
 }
 
-void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share)
+void dmb_rigid_pipe_fraction(const dmb_described_pipe *pipe, dmb_rigid_mass *share)
 {
     dmb_rigid_part part;
     begin(share, pipe->map->node);
@@ -59,7 +59,7 @@ void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share)
 
 /* The tool joint ends at the end of the pipe. After a flexible pipe the node may be further along, within rigid pipes.
  */
-void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share)
+void dmb_joint_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share)
 {
     const dmb_pipe_map *map = pipe->map;
     double x = map->start + map->length - 0.5 * map->joint;
@@ -75,8 +75,8 @@ void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb
     add_part(share, &part, x, pipe);
 }
 
-double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
-                            dmb_rigid_mass *share)
+double dmb_joint_part_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
+                               dmb_rigid_mass *share)
 {
     const uint32_t last = pipe->map->element + pipe->map->elements - 1;
     const double joint = pipe->map->joint, fraction = length / joint;
@@ -91,8 +91,8 @@ double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pi
     return part.mass;
 }
 
-void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
-                         dmb_rigid_mass *share)
+void dmb_eccentric_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
+                            dmb_rigid_mass *share)
 {
     const dmb_element_type *type = &scene->types[scene->element_type[element]];
     begin(share, scene->element_node[element] + end);
@@ -101,7 +101,7 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
 }
 
 /* The reference point of a bit is the end of the string; its centre is half its length beyond. */
-static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
+static void bit_fraction(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
 {
     dmb_rigid_part part;
     if (!dmb_id_is_none(def->stabiliser)) return; /* the mass is that of the stabiliser */
@@ -119,7 +119,7 @@ static double diameter_under(const dmb_model *model, const dmb_stabiliser_def *d
     return diameters[0];
 }
 
-static void ring_share(const dmb_model *model, uint32_t ring, double arm, dmb_rigid_mass *share)
+static void stabiliser_fraction(const dmb_model *model, uint32_t ring, double arm, dmb_rigid_mass *share)
 {
     const dmb_stabiliser_def *def = (const dmb_stabiliser_def *)model->rings.items + ring;
     dmb_rigid_part part;
@@ -127,7 +127,7 @@ static void ring_share(const dmb_model *model, uint32_t ring, double arm, dmb_ri
     add_part(share, &part, arm, NULL);
 }
 
-void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
+void dmb_body_fraction(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
 {
     const dmb_body_map *map = &sim->scene->bodies[body];
     const uint32_t bodies = sim->model->bodies.count, rings = bodies + sim->model->bits.count;
@@ -135,11 +135,11 @@ void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
     double centre[3];
     begin(share, map->node);
     if (body >= rings) {
-        ring_share(sim->model, body - rings, map->arm, share);
+        stabiliser_fraction(sim->model, body - rings, map->arm, share);
         return;
     }
     if (body >= bodies) {
-        bit_share((const dmb_bit_def *)sim->model->bits.items + (body - bodies), map->arm, share);
+        bit_fraction((const dmb_bit_def *)sim->model->bits.items + (body - bodies), map->arm, share);
         return;
     }
     def = (const dmb_body_def *)sim->model->bodies.items + body;
@@ -180,7 +180,7 @@ static double rigid_pipe_mud_energy(const dmb_sim *sim, const dmb_described_pipe
 }
 
 /* On an axial-torsional node only the mass and the inertia about the hole's axis contribute. */
-double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
+double dmb_fraction_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share)
 {
     const double *v = sim->now.velocity + sim->scene->layout.row[share->node];
     double p[6];
@@ -230,7 +230,7 @@ static double scale_of(const dmb_ledger *ledger, const dmb_energy *e)
 }
 
 /* [-] bounded by DBL_MAX, because a very small scale must not give infinity */
-static double share_of(double part, double scale)
+static double fraction_of(double part, double scale)
 {
     return scale > 0.0 ? fmin(fabs(part) / scale, DBL_MAX) : 0.0;
 }
@@ -253,7 +253,7 @@ static void balance(const dmb_ledger *ledger, dmb_energy *e)
     e->balance = e->drives + e->loads - e->friction - e->impact - e->damping - e->rock - gained;
     e->unexplained = e->balance - e->scheme;
     e->scale = scale_of(ledger, e);
-    e->error = share_of(e->balance, e->scale);
+    e->error = fraction_of(e->balance, e->scale);
 }
 
 int32_t dmb_answer_energy(const dmb_sim *sim, dmb_energy *energy)
@@ -265,7 +265,7 @@ int32_t dmb_answer_energy(const dmb_sim *sim, dmb_energy *energy)
     energies_now(sim, &answer);
     balance(sim->ledger, &answer);
     const double since = sim->ledger->since, tenth = since + 0.9 * (sim->clock->time - since);
-    answer.growth = share_of(answer.balance - dmb_ledger_balance_before(sim->ledger, tenth), answer.scale);
+    answer.growth = fraction_of(answer.balance - dmb_ledger_balance_before(sim->ledger, tenth), answer.scale);
     return dmb_energy_write(energy, &answer);
 }
 
@@ -280,8 +280,8 @@ static double elastic_body(const dmb_sim *sim, const dmb_described_pipe *pipe)
         const uint32_t element = pipe->map->element + i;
         sum += dmb_element_kinetic_energy(sim->scene, &sim->now, element);
         for (uint32_t end = 0; pipe->eccentric && end < 2; end++) {
-            dmb_eccentric_share(sim->scene, pipe, element, end, &share);
-            sum += dmb_share_kinetic_energy(sim, &share);
+            dmb_eccentric_fraction(sim->scene, pipe, element, end, &share);
+            sum += dmb_fraction_kinetic_energy(sim, &share);
         }
     }
     return sum;
@@ -290,23 +290,23 @@ static double elastic_body(const dmb_sim *sim, const dmb_described_pipe *pipe)
 static double rigid_body(const dmb_sim *sim, const dmb_described_pipe *pipe)
 {
     dmb_rigid_mass share;
-    dmb_rigid_pipe_share(pipe, &share);
-    return dmb_share_kinetic_energy(sim, &share) + rigid_pipe_mud_energy(sim, pipe);
+    dmb_rigid_pipe_fraction(pipe, &share);
+    return dmb_fraction_kinetic_energy(sim, &share) + rigid_pipe_mud_energy(sim, pipe);
 }
 
 static double joint_energy(const dmb_sim *sim, const dmb_described_pipe *pipe)
 {
     dmb_rigid_mass share;
     if (!(pipe->map->joint > 0.0)) return 0.0;
-    dmb_joint_share(sim->scene, pipe, &share);
-    return dmb_share_kinetic_energy(sim, &share);
+    dmb_joint_fraction(sim->scene, pipe, &share);
+    return dmb_fraction_kinetic_energy(sim, &share);
 }
 
 static double body_energy(const dmb_sim *sim, uint32_t body)
 {
     dmb_rigid_mass share;
-    dmb_body_share(sim, body, &share);
-    return dmb_share_kinetic_energy(sim, &share) + body_mud_energy(sim, body);
+    dmb_body_fraction(sim, body, &share);
+    return dmb_fraction_kinetic_energy(sim, &share) + body_mud_energy(sim, body);
 }
 
 /* Kinetic energy of bodies and bits fixed to one end of a string; an id that names nothing stands for the first string.

@@ -70,7 +70,7 @@ static double strain_energy(const dmb_sim *view, uint32_t first, uint32_t count)
 }
 
 /* Fractions of the sum; 0 if the sum is 0. */
-static void take_shares(const double parts[3], double share[3])
+static void set_fractions(const double parts[3], double share[3])
 {
     const double all = parts[0] + parts[1] + parts[2];
     for (int i = 0; i < 3; i++) share[i] = all > 0.0 ? parts[i] / all : 0.0;
@@ -115,8 +115,8 @@ static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
     mode->whirl = modes->whirl[index];
     mode->kinetic = size * size * (parts[0] + parts[1] + parts[2]);
     mode->strain = strain[0] + strain[1] + strain[2];
-    take_shares(parts, mode->share);
-    take_shares(strain, mode->strain_share);
+    set_fractions(parts, mode->share);
+    set_fractions(strain, mode->strain_share);
 }
 
 int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode)

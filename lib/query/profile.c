@@ -189,7 +189,7 @@ static int beyond_middle(const station *at)
 }
 
 /* Contact point of the stabiliser at the station; DMB_NONE: none with wall contact. */
-static uint32_t ring_site(const station *at)
+static uint32_t stabiliser_site(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
     const double distance = at->values[DMB_PROFILE_DISTANCE];
@@ -237,7 +237,7 @@ static uint32_t inside_site(const station *at)
 /* Contact point that represents the station: that of a stabiliser there, otherwise the nearest one. */
 static uint32_t nearest_site(const station *at)
 {
-    uint32_t element = ring_site(at);
+    uint32_t element = stabiliser_site(at);
     if (element != DMB_NONE) return element;
     if (at->point.element == DMB_NONE) {
         return at->place.fraction < 0.5 ? dmb_site_after(at->sim, at->place.part, at->place.pipe, 0)
@@ -288,8 +288,8 @@ static void buckling_values(station *at)
     dmb_vec3_scale(weight_per_metre(at), scene->gravity, pipe.weight);
     dmb_vec3_copy(at->tangent, pipe.tangent);
     dmb_vec3_copy(at->bend, pipe.bend);
-    v[DMB_PROFILE_SINUSOIDAL_SHARE] = dmb_sinusoidal_share(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
-    v[DMB_PROFILE_HELICAL_SHARE] = dmb_helical_share(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
+    v[DMB_PROFILE_SINUSOIDAL_SHARE] = dmb_sinusoidal_ratio(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
+    v[DMB_PROFILE_HELICAL_SHARE] = dmb_helical_ratio(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
 }
 
 static int32_t contact_values(station *at)
@@ -383,7 +383,7 @@ static int32_t find_string(const dmb_sim *sim, dmb_id *string, uint32_t *index)
 }
 
 /* Sets sim, place and run of a station. */
-static int32_t take_station(station *at, double distance, int32_t groups)
+static int32_t read_station(station *at, double distance, int32_t groups)
 {
     const int32_t status = dmb_material_point_of(at->sim, at->place, &at->point);
     if (status < 0) return status;
@@ -401,7 +401,7 @@ static int32_t fill_station(station_iterator *iterator, const dmb_profile *profi
     int32_t status;
     at.place = place_at(iterator, profile->string, distance);
     at.run = &iterator->runs[iterator->run];
-    status = take_station(&at, distance, groups);
+    status = read_station(&at, distance, groups);
     for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
         profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
     return status;
@@ -437,7 +437,7 @@ int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity,
     rewind_iterator(&iterator);
     while (&iterator.runs[iterator.run] != at.run && to_next_run(&iterator)) continue;
     const double distance = iterator.start + (place.pipe - at.run->first + place.fraction) * at.run->def.length;
-    const int32_t status = take_station(&at, distance, dmb_profile_groups(quantity));
+    const int32_t status = read_station(&at, distance, dmb_profile_groups(quantity));
     if (status >= 0) *value = at.values[quantity];
     return status;
 }

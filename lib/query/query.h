@@ -134,24 +134,24 @@ typedef struct dmb_described_pipe {
 void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_described_pipe *out);
 
 /* A rigid pipe without its tool joint. */
-void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
+void dmb_rigid_pipe_fraction(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
 /* Tool joint of a pipe; mass 0 if there is none. */
-void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
+void dmb_joint_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
 /* The first `length` [m] of the tool joint, as of a uniform body; returns its mass. */
-double dmb_joint_part_share(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
-                            dmb_rigid_mass *share);
+double dmb_joint_part_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, double length,
+                               dmb_rigid_mass *share);
 /* Contribution of eccentricity to the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
-void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
-                         dmb_rigid_mass *share);
+void dmb_eccentric_fraction(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
+                            dmb_rigid_mass *share);
 /* A body or bit, by its number in scene->bodies. */
-void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share);
+void dmb_body_fraction(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share);
 
 /* 1 if a body or bit, by its number in scene->bodies, is fixed to this end of a string, DMB_ATTACH_START or _END; an id
  * that names nothing stands for the first string. */
 int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, int32_t attach);
 
 /* [J] Kinetic energy of a rigid mass on its node in the accepted state. */
-double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
+double dmb_fraction_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
 
 /* ---- Section forces ---------------------------------------------------------------------------------------------- */
 
@@ -218,10 +218,10 @@ double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force
  * contact force per metre before buckling (Dawson, Paslay 1984; He, Kyllingstad 1995), but at least 2.55 (EI
  * w_along^2)^(1/3) (Wu, Juvkam-Wold 1995). 0 in tension; NaN if the limit is 0, because nothing presses the pipe to the
  * wall. */
-double dmb_sinusoidal_share(const dmb_confined_pipe *pipe, double axial_force);
+double dmb_sinusoidal_ratio(const dmb_confined_pipe *pipe, double axial_force);
 /* [-] the same for helical buckling: compression over sqrt(8 EI w_c/r) (Chen, Lin, Cheatham 1990), at least 5.55 (EI
  * w_along^2)^(1/3). */
-double dmb_helical_share(const dmb_confined_pipe *pipe, double axial_force);
+double dmb_helical_ratio(const dmb_confined_pipe *pipe, double axial_force);
 
 /* ---- Joints and constraints -------------------------------------------------------------------------------------- */
 

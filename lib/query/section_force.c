@@ -276,12 +276,12 @@ static double share(const dmb_confined_pipe *pipe, double axial_force, double on
     return limit > 0.0 ? -axial_force / limit : (double)NAN;
 }
 
-double dmb_sinusoidal_share(const dmb_confined_pipe *pipe, double axial_force)
+double dmb_sinusoidal_ratio(const dmb_confined_pipe *pipe, double axial_force)
 {
     return share(pipe, axial_force, 4.0, 2.55);
 }
 
-double dmb_helical_share(const dmb_confined_pipe *pipe, double axial_force)
+double dmb_helical_ratio(const dmb_confined_pipe *pipe, double axial_force)
 {
     return share(pipe, axial_force, 8.0, 5.55);
 }

@@ -205,7 +205,7 @@ static void point_loads_of(const host *h, double x, const section_frame *at, poi
 }
 
 /* Removes the equivalent loads from the nodes of the element, because the loads act on the segment. */
-static void take_from_nodes(host *h, const point_loads *loads)
+static void subtract_nodes(host *h, const point_loads *loads)
 {
     double f[12];
     memcpy(f, loads->nodes, sizeof f);
@@ -240,14 +240,14 @@ static void share_wrench(const dmb_sim *sim, const dmb_rigid_mass *share, const 
 }
 
 /* Each node has half of the eccentric mass, which acts along the whole element. */
-static void take_eccentric(host *h, const dmb_described_pipe *pipe)
+static void add_eccentric(host *h, const dmb_described_pipe *pipe)
 {
     if (!pipe->eccentric) return;
     for (uint32_t end = 0; end < 2; end++) {
         const double lifted[2] = {0.0, 0.0}; /* buoyancy acts on the axis */
         dmb_rigid_mass share;
         double f[6];
-        dmb_eccentric_share(h->sim->scene, pipe, h->element, end, &share);
+        dmb_eccentric_fraction(h->sim->scene, pipe, h->element, end, &share);
         share_wrench(h->sim, &share, lifted, f);
         dmb_arm_wrench(end ? h->type->arm[1] : -h->type->arm[0], f);
         for (int i = 0; i < 6; i++) h->load[6 * end + (uint32_t)i] += end ? f[i] : -f[i];
@@ -330,8 +330,8 @@ void dmb_section_load_of(const dmb_sim *sim, const dmb_described_pipe *pipe, con
     }
     frame_at(&h, x, &at);
     point_loads_of(&h, x, &at, &loads);
-    take_from_nodes(&h, &loads);
-    take_eccentric(&h, pipe);
+    subtract_nodes(&h, &loads);
+    add_eccentric(&h, pipe);
     total_of(&h, &loads, T);
     distributed_to(&h, x, &at, T, D);
     add_moved(&h.a, h.load, 1.0, at.r, sum);
@@ -351,7 +351,7 @@ void dmb_section_load_in_joint(const dmb_sim *sim, const dmb_described_pipe *pip
     const dmb_mud mud = dmb_mud_of(sim->scene);
     dmb_rigid_mass share;
     double f[6];
-    const double mass = dmb_joint_part_share(sim->scene, pipe, point->beyond, &share);
+    const double mass = dmb_joint_part_fraction(sim->scene, pipe, point->beyond, &share);
     const double lifted = mass > 0.0 ? (1.0 - dmb_buoyancy_factor(pipe->def, 1, &mud)) * mass : 0.0;
     const double carried[2] = {lifted, lifted * (0.5 * point->beyond - type->arm[1])};
     share_wrench(sim, &share, carried, f);

@@ -301,7 +301,7 @@ static int32_t apply(dmb_sim *sim, const settings *given)
     if (status < 0) return status;
     if (sim->scene->stuck_count) dmb_stuck_lose(sim, stored);
     if (forget) dmb_forget_factors(sim); /* they were made with the old values */
-    if (moves_weight(sim)) dmb_ledger_take_change(sim, dmb_gravity_energy(sim->scene, &sim->now) - weight);
+    if (moves_weight(sim)) dmb_ledger_add_change(sim, dmb_gravity_energy(sim->scene, &sim->now) - weight);
     return note(sim);
 }
 

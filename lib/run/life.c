@@ -60,7 +60,7 @@ static int32_t check_model(const dmb_model *model, dmb_message *message)
     return DMB_ERR_ORDER;
 }
 
-static int32_t take_allocator(creation *c, const dmb_model *model)
+static int32_t read_allocator(creation *c, const dmb_model *model)
 {
     const dmb_allocator *given = c->options.allocator;
     int32_t status;
@@ -70,7 +70,7 @@ static int32_t take_allocator(creation *c, const dmb_model *model)
     return status;
 }
 
-static int32_t take_size(creation *c, const dmb_model *model)
+static int32_t set_size(creation *c, const dmb_model *model)
 {
     c->bytes = dmb_sim_bytes(model->scene);
     if (c->bytes != SIZE_MAX) return DMB_OK;
@@ -84,8 +84,8 @@ static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_option
     dmb_message_clear(&c->message);
     status = check_model(model, &c->message);
     if (status == DMB_OK) status = dmb_sim_options_get(&c->options, options, &c->message);
-    if (status == DMB_OK) status = take_allocator(c, model);
-    if (status == DMB_OK) status = take_size(c, model);
+    if (status == DMB_OK) status = read_allocator(c, model);
+    if (status == DMB_OK) status = set_size(c, model);
     if (status >= 0) return status;
     if (dmb_handle_is(model, DMB_HANDLE_MODEL)) (void)dmb_model_fail(model, status, "sim", c->message.text);
     report_refusal(options, status, &c->message);

@@ -139,7 +139,7 @@ static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 
 /* Stabilisers are ordered along the strings in both scenes. One on an added pipe is new; one with another index at the
  * same place is transferred. */
-static void transfer_ring_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+static void transfer_stabiliser_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
     uint32_t k = 0;
@@ -221,7 +221,7 @@ void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     transfer_string_sites(sim, from, what);
     transfer_inside_sites(sim, from, what);
     transfer_body_sites(sim, from, what);
-    transfer_ring_sites(sim, from, what);
+    transfer_stabiliser_sites(sim, from, what);
     transfer_axial_torsional_sites(sim, from, what);
     if (what == DMB_TRANSFER_ALL) place_new_sites(sim);
 }

@@ -87,7 +87,7 @@ void dmb_sim_hand_on(dmb_sim *sim, double from, double to)
     sim->progress->to = to;
 }
 
-void dmb_sim_take_back(dmb_sim *sim)
+void dmb_sim_resume(dmb_sim *sim)
 {
     sim->busy = DMB_BUSY_READABLE;
     sim->progress->nested--;

@@ -44,7 +44,7 @@ int32_t dmb_sim_occupy(const dmb_sim *sim);
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status);
 /* Passes the sim to a public call that is part of the present one, from .. to of it; and takes it back. */
 void dmb_sim_hand_on(dmb_sim *sim, double from, double to);
-void dmb_sim_take_back(dmb_sim *sim);
+void dmb_sim_resume(dmb_sim *sim);
 /* Writes the message of a call rejected for re-entry. */
 void dmb_sim_refuse_re_entry(dmb_sim *sim);
 /* Progress of a call: start, fraction done, report to the caller. DMB_ERR_CANCELLED if the caller cancels, then and at

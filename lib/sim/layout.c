@@ -136,25 +136,25 @@ static void *take(dmb_arena *arena, uint64_t count, size_t item_size)
 #define DMB_TAKE_WORK(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
 #define DMB_TAKE(type, name, count, check) DMB_TAKE_WORK(type, name, count)
 
-static void take_configuration(dmb_arena *arena, const field_counts *counts, dmb_configuration *to)
+static void allocate_configuration(dmb_arena *arena, const field_counts *counts, dmb_configuration *to)
 {
     DMB_COUNT_NAMES(counts);
     DMB_CONFIGURATION_LIST(DMB_TAKE)
 }
 
-static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+static void allocate_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
     DMB_MEMORY_LIST(DMB_TAKE)
 }
 
-static void take_factors(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+static void allocate_factors(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
     DMB_FACTOR_LIST(DMB_TAKE)
 }
 
-static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+static void allocate_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
     DMB_WORK_LIST(DMB_TAKE_WORK)
@@ -168,12 +168,12 @@ static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
     dmb_sim nowhere;
     dmb_sim *sim = take(arena, 1, sizeof *sim);
     dmb_sim *to = sim != NULL ? sim : &nowhere;
-    take_configuration(arena, &counts, &to->now);
-    take_memory(arena, &counts, to);
-    take_factors(arena, &counts, to);
-    take_configuration(arena, &counts, &to->trial);
-    take_work(arena, &counts, to);
-    if (dmb_needs_own_scene(scene)) to->own = dmb_own_scene_take(arena, scene);
+    allocate_configuration(arena, &counts, &to->now);
+    allocate_memory(arena, &counts, to);
+    allocate_factors(arena, &counts, to);
+    allocate_configuration(arena, &counts, &to->trial);
+    allocate_work(arena, &counts, to);
+    if (dmb_needs_own_scene(scene)) to->own = dmb_own_scene_allocate(arena, scene);
     return arena->overflow ? NULL : sim;
 }
 

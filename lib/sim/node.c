@@ -188,9 +188,9 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part)
     return callback < scene->callback_count ? scene->callbacks[callback].constraint : DMB_NONE;
 }
 
-uint32_t dmb_owner_of_supported_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
+uint32_t dmb_owner_of_supported_site(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
-    return dmb_supported_ring(scene, from, text);
+    return dmb_supported_site(scene, from, text);
 }
 
 int dmb_coupling_holds(const dmb_sim *sim, const dmb_scene_coupling *coupling)

@@ -10,7 +10,7 @@
 
 #define DOUBLES(arena, count) DMB_ARENA_DOUBLES(arena, (size_t)(count))
 
-dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
+dmb_own_scene *dmb_own_scene_allocate(dmb_arena *arena, const dmb_scene *scene)
 {
     dmb_own_scene nowhere, *made = DMB_ARENA_ARRAY(arena, dmb_own_scene, 1), *to = made != NULL ? made : &nowhere;
     const size_t n = scene->node_count, inputs = scene->input_count;

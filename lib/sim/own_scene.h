@@ -30,7 +30,7 @@ static inline int dmb_needs_own_scene(const dmb_scene *scene)
     return scene->input_count > 0 || scene->hole.cuts > 0;
 }
 /* Its storage in the block; NULL while counting. */
-dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene);
+dmb_own_scene *dmb_own_scene_allocate(dmb_arena *arena, const dmb_scene *scene);
 /* Start of a new sim: inputs as described, and the scene for them. No effect without an own scene, as below. */
 void dmb_own_scene_begin(dmb_sim *sim);
 /* Scene of a copy for an analysis, which may outlive its sim: an own scene replaces the one of the layout, which is

@@ -22,7 +22,7 @@ static int32_t choose(dmb_sim *copy)
     return status;
 }
 
-void dmb_state_take(const dmb_sim *sim, dmb_sim *copy)
+void dmb_state_assign(const dmb_sim *sim, dmb_sim *copy)
 {
     dmb_field from[DMB_FIELD_MAX], to[DMB_FIELD_MAX];
     const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
@@ -45,7 +45,7 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim)
     copy->allocator = sim->allocator;
     dmb_own_scene_copy(copy, sim);
     dmb_clusters_prepare(copy); /* before the partition of the state takes its place */
-    dmb_state_take(sim, copy);
+    dmb_state_assign(sim, copy);
     if (sim->scene->sparse_count && choose(copy) < 0) {
         dmb_state_discard(copy);
         return NULL;

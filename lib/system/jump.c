@@ -72,7 +72,7 @@ static double release(dmb_sim *sim, uint32_t s, double *rows)
     const double part = whole ? 1.0 : open_part(sim, s);
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
-    dmb_site_take_weighted(sim, &sim->now, s, &f);
+    dmb_site_weighted_force(sim, &sim->now, s, &f);
     sim->site_history[s] = fmax(-f.rate, 0.0);
     *sim->released_power += part * (f.friction[0] * f.slip[0] + f.friction[1] * f.slip[1]);
     dmb_site_add_force(sim->scene, &sim->now, s, -part, &f, rows);
@@ -153,7 +153,7 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
 
 void dmb_stuck_lose(dmb_sim *sim, double before)
 {
-    if (sim->options.energy_ledger) dmb_ledger_take_impact(sim, 0.0, before - dmb_stuck_energy(sim, &sim->now));
+    if (sim->options.energy_ledger) dmb_ledger_add_impact(sim, 0.0, before - dmb_stuck_energy(sim, &sim->now));
 }
 
 uint32_t dmb_stuck_let_go(dmb_sim *sim)
@@ -161,7 +161,7 @@ uint32_t dmb_stuck_let_go(dmb_sim *sim)
     const double stored = dmb_stuck_energy(sim, &sim->now);
     uint32_t count = 0;
     for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
-        if (!(dmb_stuck_share(sim, &sim->now, i, 1) >= DMB_STUCK_REACHED)) continue;
+        if (!(dmb_stuck_ratio(sim, &sim->now, i, 1) >= DMB_STUCK_REACHED)) continue;
         dmb_stuck_set(sim, i, 0);
         if (sim->scene->stuck[i].input != DMB_NONE) sim->input_value[sim->scene->stuck[i].input] = 0.0;
         count++;
@@ -262,23 +262,23 @@ static double potential(const dmb_sim *sim)
 
 /* The energy lost counts as impact: kinetic energy and that of springs which no longer act; the works of inertia and
  * potential forces are reduced with it. `stored`: energy stored before the joint changed. */
-static void take_motion(dmb_sim *sim, double stored)
+static void add_motion_loss(dmb_sim *sim, double stored)
 {
     const double before = dmb_kinetic_energy(sim->scene, &sim->now);
     memcpy(sim->now.displacement, sim->trial.displacement, 3 * (size_t)sim->scene->node_count * sizeof(double));
     memcpy(sim->now.quaternion, sim->trial.quaternion, 4 * (size_t)sim->scene->node_count * sizeof(double));
     memcpy(sim->now.turn, sim->trial.turn, sim->scene->node_count * sizeof(double));
     memcpy(sim->now.velocity, sim->trial.velocity, sim->scene->row_count * sizeof(double));
-    dmb_drives_take_motion(sim);
+    dmb_drives_copy_motion(sim);
     const double lost = before - dmb_kinetic_energy(sim->scene, &sim->now), let_go = stored - potential(sim);
-    dmb_ledger_take_impact(sim, lost, let_go);
+    dmb_ledger_add_impact(sim, lost, let_go);
 }
 
 /* Forces of joints and joint drives for the new accelerations. */
-static void take_forces(dmb_sim *sim)
+static void copy_forces(dmb_sim *sim)
 {
-    dmb_clusters_take_multipliers(sim);
-    dmb_drives_take_motion(sim);
+    dmb_clusters_copy_multipliers(sim);
+    dmb_drives_copy_motion(sim);
 }
 
 static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
@@ -288,7 +288,7 @@ static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
     dmb_evaluation evaluation;
     set_up(sim, &evaluation);
     if (was == DMB_JOINT_OPEN) dmb_joint_place_find(sim, j);
-    dmb_joint_take_state(sim, j, state);
+    dmb_joint_set_state(sim, j, state);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     int32_t status = dmb_system_prescribe(&evaluation);
     if (status >= 0) status = check_fit(&evaluation, j, was);
@@ -298,9 +298,9 @@ static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
     if (status >= 0) status = least_energy(&evaluation);
     if (status < 0) return status;
     largest_change(sim, jump);
-    take_motion(sim, stored);
+    add_motion_loss(sim, stored);
     status = dmb_system_jump(sim);
-    if (status >= 0) take_forces(sim);
+    if (status >= 0) copy_forces(sim);
     return status;
 }
 

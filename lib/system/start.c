@@ -158,7 +158,7 @@ int32_t dmb_system_restart(dmb_sim *sim)
     int32_t status = present(sim, &evaluation);
     if (status >= 0 && sim->scene->joint_count) status = dmb_joints_refuse_gimbal_singularity(sim, 0, evaluation.time);
     if (status >= 0) {
-        dmb_drives_take_targets(sim);
+        dmb_drives_copy_targets(sim);
         project_speeds(sim);
         status = choose_partition(sim, &evaluation);
     }
@@ -190,11 +190,11 @@ int32_t dmb_system_jump(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
-    dmb_contacts_take_slip(sim);
-    dmb_contacts_take_touch(sim);
+    dmb_contacts_copy_slip(sim);
+    dmb_contacts_copy_touch(sim);
     dmb_bounces_jump(sim);
-    dmb_drives_take_forces(sim);
-    dmb_clusters_take_multipliers(sim);
+    dmb_drives_copy_forces(sim);
+    dmb_clusters_copy_multipliers(sim);
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);
     return DMB_OK;
 }

@@ -75,7 +75,7 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim);
  * constraint components are too large. */
 int32_t dmb_state_copy_check(dmb_sim *sim, const char *who);
 /* Copies the accepted state and trial of a sim of the same model into a copy. */
-void dmb_state_take(const dmb_sim *sim, dmb_sim *copy);
+void dmb_state_assign(const dmb_sim *sim, dmb_sim *copy);
 /* NULL is permitted. */
 void dmb_state_discard(dmb_sim *copy);
 

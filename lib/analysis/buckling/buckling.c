@@ -180,7 +180,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     dmb_load_pattern pattern;
     int32_t status = read_options(sim, options, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "buckling");
-    if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
+    if (status >= 0) status = dmb_load_pattern_allocate(sim, "buckling options", taken.scale, taken.part, &pattern);
     if (status < 0) return status;
     dmb_buckling *made = allocate(sim, taken.count);
     if (made == NULL) return DMB_ERR_NO_MEMORY;

@@ -24,7 +24,7 @@ typedef struct dmb_load_pattern {
 size_t dmb_load_pattern_size(const dmb_scene *scene);
 /* Identifies `part`. Errors, with a message that begins with `who`: DMB_ERR_ID, DMB_ERR_VALUE, DMB_ERR_UNSUPPORTED
  * (motion drives of joints). The caller sets base. */
-int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern);
+int32_t dmb_load_pattern_allocate(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern);
 /* Stores the present loads of the trial, after dmb_system_prescribe. */
 void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim);
 /* Sets the loads of the trial for a factor; displacements by a motion drive are part of the pose. */
@@ -287,7 +287,7 @@ void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim);
  * that is overwritten. Errors of dmb_path_correct, DMB_ERR_NO_MEMORY. */
 int32_t dmb_dip_look(dmb_dip *dip, dmb_path *path, double arc, dmb_sim *spare);
 /* [-] Largest ratio of load to sinusoidal buckling load over all strings of the state, as in a profile; NaN: none. */
-double dmb_dip_sinusoidal_share(dmb_sim *at);
+double dmb_dip_sinusoidal_ratio(dmb_sim *at);
 
 /* Follows the equilibria from the present state to the first factor at which they lose their stability, and computes
  * the factors again from there. Status as of dmb_analysis_buckling. */

@@ -117,16 +117,16 @@ void dmb_dip_close(dmb_dip *dip, const dmb_sim *sim)
 /* Accepts the trial in dip->state; the path stays at its last point. `spare`: a state that is overwritten. */
 static int32_t keep(dmb_dip *dip, dmb_path *path, dmb_sim *spare)
 {
-    dmb_state_take(path->work, spare);
+    dmb_state_assign(path->work, spare);
     const int32_t status = dmb_path_accept(path);
     if (status < 0) return status;
     const dmb_path_place least = path->last;
     path->last = path->next;
     path->next = least;
-    if (dip->state != NULL) dmb_state_take(path->work, dip->state);
+    if (dip->state != NULL) dmb_state_assign(path->work, dip->state);
     if (dip->state == NULL) dip->state = dmb_state_copy(path->work);
     if (dip->state == NULL) return DMB_ERR_NO_MEMORY;
-    dmb_state_take(spare, path->work);
+    dmb_state_assign(spare, path->work);
     memcpy(dip->least_shape, dip->shape, path->work->scene->row_count * sizeof(double));
     return DMB_OK;
 }
@@ -194,7 +194,7 @@ static double largest_share(const dmb_sim *at, dmb_id string)
     return most;
 }
 
-double dmb_dip_sinusoidal_share(dmb_sim *at)
+double dmb_dip_sinusoidal_ratio(dmb_sim *at)
 {
     double most = (double)NAN;
     for (uint32_t i = 0; i < at->scene->string_count; i++)

@@ -89,7 +89,7 @@ static int32_t open_path(follower *f)
 static int32_t linearise_here(follower *f)
 {
     f->buckling->at = f->path.last.factor;
-    dmb_state_take(f->path.work, f->buckling->work);
+    dmb_state_assign(f->path.work, f->buckling->work);
     const int32_t status = dmb_buckling_linearise(f->buckling, f->sim, f->options);
     return status < 0 ? status : dmb_buckling_find(f->buckling, f->options, &f->sim->message);
 }
@@ -184,7 +184,7 @@ static int32_t end_at_event(follower *f, int32_t event)
 static int32_t end_at_dip(follower *f)
 {
     dmb_buckling *b = f->buckling;
-    dmb_state_take(f->dip.state, b->work);
+    dmb_state_assign(f->dip.state, b->work);
     b->at = b->factor[0] = f->dip.least.factor;
     b->count = b->info.confirmed = 1;
     b->info.end = DMB_BUCKLING_DIP;
@@ -458,7 +458,7 @@ int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buck
         buckling->info.end = DMB_BUCKLING_STABLE;
         status = DMB_NOTE_STOPPED;
     }
-    if (status >= 0 && buckling->count > 0) buckling->info.sinusoidal_share = dmb_dip_sinusoidal_share(buckling->work);
+    if (status >= 0 && buckling->count > 0) buckling->info.sinusoidal_share = dmb_dip_sinusoidal_ratio(buckling->work);
     dmb_flutter_close(&f.flutter);
     return status < 0 ? status : dmb_buckling_report_flutter(buckling, sim, &f.flutter.message, status);
 }

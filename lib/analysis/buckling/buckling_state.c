@@ -288,7 +288,7 @@ static void raise_diagonal(dmb_sim *work, const double *amount)
 
 /* A += factor K of the evaluation, with constrained rows, in the frames of the present state. 0 if that is not
  * possible. raised 1: of K + T. */
-static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, int raised,
+static int copy_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, int raised,
                        dmb_pencil_matrix *A)
 {
     dmb_sim *work = evaluation->sim;
@@ -332,7 +332,7 @@ static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, do
     for (int side = -1; side <= 1; side += 2) {
         const int32_t status = evaluate_at(buckling, search, side * step);
         if (status < 0) return status;
-        if (!take_matrix(buckling, &search->evaluation, 0.5 * side / step, 0, &pencil->G)) return DMB_ERR_SINGULAR;
+        if (!copy_matrix(buckling, &search->evaluation, 0.5 * side / step, 0, &pencil->G)) return DMB_ERR_SINGULAR;
     }
     if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK;
     make_symmetric(buckling->work, &pencil->K);
@@ -347,7 +347,7 @@ static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_se
     if (status >= 0) status = dmb_stiffness_balanced(sim, "buckling", &search->evaluation);
     if (status >= 0)
         status = dmb_load_pattern_derivative(&buckling->pattern, &search->evaluation, buckling->at, buckling->response);
-    if (status >= 0 && !take_matrix(buckling, &search->evaluation, 1.0, 0, &buckling->pencil.K))
+    if (status >= 0 && !copy_matrix(buckling, &search->evaluation, 1.0, 0, &buckling->pencil.K))
         status = DMB_ERR_SINGULAR;
     return status;
 }
@@ -380,7 +380,7 @@ static int32_t raise_stiffness(dmb_buckling *buckling, dmb_static_search *search
     const int32_t status = evaluate_at(buckling, search, 0.0);
     if (status < 0) return status;
     clear(pencil->scene, &pencil->K);
-    if (!take_matrix(buckling, &search->evaluation, 1.0, 1, &pencil->K)) return DMB_ERR_SINGULAR;
+    if (!copy_matrix(buckling, &search->evaluation, 1.0, 1, &pencil->K)) return DMB_ERR_SINGULAR;
     make_symmetric(buckling->work, &pencil->K);
     return DMB_OK;
 }

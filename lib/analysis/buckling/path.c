@@ -322,7 +322,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     int32_t status = read_options(sim, options, &taken);
     if (status >= 0) status = check_place(sim, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
-    if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
+    if (status >= 0) status = dmb_load_pattern_allocate(sim, "path options", taken.scale, taken.part, &path.pattern);
     if (status >= 0) status = trace(&path);
     status = dmb_progress_end(sim, status);
     if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);

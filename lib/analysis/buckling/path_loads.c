@@ -10,7 +10,7 @@ size_t dmb_load_pattern_size(const dmb_scene *scene)
     return (size_t)scene->load_count + scene->bit_count + scene->drive_count;
 }
 
-static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *pattern)
+static int32_t read_drive(dmb_sim *sim, const char *who, dmb_load_pattern *pattern)
 {
     const dmb_scene_drive *drive = sim->scene->drives + pattern->drive;
     if (drive->kind == DMB_DRIVE_CONTROL) {
@@ -35,7 +35,7 @@ static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *patte
     return DMB_OK;
 }
 
-int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern)
+int32_t dmb_load_pattern_allocate(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern)
 {
     const dmb_scene *scene = sim->scene;
     pattern->scale = scale;
@@ -48,7 +48,7 @@ int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_
         return DMB_OK;
     }
     pattern->drive = dmb_model_part_index(sim->model, part, DMB_PART_DRIVE);
-    if (pattern->drive < scene->drive_count) return take_drive(sim, who, pattern);
+    if (pattern->drive < scene->drive_count) return read_drive(sim, who, pattern);
     dmb_message_set(&sim->message, "%s: part names no load and no drive of this model", who);
     return DMB_ERR_ID;
 }

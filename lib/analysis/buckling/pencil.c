@@ -217,7 +217,7 @@ void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
 }
 
 /* Orthogonalises vectors of one factor in x . G x, which is negative for factors > 0. */
-static void take_apart(dmb_pencil *pencil, const double *other, uint32_t others, double *x)
+static void split_apart(dmb_pencil *pencil, const double *other, uint32_t others, double *x)
 {
     const uint32_t rows = pencil->unknowns;
     for (uint32_t k = 0; k < others; k++) {
@@ -265,13 +265,13 @@ double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other,
     dmb_pencil_draw(pencil, 88172645463325252u + others, x);
     if (!dmb_pencil_shift_and_factor(pencil, factor * (1.0 - DMB_PENCIL_OFFSET))) return factor;
     for (int k = 0; k < DMB_PENCIL_ITERATIONS; k++) {
-        take_apart(pencil, other, others, x);
+        split_apart(pencil, other, others, x);
         dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
         memcpy(x, pencil->image, rows * sizeof(double));
         dmb_pencil_solve(pencil, x);
         normalise(rows, x);
     }
-    take_apart(pencil, other, others, x);
+    split_apart(pencil, other, others, x);
     dmb_pencil_multiply(pencil, &pencil->K, x, pencil->image);
     const double stiff = dmb_dot(rows, x, pencil->image);
     dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);

@@ -129,7 +129,7 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth,
     return scene->cluster_count > 0 ? dmb_jointed_chains_factor(s) : -1;
 }
 
-void dmb_dynamic_take_told(dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const size_t bytes = s->linear->rows * sizeof(double);
     memcpy(s->told.re, x.re, bytes);
@@ -150,7 +150,7 @@ static void add_reported(const dmb_dynamic_stiffness *s, dmb_complex_array x)
 void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_complex_array x)
 {
     const dmb_scene *scene = &s->linear->scene;
-    if (moves) dmb_dynamic_take_told(s, x);
+    if (moves) dmb_dynamic_set_prescribed(s, x);
     for (uint32_t r = 0; r < scene->row_count; r++)
         if (!scene->solved_row[r]) x.re[r] = x.im[r] = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)

@@ -60,7 +60,7 @@ void dmb_dynamic_group_put(dmb_dynamic_group *group, uint32_t frequency, uint32_
 {
     const dmb_scene *scene = &group->stiffness->linear->scene;
     go_to(group, frequency);
-    if (moves) dmb_dynamic_take_told(group->stiffness, x);
+    if (moves) dmb_dynamic_set_prescribed(group->stiffness, x);
     for (uint32_t r = 0; r < scene->row_count; r++) {
         double *to = number(group, r, column, frequency);
         to[0] = scene->solved_row[r] ? x.re[r] : 0.0;

@@ -37,7 +37,7 @@ static void exchange_motion(dmb_sim *copy)
 }
 
 /* Rows between are taken with 0. */
-static void take_value(uint32_t row, double value, dmb_functional *out)
+static void set_value(uint32_t row, double value, dmb_functional *out)
 {
     do out->row[out->count] = out->count > 0 ? out->row[out->count - 1] + 1 : row;
     while (out->row[out->count++] < row);
@@ -57,7 +57,7 @@ static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t c
         double value = 0.0;
         status = motion_component(copy, place, frame, component, &value);
         copy->now.velocity[r] = 0.0;
-        if (value != 0.0) take_value(r, value, out);
+        if (value != 0.0) set_value(r, value, out);
     }
     exchange_motion(copy);
     return status;
@@ -72,7 +72,7 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
+void dmb_functional_add_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
 {
     for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;
 }
@@ -87,7 +87,7 @@ int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *ou
     if (low > 0) low--;
     if (high + 1 < scene->node_count) high++;
     memset(out, 0, sizeof *out);
-    for (uint32_t i = low; i <= high; i++) dmb_functional_take_node(scene, i, out);
+    for (uint32_t i = low; i <= high; i++) dmb_functional_add_node(scene, i, out);
     return DMB_OK;
 }
 

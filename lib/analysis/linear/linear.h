@@ -163,9 +163,9 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 /* An evaluation of the state with its accelerations. */
 dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear);
 /* Residual of the forces at constant body-frame velocities. */
-int32_t dmb_linear_take_balance(dmb_linear *linear);
+int32_t dmb_linear_evaluate_balance(dmb_linear *linear);
 /* Steady accelerations of an equilibrium. */
-void dmb_linear_take_steady_accelerations(dmb_linear *linear);
+void dmb_linear_set_steady_accelerations(dmb_linear *linear);
 /* The residual counts as balanced if it is at most the rounding of the poses; requires K. */
 void dmb_linear_judge_rounding(dmb_linear *linear);
 
@@ -179,12 +179,12 @@ void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matr
 void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
                              dmb_linear_matrix *to);
 /* Sets stiffness_size from the present stiffness. */
-void dmb_linear_take_stiffness_size(dmb_linear *linear);
+void dmb_linear_set_stiffness_size(dmb_linear *linear);
 /* The blocks of stiffness of a sim. */
 dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
 /* The tangents by pose and acceleration, and after them that by velocity. */
-int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear);
-int32_t dmb_linear_take_damping(dmb_linear *linear);
+int32_t dmb_linear_read_stiffness_and_mass(dmb_linear *linear);
+int32_t dmb_linear_read_damping(dmb_linear *linear);
 
 /* C and K for the velocities of the axes of d (inertial_axes: axes that do not spin); clears constrained rows and
  * columns. */
@@ -263,7 +263,7 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
  * errors as above. */
 int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out);
 /* Adds the rows of a node unless they are included. */
-void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
+void dmb_functional_add_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
 /* A result that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
  * of second degree in their speeds. copy: linear->work, as before on return. */
 typedef double dmb_answer(const dmb_sim *copy, const void *what);
@@ -326,7 +326,7 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves
 
 /* Stores displacements p prescribed by drives, and replaces x by the forces -A p, at growth and omega of `stiffness`.
  */
-void dmb_dynamic_take_told(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+void dmb_dynamic_set_prescribed(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 
 /* Responses at up to DMB_FREQUENCIES frequencies in lanes (eq:response.direct), in scenes without joints; same bits as
  * one frequency at a time. */

@@ -71,13 +71,13 @@ static int32_t settle(const dmb_linear *linear)
     return work->scene->cluster_count ? dmb_clusters_settle(&evaluation, 0, 0) : DMB_OK;
 }
 
-static int32_t take_multipliers(const dmb_linear *linear)
+static int32_t update_multipliers(const dmb_linear *linear)
 {
     dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     return linear->work->scene->cluster_count ? dmb_system_evaluate(&evaluation) : DMB_OK;
 }
 
-static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *options)
+static int32_t allocate_matrices(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
     dmb_evaluation evaluation = dmb_linear_evaluation(linear);
@@ -85,16 +85,16 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(linear->with_contacts, work->residual, linear->rows * sizeof(double));
     dmb_linear_finalise(linear, options);
-    if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
+    if (status >= 0) status = dmb_linear_read_stiffness_and_mass(linear);
     if (status >= 0) dmb_linear_add_dead_loads(linear, linear->with_contacts);
     if (status >= 0 && options->contact == DMB_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
-    return status < 0 ? status : dmb_linear_take_damping(linear);
+    return status < 0 ? status : dmb_linear_read_damping(linear);
 }
 
 /* Tests whether the residual is rounding of poses, from the stiffness. */
 static int32_t judge_rounding(dmb_linear *linear)
 {
-    const int32_t status = dmb_linear_take_stiffness_and_mass(linear);
+    const int32_t status = dmb_linear_read_stiffness_and_mass(linear);
     dmb_linear_judge_rounding(linear);
     return status;
 }
@@ -105,17 +105,17 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (options->spin != 0.0) spin_strings(work, options->spin);
     linear->load_factor = 1.0 + options->load_growth;
     int32_t status = settle(linear);
-    if (status >= 0) status = dmb_linear_take_balance(linear);
-    if (status >= 0 && !linear->balanced) status = take_multipliers(linear);
+    if (status >= 0) status = dmb_linear_evaluate_balance(linear);
+    if (status >= 0 && !linear->balanced) status = update_multipliers(linear);
     if (status >= 0 && !linear->balanced) status = judge_rounding(linear);
-    if (status >= 0) dmb_linear_take_steady_accelerations(linear);
-    if (status >= 0) status = take_multipliers(linear);
-    if (status >= 0) status = take_matrices(linear, options);
+    if (status >= 0) dmb_linear_set_steady_accelerations(linear);
+    if (status >= 0) status = update_multipliers(linear);
+    if (status >= 0) status = allocate_matrices(linear, options);
     if (status < 0) return status;
     dmb_linear_judge_rounding(linear);
     dmb_linear_turn_frames(linear, options->inertial_axes);
     dmb_linear_find_turning_on_wall(linear, options);
-    dmb_linear_take_stiffness_size(linear);
+    dmb_linear_set_stiffness_size(linear);
     return dmb_linear_make_coordinates(linear);
 }
 
@@ -261,7 +261,7 @@ static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *no
 }
 
 /* The better of both. */
-int32_t dmb_linear_take_balance(dmb_linear *linear)
+int32_t dmb_linear_evaluate_balance(dmb_linear *linear)
 {
     dmb_residual_norm rigid = {0}, sliding = {0}, best;
     int32_t status = balance_of(linear, 1, &sliding);
@@ -283,7 +283,7 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
 
 /* Replaces the accelerations of an equilibrium by the steady ones. Those in the sim contain rounding of the residual
  * over the masses, which M a^ and the multipliers would turn into a stiffness. */
-void dmb_linear_take_steady_accelerations(dmb_linear *linear)
+void dmb_linear_set_steady_accelerations(dmb_linear *linear)
 {
     if (!linear->balanced) return;
     steady_accelerations(linear, linear->slides);
@@ -295,7 +295,7 @@ void dmb_linear_take_steady_accelerations(dmb_linear *linear)
 void dmb_linear_judge_rounding(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
-    dmb_linear_take_stiffness_size(linear);
+    dmb_linear_set_stiffness_size(linear);
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         double rotation[9], place[3], most = 0.0;

@@ -298,7 +298,7 @@ void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, doub
     }
 }
 
-void dmb_linear_take_stiffness_size(dmb_linear *linear)
+void dmb_linear_set_stiffness_size(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
     const dmb_block_layout *layout = &scene->layout;

@@ -33,7 +33,7 @@ static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double v
     return dmb_system_evaluate(&evaluation);
 }
 
-int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear)
+int32_t dmb_linear_read_stiffness_and_mass(dmb_linear *linear)
 {
     dmb_sim *work = linear->work;
     int32_t status = evaluate_tangent(linear, 0.0, 0.0, 0.0, 0);
@@ -69,7 +69,7 @@ static int has_integrals(const dmb_scene *scene)
 }
 
 /* Over a step h the tangent by velocity is C + h/2 S, S being the stiffness of what the trapezoidal rule integrates. */
-int32_t dmb_linear_take_damping(dmb_linear *linear)
+int32_t dmb_linear_read_damping(dmb_linear *linear)
 {
     const double h = DMB_LINEAR_STEP;
     dmb_linear_matrix *C = &linear->damping, *K = &linear->stiffness;

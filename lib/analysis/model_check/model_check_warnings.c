@@ -347,11 +347,11 @@ static void no_contact(const sink *to)
     }
 }
 
-static void supported_rings(const sink *to)
+static void supported_sites(const sink *to)
 {
     dmb_message text;
-    for (uint32_t i = dmb_owner_of_supported_ring(to->scene, 0, &text); i != DMB_NONE;
-         i = dmb_owner_of_supported_ring(to->scene, i + 1, &text))
+    for (uint32_t i = dmb_owner_of_supported_site(to->scene, 0, &text); i != DMB_NONE;
+         i = dmb_owner_of_supported_site(to->scene, i + 1, &text))
         say(to, &text);
 }
 
@@ -374,6 +374,6 @@ void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_l
     outside_lengthwise(&to, 0);
     outside_lengthwise(&to, 1);
     no_contact(&to);
-    supported_rings(&to);
+    supported_sites(&to);
     dmb_mesh_warnings(to.sim->model, line, context);
 }

@@ -92,7 +92,7 @@ int dmb_modes_are_two_shapes(const dmb_mode_search *search, const double *y);
 int dmb_modes_is_real_pair(const dmb_mode_search *search, double re, double im, double *x, double *y);
 /* Adds a root of a general problem, im >= 0, if it is a mode: a real root of shape x, a pair, or the two real roots of
  * such a pair. x and y may change. DMB_ERR_NO_MEMORY. */
-int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, double *x, double *y);
+int32_t dmb_modes_add_root(dmb_mode_search *search, double re, double im, double *x, double *y);
 /* [1/s] |s| of mode i. */
 double dmb_modes_size(const dmb_modes *modes, uint32_t i);
 void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j);
@@ -165,7 +165,7 @@ void dmb_modes_forget_rigid(dmb_mode_search *search);
 /* 1: damping does not act on the rigid-body motions: C r = 0 and r^T C = 0. */
 int dmb_modes_rigid_undamped(const dmb_mode_search *search);
 /* x -= sum by_i (from_i . x) over the rigid-body motions, if they are separated. */
-void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x);
+void dmb_modes_add_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x);
 
 /* Workspace shared by the dense methods. */
 

@@ -78,7 +78,7 @@ static double *motion(const dmb_dense *d, size_t i)
     return d->motion + d->n * i;
 }
 
-static void take_motions(const dmb_mode_search *search, const dmb_dense *d)
+static void add_motions(const dmb_mode_search *search, const dmb_dense *d)
 {
     const size_t m = search->rigid_count, rows = search->linear->rows;
     for (size_t i = 0; i < m; i++) {
@@ -162,7 +162,7 @@ static double quotient(const dmb_mode_search *search, const dmb_dense *d, size_t
     return dmb_dot(linear->rows, d->x, product) / mass;
 }
 
-static int32_t take_symmetric(dmb_mode_search *search, dmb_dense *d)
+static int32_t add_symmetric(dmb_mode_search *search, dmb_dense *d)
 {
     int32_t status = DMB_OK;
     for (size_t i = d->m; i < d->n && status >= 0; i++) {
@@ -178,7 +178,7 @@ static int32_t solve(dmb_mode_search *search, dmb_dense *d)
     dmb_linear_dense(linear, &linear->mass, search->work, d->M);
     dmb_linear_dense(linear, &linear->stiffness, search->work, d->X);
     split_stiffness(d->n, d->X, search->general ? d->coupling : NULL);
-    take_motions(search, d);
+    add_motions(search, d);
     for (size_t i = 0; i < search->rigid_count; i++) move_motion(search, d, i);
     int32_t status = dmb_progress_pulse(linear->work);
     if (status < 0) return status;
@@ -191,7 +191,7 @@ static int32_t solve(dmb_mode_search *search, dmb_dense *d)
     status = dmb_progress_pulse(linear->work);
     if (status < 0) return status;
     put_motions(d);
-    return search->general ? dmb_modes_coupled(search, d) : take_symmetric(search, d);
+    return search->general ? dmb_modes_coupled(search, d) : add_symmetric(search, d);
 }
 
 int32_t dmb_modes_dense(dmb_mode_search *search)
@@ -229,7 +229,7 @@ size_t dmb_coupled_size(const dmb_mode_search *search)
 }
 
 /* Refined squares; 0 for rigid motions, which are scaled by the lowest rate of the others. */
-static void take_rates(const dmb_mode_search *search, dmb_dense *d)
+static void add_rates(const dmb_mode_search *search, dmb_dense *d)
 {
     double least = 0.0;
     for (size_t i = 0; i < d->n; i++) {
@@ -350,7 +350,7 @@ static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s
 static int32_t add_pair(dmb_mode_search *search, dmb_dense *d, const double s[2])
 {
     const int flutters = !is_damped(search) && !dmb_modes_is_real_pair(search, s[0], s[1], d->x, d->y);
-    return flutters ? add_flutter(search, d, s) : dmb_modes_take_root(search, s[0], s[1], d->x, d->y);
+    return flutters ? add_flutter(search, d, s) : dmb_modes_add_root(search, s[0], s[1], d->x, d->y);
 }
 
 /* An unresisted motion has a column of zeros, which the balancing of dgeev separates: its root is exactly 0. */
@@ -359,7 +359,7 @@ static int is_motion(const dmb_mode_search *search, const dmb_dense *d, size_t i
     return search->rigid_count > 0 && d->re[i] == 0.0 && d->im[i] == 0.0;
 }
 
-static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
+static int32_t add_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
 {
     int32_t status = DMB_OK;
     for (size_t i = 0; i < m && status >= 0; i++) {
@@ -370,7 +370,7 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
         if (!paired && s[1] == 0.0) {
-            status = dmb_modes_take_root(search, s[0], 0.0, d->x, NULL);
+            status = dmb_modes_add_root(search, s[0], 0.0, d->x, NULL);
             continue;
         }
         if (dmb_modes_is_rigid_root(search, s[0], s[1], d->x, paired ? d->y : NULL)) continue;
@@ -382,7 +382,7 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
 int32_t dmb_modes_coupled(dmb_mode_search *search, dmb_dense *d)
 {
     const size_t m = dmb_coupled_size(search);
-    take_rates(search, d);
+    add_rates(search, d);
     couple_stiffness(search, d);
     if (is_damped(search)) {
         fill_stiffness(d);
@@ -394,5 +394,5 @@ int32_t dmb_modes_coupled(dmb_mode_search *search, dmb_dense *d)
         fill_undamped(d);
     }
     if (dmb_eigen_general(m, d->system, d->re, d->im, d->V, d->work) != 0) return DMB_ERR_NO_CONVERGENCE;
-    return take_modes(search, d, m);
+    return add_modes(search, d, m);
 }

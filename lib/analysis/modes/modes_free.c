@@ -56,7 +56,7 @@ typedef struct pin {
     double before, stiffness;
 } pin;
 
-void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x)
+void dmb_modes_add_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x)
 {
     const size_t rows = search->linear->rows;
     for (uint32_t i = 0; search->apart && i < search->rigid_count; i++) {

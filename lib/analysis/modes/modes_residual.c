@@ -352,7 +352,7 @@ static void refine_general(refinement *p, uint32_t k)
 }
 
 /* Divides x by its length in M; 0 if that is not positive and finite. */
-static int take_length(const dmb_linear *linear, double *x, double *Mx)
+static int set_length(const dmb_linear *linear, double *x, double *Mx)
 {
     const size_t rows = linear->rows;
     dmb_linear_multiply(linear, &linear->mass, x, Mx);
@@ -374,9 +374,9 @@ static void correct(const refinement *p, double *x)
     dmb_linear_multiply(linear, &linear->mass, x, Mx);
     const double square = dmb_dot(rows, x, Kx);
     for (size_t r = 0; r < rows; r++) Kx[r] -= square * Mx[r];
-    dmb_modes_take_rigid(search, search->rigid, search->rigid_momentum, Kx);
+    dmb_modes_add_rigid(search, search->rigid, search->rigid_momentum, Kx);
     dmb_linear_solve(linear, Kx);
-    dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, Kx);
+    dmb_modes_add_rigid(search, search->rigid_momentum, search->rigid, Kx);
     const double along = dmb_dot(rows, Mx, Kx);
     for (size_t r = 0; r < rows; r++) x[r] -= Kx[r] - along * x[r];
 }
@@ -396,10 +396,10 @@ static void refine_symmetric(refinement *p, uint32_t k)
         dmb_linear_multiply(linear, &linear->mass, x, Ax);
         memcpy(x, Ax, rows * sizeof(double));
         dmb_linear_solve(linear, x);
-        dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
-        if (!take_length(linear, x, Ax)) return;
+        dmb_modes_add_rigid(search, search->rigid_momentum, search->rigid, x);
+        if (!set_length(linear, x, Ax)) return;
         correct(p, x);
-        if (!take_length(linear, x, Ax)) return;
+        if (!set_length(linear, x, Ax)) return;
         dmb_linear_multiply(linear, &linear->stiffness, x, Ax);
         dmb_modes_put_square(search, k, dmb_dot(rows, x, Ax), x);
         const dmb_mode_defect defect = dmb_modes_defect(search, k);

@@ -40,7 +40,7 @@ static void normalise(const dmb_mode_search *search, double *x, double *y)
 /* Real part of the circular component of one sense: y and z of a vector's complex amplitude (re, im), Y and Z, as (Y +
  * sign i Z)/2 e1 and the corresponding amplitude: the circle from y to z (sign 1), e1 = (1, -i), or from z to y (sign
  * -1), e1 = (1, i). */
-static void take_circle(const double *re, const double *im, double sign, double *out)
+static void add_circle(const double *re, const double *im, double sign, double *out)
 {
     out[0] = 0.5 * (re[0] - sign * im[1]);
     out[1] = 0.5 * (sign * im[0] + re[1]);
@@ -57,7 +57,7 @@ static double circling(const dmb_mode_search *search, const double *x, const dou
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_SIX_DOF; c += 3) {
             const size_t at = (size_t)layout->row[i] + c;
-            take_circle(x + at, y + at, sign, circle + at);
+            add_circle(x + at, y + at, sign, circle + at);
         }
     dmb_linear_multiply(search->linear, &search->linear->mass, circle, product);
     return 2.0 * dmb_dot(n, circle, product);
@@ -241,7 +241,7 @@ static int32_t read_real(dmb_mode_search *search, double re, const double *x)
     return dmb_modes_add(search, drift(search, re, x), 0.0, x, NULL);
 }
 
-int32_t dmb_modes_take_root(dmb_mode_search *search, double re, double im, double *x, double *y)
+int32_t dmb_modes_add_root(dmb_mode_search *search, double re, double im, double *x, double *y)
 {
     if (im == 0.0) return read_real(search, re, x);
     if (dmb_modes_is_real_pair(search, re, im, x, y)) {

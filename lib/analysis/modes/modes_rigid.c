@@ -252,14 +252,14 @@ static void motion_of(const conditions *c, const double *q, double *r)
 #define DMB_RIGID_AGAIN 1e-6
 
 /* Adds the motion, orthonormalised in M. */
-static void take_motion(const conditions *c, const double *q)
+static void add_motion(const conditions *c, const double *q)
 {
     dmb_mode_search *search = c->search;
     const size_t rows = c->linear->rows;
     double *r = search->rigid + rows * search->rigid_count, *Mr = search->rigid_momentum + rows * search->rigid_count;
     motion_of(c, q, r);
     for (int pass = 0; pass < 3; pass++) {
-        if (pass > 0) dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, r);
+        if (pass > 0) dmb_modes_add_rigid(search, search->rigid_momentum, search->rigid, r);
         dmb_linear_multiply(c->linear, &c->linear->mass, r, Mr);
         const double size = sqrt(dmb_dot(rows, r, Mr));
         if (!(size > (pass > 0 ? DMB_RIGID_AGAIN : 0.0)) || !isfinite(size)) return;
@@ -279,7 +279,7 @@ static int32_t reserve(dmb_mode_search *search, size_t count)
     return DMB_OK;
 }
 
-static int32_t take_null_space(conditions *c)
+static int32_t read_null_space(conditions *c)
 {
     const size_t n = c->candidates, starts = ((size_t)c->count + 2) * sizeof(size_t);
     const size_t bytes =
@@ -297,7 +297,7 @@ static int32_t take_null_space(conditions *c)
     for (size_t i = 0; i < n - rank && status >= 0; i++) {
         const dmb_triangle triangle = {n, rank, R, order};
         dmb_null_vector(&triangle, i, work, q);
-        take_motion(c, q);
+        add_motion(c, q);
     }
     dmb_release(c->allocator, R, bytes);
     return status < 0 ? status : dmb_modes_check_rigid(c->search, c->tolerance - DMB_RIGID_ROUNDING);
@@ -330,7 +330,7 @@ int32_t dmb_modes_find_rigid(dmb_mode_search *search)
     if (c.candidates <= DMB_CANDIDATES_MAX) {
         search->apart = 1; /* during orthogonalisation */
         status = make_conditions(&c);
-        if (status >= 0) status = take_null_space(&c);
+        if (status >= 0) status = read_null_space(&c);
         search->apart = 0;
     }
     if (c.entries != NULL) dmb_release(c.allocator, c.entries, c.entry_room * sizeof(entry));

@@ -66,16 +66,16 @@ static void symmetric_apply(void *context, const double *x, const double *Mx, do
     const dmb_mode_search *s = A->search;
     (void)x;
     memcpy(y, Mx, A->linear->rows * sizeof(double));
-    dmb_modes_take_rigid(s, s->rigid, s->rigid_momentum, y);
+    dmb_modes_add_rigid(s, s->rigid, s->rigid_momentum, y);
     dmb_linear_solve(A->linear, y);
-    dmb_modes_take_rigid(s, s->rigid_momentum, s->rigid, y);
+    dmb_modes_add_rigid(s, s->rigid_momentum, s->rigid, y);
 }
 
 static void symmetric_draw(void *context, uint64_t *seed, double *x)
 {
     const inverse *A = context;
     draw_motion(A->linear, seed, x, A->work);
-    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x);
+    dmb_modes_add_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x);
 }
 
 /* X^T A X of vectors by rows, AX in `products`. */
@@ -140,9 +140,9 @@ static void general_apply(void *context, const double *x, const double *Gx, doub
     memset(y, 0, rows * sizeof(double));
     if (A->damping != NULL) dmb_linear_multiply(A->linear, A->damping, x, y);
     for (uint32_t i = 0; i < rows; i++) y[i] = -(Gx[rows + i] + y[i] + mass_factor * Gx[i]);
-    dmb_modes_take_rigid(A->search, A->search->rigid, A->search->rigid_momentum, y);
+    dmb_modes_add_rigid(A->search, A->search->rigid, A->search->rigid_momentum, y);
     dmb_linear_solve(A->linear, y);
-    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, y);
+    dmb_modes_add_rigid(A->search, A->search->rigid_momentum, A->search->rigid, y);
     for (uint32_t i = 0; i < rows; i++) y[rows + i] = x[i] + A->shift * y[i];
 }
 
@@ -152,11 +152,11 @@ static void general_draw(void *context, uint64_t *seed, double *x)
     const size_t rows = A->linear->rows;
     for (size_t part = 0; part < 2; part++) {
         draw_motion(A->linear, seed, x + part * rows, A->work);
-        dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x + part * rows);
+        dmb_modes_add_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x + part * rows);
     }
 }
 
-static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
+static int32_t add_general(dmb_mode_search *search, const dmb_krylov *found)
 {
     const size_t rows = search->linear->rows;
     int32_t status = DMB_OK;
@@ -165,7 +165,7 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
         const double re = search->shift + found->re[k] / size2, im = -found->im[k] / size2;
         double *x = found->x + 2 * rows * k, *y = found->y + 2 * rows * k;
         for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, im > 0 */
-        status = dmb_modes_take_root(search, re, fabs(im), x, y);
+        status = dmb_modes_add_root(search, re, fabs(im), x, y);
     }
     return status;
 }
@@ -180,7 +180,7 @@ static double low_frequency(dmb_mode_search *search)
     double *x = search->work, *y = x + rows, *z = y + rows, up = 0.0, down = 0.0;
     uint64_t seed = 7;
     draw_motion(linear, &seed, x, y);
-    dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
+    dmb_modes_add_rigid(search, search->rigid_momentum, search->rigid, x);
     mass_times(linear, x, y);
     memcpy(z, y, rows * sizeof(double));
     dmb_linear_solve(linear, z);
@@ -254,7 +254,7 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     if (status < 0) return status;
     search->modes->info.solves += found.applications;
     search->reach = found.next > 0.0 ? 1.0 / found.next : 0.0;
-    if (found.count > 0) status = search->general ? take_general(search, &found) : refine(search, &found);
+    if (found.count > 0) status = search->general ? add_general(search, &found) : refine(search, &found);
     dmb_krylov_release(&found);
     return status;
 }
@@ -297,11 +297,11 @@ static void metric(void *context, const double *x, double *y)
 static void solve(shifted *T)
 {
     const dmb_mode_search *s = T->search;
-    dmb_modes_take_rigid(s, s->rigid, s->rigid_momentum, T->f.re);
-    dmb_modes_take_rigid(s, s->rigid, s->rigid_momentum, T->f.im);
+    dmb_modes_add_rigid(s, s->rigid, s->rigid_momentum, T->f.re);
+    dmb_modes_add_rigid(s, s->rigid, s->rigid_momentum, T->f.im);
     dmb_dynamic_stiffness_solve(&T->stiffness, 0, T->f);
-    dmb_modes_take_rigid(s, s->rigid_momentum, s->rigid, T->f.re);
-    dmb_modes_take_rigid(s, s->rigid_momentum, s->rigid, T->f.im);
+    dmb_modes_add_rigid(s, s->rigid_momentum, s->rigid, T->f.re);
+    dmb_modes_add_rigid(s, s->rigid_momentum, s->rigid, T->f.im);
 }
 
 static void apply(void *context, const double *x, const double *Gx, double *y)
@@ -377,7 +377,7 @@ static int32_t take(shifted *T, const dmb_krylov *found)
         const number s = root_of(T, found, k);
         double *x = found->x + 2 * n * k, *y = found->y + 2 * n * k;
         for (size_t i = 0; i < n && cimag(s) < 0.0; i++) y[i] = -y[i]; /* its conjugate */
-        status = dmb_modes_take_root(search, creal(s), found->im[k] > 0.0 ? fabs(cimag(s)) : 0.0, x, y);
+        status = dmb_modes_add_root(search, creal(s), found->im[k] > 0.0 ? fabs(cimag(s)) : 0.0, x, y);
     }
     return status;
 }

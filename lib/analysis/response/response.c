@@ -40,7 +40,7 @@ static void lay_out(dmb_arena *arena, dmb_response_work *w)
     }
 }
 
-static int32_t take_memory(dmb_response_work *w)
+static int32_t allocate_memory(dmb_response_work *w)
 {
     dmb_arena arena;
     dmb_arena_count(&arena);
@@ -83,7 +83,7 @@ static int32_t linearise(dmb_response_work *w)
     return dmb_dynamic_group_make(&w->stiffness, w->excitation_count < SIDES ? w->excitation_count : SIDES, &w->group);
 }
 
-static int32_t take_inputs(dmb_response_work *w, const dmb_excitation *excitations, dmb_response *response)
+static int32_t read_inputs(dmb_response_work *w, const dmb_excitation *excitations, dmb_response *response)
 {
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < w->excitation_count && status >= 0; i++) {
@@ -97,7 +97,7 @@ static int32_t take_inputs(dmb_response_work *w, const dmb_excitation *excitatio
     return status;
 }
 
-static int32_t take_outputs(dmb_response_work *w, const dmb_response_output *outputs)
+static int32_t read_outputs(dmb_response_work *w, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_response_output output;
@@ -105,7 +105,7 @@ static int32_t take_outputs(dmb_response_work *w, const dmb_response_output *out
         if (status < 0) return status;
         status = dmb_linear_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
         if (status < 0) return status;
-        w->takes_forces |= w->outputs[i].support_count > 0 || w->outputs[i].cluster != DMB_NONE;
+        w->needs_forces |= w->outputs[i].support_count > 0 || w->outputs[i].cluster != DMB_NONE;
     }
     return DMB_OK;
 }
@@ -147,12 +147,12 @@ static int32_t refine(dmb_response_work *w, dmb_response *response)
 static int32_t respond(dmb_response_work *w, const dmb_excitation *excitations, const dmb_response_output *outputs,
                        dmb_response *response)
 {
-    int32_t status = take_memory(w);
+    int32_t status = allocate_memory(w);
     if (status >= 0) status = linearise(w);
     if (status >= 0)
         response->undamped = !(w->options.structural_damping > 0.0) && dmb_linear_is_undamped(w->linear, w->x.re);
-    if (status >= 0) status = take_inputs(w, excitations, response);
-    if (status >= 0) status = take_outputs(w, outputs);
+    if (status >= 0) status = read_inputs(w, excitations, response);
+    if (status >= 0) status = read_outputs(w, outputs);
     if (status >= 0) status = solve_grid(w, response);
     for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) {
         dmb_progress_at(w->sim, (1.0 + k) / (1.0 + w->options.refinement));

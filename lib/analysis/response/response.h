@@ -132,7 +132,7 @@ typedef struct dmb_response_work {
     dmb_linear_output *outputs;
     uint32_t excitation_count, output_count;
     dmb_complex_array x, f; /* displacements, and the forces that lead to them, shape (rows) */
-    int32_t takes_forces;   /* 1: some output is a reaction, which f is a part of; else f stays 0 */
+    int32_t needs_forces;   /* 1: some output is a reaction, which f is a part of; else f stays 0 */
     int32_t reserved;
     void *block;
     size_t block_size;

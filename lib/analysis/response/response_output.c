@@ -108,15 +108,15 @@ static void gap_of(const request *r, dmb_functional *out)
 }
 
 /* Rows without numbers. */
-static void take_site(const request *r, uint32_t site)
+static void add_site(const request *r, uint32_t site)
 {
     const dmb_scene *scene = r->copy->scene;
     const uint32_t node = dmb_contact_node(scene, site);
-    dmb_functional_take_node(scene, node, &r->out->functional);
-    if (dmb_is_inside(scene, site)) dmb_functional_take_node(scene, node + 1, &r->out->functional);
+    dmb_functional_add_node(scene, node, &r->out->functional);
+    if (dmb_is_inside(scene, site)) dmb_functional_add_node(scene, node + 1, &r->out->functional);
     if (site < scene->site_count) return;
-    if (node > 0) dmb_functional_take_node(scene, node - 1, &r->out->functional);
-    if (node + 1 < scene->node_count) dmb_functional_take_node(scene, node + 1, &r->out->functional);
+    if (node > 0) dmb_functional_add_node(scene, node - 1, &r->out->functional);
+    if (node + 1 < scene->node_count) dmb_functional_add_node(scene, node + 1, &r->out->functional);
 }
 
 static void normal_force(const request *r, const dmb_contact_slope *slope, dmb_functional *out)
@@ -175,7 +175,7 @@ static int32_t of_contact(const request *r)
     if (c != DMB_Z && scene->friction_law.kind == DMB_FRICTION_BRISTLE)
         return refuse(r, DMB_ERR_UNSUPPORTED, "friction of bristles is not an output");
     dmb_contact_slope_of(scene, &r->copy->now, r->output->place.pipe, &slope);
-    take_site(r, r->output->place.pipe);
+    add_site(r, r->output->place.pipe);
     r->out->elastic = 1;
     normal_force(r, &slope, &normal);
     if (c != DMB_Z) friction(r, c, &slope, &normal, &along);
@@ -186,17 +186,17 @@ static int32_t of_contact(const request *r)
 /* ---- Forces of supports and constraints ----------------------------------------------------------------------------
  */
 
-static void take_cluster_of_node(const request *r, uint32_t node)
+static void set_cluster_of_node(const request *r, uint32_t node)
 {
     const dmb_scene *scene = r->copy->scene;
     if (scene->cluster_count > 0) r->out->cluster = scene->node_cluster[node];
 }
 
-static void take_support(const request *r, uint32_t held, double weight)
+static void set_support(const request *r, uint32_t held, double weight)
 {
     r->out->support[r->out->support_count] = held;
     r->out->support_weight[r->out->support_count++] = weight;
-    take_cluster_of_node(r, r->copy->scene->constrained_node[held]);
+    set_cluster_of_node(r, r->copy->scene->constrained_node[held]);
 }
 
 /* The query is linear in the residual of constrained rows. */
@@ -212,12 +212,12 @@ static int32_t of_support(const request *r)
         *left += scale;
         const double weight = (dmb_answer_of(r->copy, r->output, &status) - base) / scale;
         *left = kept;
-        if (weight != 0.0) take_support(r, i, weight);
+        if (weight != 0.0) set_support(r, i, weight);
     }
     return DMB_OK;
 }
 
-static void take_multiplier(const request *r, uint32_t constraint, uint32_t k, double weight)
+static void set_multiplier(const request *r, uint32_t constraint, uint32_t k, double weight)
 {
     const dmb_scene *scene = r->copy->scene;
     const dmb_constraint *c = scene->constraints + constraint;
@@ -232,7 +232,7 @@ static int32_t of_multiplier(const request *r)
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "component is no row of a joint, coupling, constraint or joint drive");
-    take_multiplier(r, dmb_constraint_of_part(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
+    set_multiplier(r, dmb_constraint_of_part(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
     return DMB_OK;
 }
 
@@ -243,11 +243,11 @@ static uint32_t joint_of(const request *r)
     return dmb_model_part_index(r->copy->model, r->output->place.part, DMB_PART_JOINT);
 }
 
-static const dmb_constraint *take_joint_nodes(const request *r, uint32_t j, dmb_functional *out)
+static const dmb_constraint *add_joint_nodes(const request *r, uint32_t j, dmb_functional *out)
 {
     const dmb_scene *scene = r->copy->scene;
     const dmb_constraint *c = scene->constraints + scene->joints[j].constraint;
-    for (uint32_t i = 0; i < c->node_count; i++) dmb_functional_take_node(scene, c->node[i], out);
+    for (uint32_t i = 0; i < c->node_count; i++) dmb_functional_add_node(scene, c->node[i], out);
     return c;
 }
 
@@ -255,7 +255,7 @@ static const dmb_constraint *take_joint_nodes(const request *r, uint32_t j, dmb_
 static void coordinate(const request *r, uint32_t j, int32_t component, dmb_functional *out)
 {
     const dmb_sim *copy = r->copy;
-    const dmb_constraint *c = take_joint_nodes(r, j, out);
+    const dmb_constraint *c = add_joint_nodes(r, j, out);
     double row[DMB_CONSTRAINT_COLUMNS] = {0.0};
     dmb_relative relative;
     dmb_joint_coordinates at;
@@ -275,7 +275,7 @@ static void law_of_joint(const request *r, uint32_t j)
     dmb_functional position = *none;
     dmb_joint_force force;
     coordinate(r, j, c, &position);
-    (void)take_joint_nodes(r, j, &r->out->functional);
+    (void)add_joint_nodes(r, j, &r->out->functional);
     if (joint->law == DMB_NONE || (joint->law_mask >> c & 1) == 0 || r->copy->joint_state[j] == DMB_JOINT_OPEN) return;
     (void)dmb_answer_joint(r->copy, r->output->place.part, &state);
     dmb_joint_force_at(r->copy->scene->laws + joint->law + c, state.position[c], state.speed[c], &force);
@@ -286,7 +286,7 @@ static void law_of_joint(const request *r, uint32_t j)
 /* Linear in the multipliers, and rotating with the bodies. */
 static void reaction_of_joint(const request *r, uint32_t j)
 {
-    const dmb_constraint *c = take_joint_nodes(r, j, &r->out->functional);
+    const dmb_constraint *c = add_joint_nodes(r, j, &r->out->functional);
     int32_t status;
     const double base = dmb_answer_of(r->copy, r->output, &status), step = fmax(fabs(base), 1.0);
     dmb_functional_of_answer(r->linear, answer, r->output, &r->out->functional);
@@ -294,8 +294,8 @@ static void reaction_of_joint(const request *r, uint32_t j)
         double *f = r->copy->now.multiplier + c->row + k;
         const double kept = *f;
         *f = kept + step;
-        take_multiplier(r, r->copy->scene->joints[j].constraint, k,
-                        (dmb_answer_of(r->copy, r->output, &status) - base) / step);
+        set_multiplier(r, r->copy->scene->joints[j].constraint, k,
+                       (dmb_answer_of(r->copy, r->output, &status) - base) / step);
         *f = kept;
     }
 }
@@ -337,7 +337,7 @@ static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
     if (drive->joint != DMB_NONE) {
         coordinate(r, drive->joint, drive->component, &position);
     } else {
-        dmb_functional_take_node(r->copy->scene, drive->node, &position);
+        dmb_functional_add_node(r->copy->scene, drive->node, &position);
         position.pose[drive->row - r->copy->scene->layout.row[drive->node]] = 1.0;
     }
     r->out->functional = position;
@@ -359,11 +359,11 @@ static int32_t of_drive(const request *r)
     if (drive->kind == DMB_DRIVE_CONTROL) control(r, i, drive);
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if (drive->joint != DMB_NONE) {
-        take_multiplier(r, drive->constraint, 0, -1.0);
+        set_multiplier(r, drive->constraint, 0, -1.0);
         return DMB_OK;
     }
     for (uint32_t h = 0; h < scene->constrained_count; h++)
-        if (dmb_constrained_row(scene, h) == drive->row) take_support(r, h, 1.0);
+        if (dmb_constrained_row(scene, h) == drive->row) set_support(r, h, 1.0);
     return DMB_OK;
 }
 
@@ -377,7 +377,7 @@ static int32_t of_bit(const request *r)
     dmb_bit_slope_of(r->copy, k, &slope);
     const double *by = r->output->component == DMB_X ? slope.weight : slope.torque;
     const size_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_SIX_DOF ? 1 : 3;
-    dmb_functional_take_node(scene, scene->bits[k].node, out);
+    dmb_functional_add_node(scene, scene->bits[k].node, out);
     for (uint32_t c = 0; c < out->count; c++) {
         out->pose[c] = by[0] * slope.along[stride * c] + by[1] * slope.about[stride * c];
         out->speed[c] = by[2] * slope.along[stride * c] + by[3] * slope.about[stride * c];

@@ -35,7 +35,7 @@ static int32_t load(dmb_response_work *w, uint32_t input, double omega)
     if (e->law == DMB_EXCITE_MOTION) re = 0.0, im = -1.0 / omega;
     if (!isfinite(im)) return no_displacement(w, input);
     scale_rows(w->linear->rows, re, im, rows, w->x);
-    if (w->takes_forces) scale_rows(w->linear->rows, kept * re, kept * im, rows, w->f);
+    if (w->needs_forces) scale_rows(w->linear->rows, kept * re, kept * im, rows, w->f);
     return DMB_OK;
 }
 
@@ -50,7 +50,7 @@ static int32_t nothing_holds(const dmb_response_work *w, double frequency, uint3
 }
 
 /* Outputs at a point for an excitation; x, f of the work are those of this point. */
-static void take_values(dmb_response_work *w, dmb_response *response, uint32_t point, uint32_t excitation)
+static void write_values(dmb_response_work *w, dmb_response *response, uint32_t point, uint32_t excitation)
 {
     const double s[2] = {0.0, w->stiffness.omega};
     double *value = dmb_response_value(response, point, excitation);
@@ -82,7 +82,7 @@ static int32_t solve_alone(dmb_response_work *w, dmb_response *response, uint32_
         const int32_t status = load(w, i, omega);
         if (status < 0) return status;
         dmb_dynamic_stiffness_solve(&w->stiffness, is_motion(w, i), w->x);
-        take_values(w, response, point, i);
+        write_values(w, response, point, i);
     }
     return DMB_OK;
 }
@@ -113,9 +113,9 @@ static void get_values(dmb_response_work *w, dmb_response *response, uint32_t po
 {
     for (uint32_t c = 0; c < b->count; c++) {
         const uint32_t i = b->first + c;
-        if (w->takes_forces || is_motion(w, i)) (void)load(w, i, w->group.omega[lane]); /* checked by put_sides */
+        if (w->needs_forces || is_motion(w, i)) (void)load(w, i, w->group.omega[lane]); /* checked by put_sides */
         dmb_dynamic_group_get(&w->group, lane, c, is_motion(w, i), w->x);
-        take_values(w, response, point, i);
+        write_values(w, response, point, i);
     }
 }
 

@@ -77,7 +77,7 @@ static int32_t read_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
 }
 
 /* Order i of the caller's array, with the item size of the first one. */
-static int32_t take_order(const speeds_run *r, uint32_t i, dmb_order *out)
+static int32_t read_order(const speeds_run *r, uint32_t i, dmb_order *out)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "order", i);
     const unsigned char *item = (const unsigned char *)r->orders + (size_t)i * r->orders->struct_size;
@@ -167,12 +167,12 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     dmb_order order;
     dmb_response *response = NULL;
     uint32_t shape[3];
-    int32_t status = take_order(r, k, &order);
+    int32_t status = read_order(r, k, &order);
     if (status < 0) return status;
     const dmb_response_options options = response_options(r, order.order);
     dmb_sim_hand_on(r->sim, (double)k / r->order_count, (k + 1.0) / r->order_count);
     status = dmb_analysis_response(r->sim, &options, &order.excitation, 1, r->outputs, r->output_count, &response);
-    dmb_sim_take_back(r->sim);
+    dmb_sim_resume(r->sim);
     if (status < 0) return status;
     if (status == DMB_NOTE_INCOMPLETE) r->left_out = r->sim->message;
     if (response->undamped) r->report.undamped = 1;

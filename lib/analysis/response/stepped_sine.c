@@ -171,7 +171,7 @@ static int32_t run_window(sine_run *r)
         const double done = (r->report.windows + (double)j / n) / r->options.windows;
         dmb_sim_hand_on(r->sim, done, done);
         const int32_t status = dmb_sim_step(r->sim, r->begin + (j + 1) * r->step - now, &report);
-        dmb_sim_take_back(r->sim);
+        dmb_sim_resume(r->sim);
         if (status < 0) return status;
         r->report.steps += report.steps;
         r->report.rejected += report.rejected;
@@ -230,7 +230,7 @@ static int32_t settle(sine_run *r)
 
 /* ---- The call ---------------------------------------------------------------------------------------------------- */
 
-static int32_t take_memory(sine_run *r)
+static int32_t allocate_memory(sine_run *r)
 {
     const size_t numbers = (size_t)r->outputs * (1 + 2 * (size_t)r->width);
     r->block_size = r->outputs * sizeof(sine_output) + numbers * sizeof(double);
@@ -246,7 +246,7 @@ static int32_t take_memory(sine_run *r)
     return DMB_OK;
 }
 
-static int32_t take_outputs(sine_run *r, const dmb_response_output *outputs)
+static int32_t read_outputs(sine_run *r, const dmb_response_output *outputs)
 {
     for (uint32_t i = 0; i < r->outputs; i++) {
         dmb_response_output *output = &r->output[i].output;
@@ -264,8 +264,8 @@ static int32_t take_outputs(sine_run *r, const dmb_response_output *outputs)
 
 static int32_t shake(sine_run *r, const dmb_response_output *outputs)
 {
-    int32_t status = take_memory(r);
-    if (status >= 0) status = take_outputs(r, outputs);
+    int32_t status = allocate_memory(r);
+    if (status >= 0) status = read_outputs(r, outputs);
     if (status >= 0) status = settle(r);
     r->report.time = dmb_sim_time(r->sim);
     return status;

@@ -271,7 +271,7 @@ static void align(const dmb_sim *sim, const double *as, double *quaternion)
     }
 }
 
-static void take_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_rated_parameter *p)
+static void read_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_rated_parameter *p)
 {
     const size_t quaternions = (size_t)(dmb_rates_of(s, p, s->sim->now.quaternion) - p->rates);
     double *low = s->low, *high = s->high;
@@ -312,14 +312,14 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
     for (uint32_t i = 0; i < count; i++) {
         dmb_parameter p = dmb_parameter_default();
         (void)dmb_parameter_read(&p, (const unsigned char *)given + (size_t)i * given->struct_size);
-        take_parameter(made, &p, &made->parameters[i]);
+        read_parameter(made, &p, &made->parameters[i]);
     }
     made->follower.follow = dmb_sensitivity_companions;
     made->follower.open = dmb_sensitivity_note_opening;
     made->follower.context = made;
     made->magic = DMB_HANDLE_SENSITIVITY;
     dmb_sensitivity_settle(made, 0);
-    dmb_sensitivity_take_sight(made, &sim->now);
+    dmb_sensitivity_read_sight(made, &sim->now);
     *out = made;
     return DMB_OK;
 }

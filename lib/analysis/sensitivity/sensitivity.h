@@ -37,7 +37,7 @@ struct dmb_sensitivity {
     size_t numbers;                  /* length of the state */
     double *high, *low;              /* states on both sides, shape (numbers) */
     double *middle;                  /* the same of the sim, by a companion step, if a parameter is one-sided */
-    double *seen;     /* displacement, velocity and acceleration of the rates, dmb_sensitivity_take_sight */
+    double *seen;     /* displacement, velocity and acceleration of the rates, dmb_sensitivity_read_sight */
     double *settings; /* of the inputs at creation, which must not change, shape (input) */
     dmb_companion_workspace workspace;
     dmb_follower follower;
@@ -73,7 +73,7 @@ void dmb_sensitivity_aside(dmb_sensitivity *s, const dmb_rated_parameter *p, int
 /* DMB_OK, DMB_ERR_NULL, _HANDLE; _ORDER within one of its calls. */
 int32_t dmb_sensitivity_alive(const dmb_sensitivity *s);
 /* Records the displacements, velocities and accelerations to which the rates belong. */
-void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of);
+void dmb_sensitivity_read_sight(dmb_sensitivity *s, const dmb_configuration *of);
 /* DMB_ERR_ORDER with a message if the sim is not in the state of the rates. */
 int32_t dmb_sensitivity_stands(const dmb_sensitivity *s);
 /* Restores the rates before the call (back), or stores the present ones for the next call. */

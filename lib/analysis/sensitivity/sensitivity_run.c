@@ -57,7 +57,7 @@ static uint64_t sides_of(const dmb_sim *sim)
 /* ---- Along a step ------------------------------------------------------------------------------------------------ */
 
 /* rates <- (high - low)/span. INPUTS are set by the caller and do not change; NaN: unset. */
-static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const double *low, double span)
+static void add_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const double *low, double span)
 {
     size_t at = 0;
     dmb_state_fields of;
@@ -106,9 +106,9 @@ static int32_t move_parameter(dmb_sensitivity *s, const dmb_nominal_step *nomina
     if (status < 0) return status;
     p->kinks += sides != low_sides;
     if (p->one_sided)
-        take_difference(s, p, s->middle, p->step);
+        add_difference(s, p, s->middle, p->step);
     else
-        take_difference(s, p, s->low, 2.0 * p->step);
+        add_difference(s, p, s->low, 2.0 * p->step);
     return DMB_OK;
 }
 
@@ -119,7 +119,7 @@ static int any_one_sided(const dmb_sensitivity *s)
     return 0;
 }
 
-void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of)
+void dmb_sensitivity_read_sight(dmb_sensitivity *s, const dmb_configuration *of)
 {
     const size_t n = 3 * (size_t)s->sim->scene->node_count, r = s->sim->scene->row_count;
     memcpy(s->seen, of->displacement, n * sizeof(double));
@@ -205,7 +205,7 @@ int32_t dmb_sensitivity_companions(void *context, const dmb_trial_step *trial_st
     if (status < 0) return status;
     const int32_t followed = follow_all(s, &nominal);
     if (followed < 0) return followed;
-    dmb_sensitivity_take_sight(s, &s->sim->trial);
+    dmb_sensitivity_read_sight(s, &s->sim->trial);
     /* with the accelerations that bounces leave when the step is accepted: no jump of theirs is to be followed */
     if (trial_step->bounced)
         dmb_bounces_add_accelerations(s->sim,
@@ -232,7 +232,7 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back)
         if (back) p->kinks = p->accepted_kinks;
         p->accepted_kinks = p->kinks;
     }
-    if (back) dmb_sensitivity_take_sight(s, &s->sim->now);
+    if (back) dmb_sensitivity_read_sight(s, &s->sim->now);
 }
 
 int32_t dmb_sensitivity_stands(const dmb_sensitivity *s)
@@ -250,7 +250,7 @@ int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
     if (accelerates_as_seen(s)) return DMB_OK;
     const int32_t status = jump_all(s);
     if (status >= 0) {
-        dmb_sensitivity_take_sight(s, &s->sim->now);
+        dmb_sensitivity_read_sight(s, &s->sim->now);
         dmb_sensitivity_settle(s, 0);
         return status;
     }
@@ -260,7 +260,7 @@ int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
 }
 
 /* 1: the sim has accepted the step of the last companion steps; 0: these were not completed, or the step was undone. */
-static int has_taken_the_last(const dmb_sensitivity *s)
+static int has_seen_the_last(const dmb_sensitivity *s)
 {
     return s->followed && s->sim->clock->time > s->followed_from;
 }
@@ -294,7 +294,7 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     s->sim->follower = &s->follower;
     status = step ? dmb_sim_step(s->sim, to, report) : dmb_sim_advance(s->sim, to, report);
     s->sim->follower = NULL;
-    dmb_sensitivity_settle(s, status < 0 && (step || !has_taken_the_last(s)));
+    dmb_sensitivity_settle(s, status < 0 && (step || !has_seen_the_last(s)));
     s->busy = 0;
     (void)dmb_sensitivity_catch_up(s); /* at a new breakpoint; if it fails, the next call reports it */
     if (status != DMB_OK || kinks_of(s) == kinks) return status;

@@ -59,7 +59,7 @@ void dmb_sensitivity_stand(dmb_sensitivity *s)
 {
     s->worker->scene = s->sim->scene;
     s->worker->model = s->sim->model;
-    dmb_state_take(s->sim, s->worker);
+    dmb_state_assign(s->sim, s->worker);
     for (uint32_t k = 0; k < s->worker->scene->cluster_count; k++) dmb_cluster_note_places(s->worker, k);
 }
 

@@ -119,7 +119,7 @@ static void lay_out_work(dmb_arena *arena, dmb_space_work *w)
     }
 }
 
-static int32_t take_work(dmb_space_work *w)
+static int32_t allocate_work(dmb_space_work *w)
 {
     dmb_arena arena;
     dmb_arena_count(&arena);
@@ -132,7 +132,7 @@ static int32_t take_work(dmb_space_work *w)
     return DMB_OK;
 }
 
-static int32_t take_inputs(dmb_space_work *w, const dmb_excitation *inputs)
+static int32_t read_inputs(dmb_space_work *w, const dmb_excitation *inputs)
 {
     for (uint32_t i = 0; i < w->input_count; i++) {
         dmb_excitation input;
@@ -168,7 +168,7 @@ static void lay_out_space(dmb_arena *arena, const dmb_space_work *w, size_t room
     s->D = DMB_ARENA_DOUBLES(arena, (size_t)w->output_count * w->input_count);
 }
 
-static int32_t take_space(dmb_space_work *w, size_t room)
+static int32_t allocate_space(dmb_space_work *w, size_t room)
 {
     dmb_state_space *s = w->space;
     const dmb_linear *linear = w->linear;
@@ -200,7 +200,7 @@ static int32_t make_room(dmb_space_work *w)
 {
     const uint64_t room = w->options.form == DMB_STATE_MATRICES ? 0 : dmb_space_basis_workspace(w);
     const uint64_t states = 2 * room + w->space->info.input_states;
-    return states > STATES_MAX ? refuse_size(w, states) : take_space(w, (size_t)room);
+    return states > STATES_MAX ? refuse_size(w, states) : allocate_space(w, (size_t)room);
 }
 
 /* ---- The analysis ------------------------------------------------------------------------------------------------ */
@@ -217,7 +217,7 @@ static void number_states(dmb_space_work *w)
     info->states = state;
 }
 
-static void take_info(dmb_space_work *w)
+static void write_info(dmb_space_work *w)
 {
     dmb_state_space_info *info = &w->space->info;
     info->inputs = w->input_count;
@@ -232,12 +232,12 @@ static void take_info(dmb_space_work *w)
 static int32_t run(dmb_space_work *w, const dmb_excitation *inputs, const dmb_response_output *outputs)
 {
     int32_t status = linearise(w);
-    if (status >= 0) status = take_work(w);
-    if (status >= 0) status = take_inputs(w, inputs);
-    if (status >= 0) status = dmb_space_take_outputs(w, outputs);
+    if (status >= 0) status = allocate_work(w);
+    if (status >= 0) status = read_inputs(w, inputs);
+    if (status >= 0) status = dmb_space_read_outputs(w, outputs);
     if (status >= 0) status = make_room(w);
     if (status < 0) return status;
-    take_info(w);
+    write_info(w);
     if (w->options.form == DMB_STATE_MATRICES) return DMB_OK;
     status = dmb_space_make_basis(w);
     if (status < 0) return status;

@@ -48,7 +48,7 @@ static void reduce(dmb_space_work *w, double *f, double *g)
 /* ---- Motion ------------------------------------------------------------------------------------------------------ */
 
 /* Column of A for the matrix `A` and the motion x: minus its accelerations. */
-static void take_off(dmb_space_work *w, const dmb_linear_matrix *A, const double *x, uint32_t column)
+static void subtract_motion(dmb_space_work *w, const dmb_linear_matrix *A, const double *x, uint32_t column)
 {
     const uint32_t rows = w->linear->rows, r = count(w);
     double *f = w->work, *g = w->work + rows;
@@ -63,8 +63,8 @@ static int32_t fill_motion(dmb_space_work *w)
     int32_t status = DMB_OK;
     for (uint32_t j = 0; j < r && status >= 0; j++) {
         A_row(w, j)[r + j] = 1.0;
-        take_off(w, &w->linear->stiffness, shape(w, j), j);
-        take_off(w, &w->linear->damping, shape(w, j), r + j);
+        subtract_motion(w, &w->linear->stiffness, shape(w, j), j);
+        subtract_motion(w, &w->linear->damping, shape(w, j), r + j);
         status = dmb_progress_pulse(w->sim);
     }
     return status;
@@ -260,8 +260,8 @@ int32_t dmb_space_fill(dmb_space_work *w)
  * the coefficient of each row's force, a_r = -(output for a unit force on row r without motion). */
 
 /* a_r of one row. */
-static double share_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
-                           dmb_complex_array force, uint32_t row)
+static double fraction_of_row(dmb_space_work *w, const dmb_linear_output *output, dmb_complex_array zeros,
+                              dmb_complex_array force, uint32_t row)
 {
     const dmb_linear_excitation none = {.drive = DMB_NONE, .bit = DMB_NONE};
     force.re[row] = -1.0;
@@ -270,7 +270,7 @@ static double share_of_row(dmb_space_work *w, const dmb_linear_output *output, d
     return value;
 }
 
-static void take_shares(dmb_space_work *w, const dmb_linear_output *output, double *shares)
+static void read_fractions(dmb_space_work *w, const dmb_linear_output *output, double *fractions)
 {
     const dmb_scene *scene = &w->linear->scene;
     const size_t rows = w->linear->rows;
@@ -279,18 +279,18 @@ static void take_shares(dmb_space_work *w, const dmb_linear_output *output, doub
     memset(w->work, 0, 4 * rows * sizeof(double));
     for (uint32_t k = 0; k < output->support_count; k++) {
         const uint32_t row = dmb_constrained_row(scene, output->support[k]);
-        shares[row] = share_of_row(w, output, zeros, force, row);
+        fractions[row] = fraction_of_row(w, output, zeros, force, row);
     }
     if (output->cluster == DMB_NONE) return;
     const dmb_cluster *cluster = scene->clusters + output->cluster;
     for (uint32_t i = cluster->column; i < cluster->column + cluster->columns; i++) {
         const uint32_t row = scene->cluster_columns[i];
-        shares[row] = share_of_row(w, output, zeros, force, row);
+        fractions[row] = fraction_of_row(w, output, zeros, force, row);
     }
 }
 
 /* Adds the functional and its time derivatives: at most two, of outputs that depend on the pose alone. */
-static void take_functional(const dmb_linear_output *output, dmb_output_rows *out)
+static void read_functional(const dmb_linear_output *output, dmb_output_rows *out)
 {
     double *rates[5] = {out->pose, out->speed, out->acceleration, NULL, NULL};
     const dmb_functional *f = &output->functional;
@@ -301,28 +301,28 @@ static void take_functional(const dmb_linear_output *output, dmb_output_rows *ou
     }
 }
 
-static void take_output(dmb_space_work *w, const dmb_linear_output *output, dmb_output_rows *out)
+static void read_output(dmb_space_work *w, const dmb_linear_output *output, dmb_output_rows *out)
 {
     const dmb_sparse_rows *whole = &w->space->whole;
     const uint32_t rows = w->linear->rows;
-    double *shares = w->work + 4 * (size_t)rows;
+    double *fractions = w->work + 4 * (size_t)rows;
     out->drive = output->drive;
     out->bit = output->bit;
     out->direct = output->direct;
     out->integral = output->integral;
-    take_functional(output, out);
+    read_functional(output, out);
     if (output->support_count > 0 || output->cluster != DMB_NONE) {
-        memset(shares, 0, rows * sizeof(double));
-        take_shares(w, output, shares);
-        dmb_sparse_add_transposed(whole, DMB_WHOLE_STIFFNESS, shares, out->pose);
-        dmb_sparse_add_transposed(whole, DMB_WHOLE_DAMPING, shares, out->speed);
-        dmb_sparse_add_transposed(whole, DMB_WHOLE_MASS, shares, out->acceleration);
-        for (uint32_t r = 0; r < rows; r++) out->force[r] = -shares[r];
+        memset(fractions, 0, rows * sizeof(double));
+        read_fractions(w, output, fractions);
+        dmb_sparse_add_transposed(whole, DMB_WHOLE_STIFFNESS, fractions, out->pose);
+        dmb_sparse_add_transposed(whole, DMB_WHOLE_DAMPING, fractions, out->speed);
+        dmb_sparse_add_transposed(whole, DMB_WHOLE_MASS, fractions, out->acceleration);
+        for (uint32_t r = 0; r < rows; r++) out->force[r] = -fractions[r];
     }
     for (uint32_t r = 0; r < rows; r++) out->accelerates |= out->acceleration[r] != 0.0;
 }
 
-int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *outputs)
+int32_t dmb_space_read_outputs(dmb_space_work *w, const dmb_response_output *outputs)
 {
     dmb_response_options options = dmb_response_options_default();
     options.contact = w->options.contact;
@@ -334,7 +334,7 @@ int32_t dmb_space_take_outputs(dmb_space_work *w, const dmb_response_output *out
         int32_t status = dmb_output_get(outputs, i, &w->sim->message, &output);
         if (status >= 0) status = dmb_linear_output_of(w->linear, &options, &output, i, &w->sim->message, &taken);
         if (status < 0) return status;
-        take_output(w, &taken, w->outputs + i);
+        read_output(w, &taken, w->outputs + i);
     }
     return DMB_OK;
 }

@@ -101,7 +101,7 @@ static int32_t search_further(dmb_static_search *search, int32_t status, int32_t
     const int singular = status == DMB_ERR_SINGULAR;
     *method = DMB_STATIC_RELAXATION;
     status = relax(search, steps, singular);
-    if (status >= 0) return dmb_static_take_back(search);
+    if (status >= 0) return dmb_static_revert(search);
     if (!(singular || search->unconstrained)) return status;
     search->block = singular ? singular_block : search->unconstrained_block;
     return DMB_ERR_SINGULAR;
@@ -232,14 +232,14 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     const int32_t status = dmb_static_evaluate(search);
     if (status < 0) return status;
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
-    dmb_contacts_take_slip(sim);
-    dmb_clusters_take_multipliers(sim);
+    dmb_contacts_copy_slip(sim);
+    dmb_clusters_copy_multipliers(sim);
     dmb_system_get_reactions(sim, &sim->now);
     return DMB_OK;
 }
 
 /* Velocities of the state: 0, or those of the steady motion, with the contact history of that motion. */
-static int32_t take_motion(dmb_static_search *search)
+static int32_t set_motion(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
@@ -278,7 +278,7 @@ static int32_t refuse_torn(const dmb_static_search *search)
     dmb_sim *sim = search->sim;
     dmb_message name;
     for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
-        const double share = dmb_stuck_share(sim, &sim->trial, i, 0);
+        const double share = dmb_stuck_ratio(sim, &sim->trial, i, 0);
         if (!(share > 1.0)) continue;
         dmb_message_set(&sim->message,
                         "static: %s: force or torque = %g times the one at which it is released, must be <= 1; pull "
@@ -297,7 +297,7 @@ static int32_t settle(dmb_static_search *search)
     dmb_sim *sim = search->sim;
     dmb_system_unwrap(sim);
     dmb_system_accept(&search->evaluation);
-    int32_t status = take_motion(search);
+    int32_t status = set_motion(search);
     guess_rock(search);
     const dmb_counters counters = *sim->counters;
     if (status >= 0) status = dmb_system_restart(sim);

@@ -239,7 +239,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search);
 int32_t dmb_static_push_aside(dmb_static_search *search, uint32_t number);
 /* Returns strings without axial constraint to the initial position of their rig end, if they are in equilibrium
  * there. */
-int32_t dmb_static_take_back(dmb_static_search *search);
+int32_t dmb_static_revert(dmb_static_search *search);
 
 /* Sets the message of a failed analysis: the part, the value with its bound, and the remedy. */
 void dmb_static_explain(dmb_static_search *search, int32_t status);

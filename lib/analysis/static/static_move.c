@@ -52,7 +52,7 @@ static void add_increment(dmb_sim *sim, const double *correction, double factor)
 }
 
 /* z (6) = factor times the correction of a node */
-static void take_rows(const dmb_scene *scene, uint32_t node, const double *correction, double factor, double z[6])
+static void copy_rows(const dmb_scene *scene, uint32_t node, const double *correction, double factor, double z[6])
 {
     for (uint32_t c = 0; c < 6; c++)
         z[c] = c < scene->layout.size[node] ? factor * correction[scene->layout.row[node] + c] : 0.0;
@@ -74,7 +74,7 @@ void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
     double z[6];
     add_increment(sim, correction, factor);
     for (uint32_t i = 0; i < sim->scene->node_count; i++) {
-        take_rows(sim->scene, i, correction, factor, z);
+        copy_rows(sim->scene, i, correction, factor, z);
         displace_node(sim, i, z);
     }
 }
@@ -158,7 +158,7 @@ static void displace_winding(const dmb_static_search *search, const double *corr
     double z[6];
     add_increment(sim, correction, side * factor);
     for (uint32_t i = 0, s = 0; i < sim->scene->node_count; i++) {
-        take_rows(sim->scene, i, correction, factor, z);
+        copy_rows(sim->scene, i, correction, factor, z);
         const uint32_t ring = search->rolling ? ring_of(sim->scene, i, &s) : DMB_NONE;
         if (sim->scene->layout.size[i] == DMB_NODE_SIX_DOF) {
             wind(sim, i, ring, side, z);
@@ -196,7 +196,7 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t row = scene->layout.row[i], size = scene->layout.size[i];
         double z[6];
-        take_rows(scene, i, direction, 1.0, z);
+        copy_rows(scene, i, direction, 1.0, z);
         if (search->winding && size == DMB_NODE_SIX_DOF) {
             const double c = cos(part * z[3]), s = sin(part * z[3]);
             for (uint32_t k = 1; k < 6; k += 3) {

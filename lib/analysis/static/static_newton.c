@@ -8,7 +8,7 @@
  *   dmb_static_growing_friction  the same with the friction of rings in place of the load
  *   dmb_static_relaxation        pseudo-transient continuation with limited corrections
  *
- * Extra steps: dmb_static_push_aside (perturbation of an unstable state), dmb_static_take_back (axial position of
+ * Extra steps: dmb_static_push_aside (perturbation of an unstable state), dmb_static_revert (axial position of
  * unconstrained strings), dmb_static_line_search. */
 #include <string.h>
 
@@ -358,7 +358,7 @@ static int32_t evaluate_again(dmb_static_search *search, double *relative)
     return status;
 }
 
-static int32_t take_back(dmb_static_search *search, const dmb_chain *chain)
+static int32_t revert(dmb_static_search *search, const dmb_chain *chain)
 {
     double before, after;
     int32_t status = evaluate_again(search, &before);
@@ -370,12 +370,12 @@ static int32_t take_back(dmb_static_search *search, const dmb_chain *chain)
     return evaluate_again(search, &after);
 }
 
-int32_t dmb_static_take_back(dmb_static_search *search)
+int32_t dmb_static_revert(dmb_static_search *search)
 {
     const dmb_scene *scene = search->sim->scene;
     int32_t status = DMB_OK;
     if (!search->winding || scene->cluster_count) return DMB_OK;
-    for (uint32_t c = 0; c < scene->chain_count && status >= 0; c++) status = take_back(search, scene->chains + c);
+    for (uint32_t c = 0; c < scene->chain_count && status >= 0; c++) status = revert(search, scene->chains + c);
     return status;
 }
 

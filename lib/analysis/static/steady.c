@@ -297,7 +297,7 @@ static void copy(const double *from, size_t count, double *to)
 
 /* Damping matrix dr/dV at increments of 0: nodes and elements store it with the inertia, joints add it to their
  * stiffness. */
-static int32_t take_damping(dmb_steady *steady, dmb_evaluation *at)
+static int32_t read_damping(dmb_steady *steady, dmb_evaluation *at)
 {
     const dmb_sim *sim = at->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
@@ -317,7 +317,7 @@ static int32_t take_damping(dmb_steady *steady, dmb_evaluation *at)
 static int32_t evaluate(dmb_steady *steady, dmb_evaluation *at)
 {
     dmb_sim *sim = at->sim;
-    int32_t status = at->tangent ? take_damping(steady, at) : DMB_OK;
+    int32_t status = at->tangent ? read_damping(steady, at) : DMB_OK;
     if (status >= 0) status = dmb_system_evaluate(at);
     if (status < 0 || !at->tangent) return status;
     dmb_linear_matrix K = dmb_linear_stiffness_of(sim);

@@ -85,7 +85,7 @@ static double size_of(const dmb_scene *scene, const double twist[6])
 }
 
 /* Twist of each driven node or joint; all moving drives must agree. */
-static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
+static int32_t set_twist(dmb_sim *sim, dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
     uint32_t first = DMB_NONE;
@@ -210,7 +210,7 @@ static int32_t check_supports(dmb_evaluation *evaluation, dmb_steady *steady)
 static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
 {
     steady->kind = DMB_STEADY_RIGID;
-    int32_t status = take_twist(sim, steady);
+    int32_t status = set_twist(sim, steady);
     if (status >= 0) status = check_steady_forces(sim, steady);
     if (status >= 0) status = check_hole(sim, steady);
     if (status >= 0) status = check_ground(sim);

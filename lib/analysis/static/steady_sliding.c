@@ -80,7 +80,7 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
 }
 
 /* Speeds of the strings [m/s, rad/s]. At most one drive moves a component of a rig end. */
-static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i)
+static int32_t set_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
@@ -130,7 +130,7 @@ int32_t dmb_steady_choose_sliding(dmb_sim *sim, dmb_steady *steady)
     int32_t status = DMB_OK;
     steady->kind = DMB_STEADY_SLIDING;
     memset(steady->speed, 0, 2 * (size_t)scene->string_count * sizeof(double));
-    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = take_speed(sim, steady, i);
+    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = set_speed(sim, steady, i);
     if (status >= 0) status = check_ends(sim, steady);
     if (status >= 0) status = check_round(sim, steady);
     return status < 0 ? status : check_turning_loads(sim, steady);

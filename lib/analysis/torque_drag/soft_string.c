@@ -51,7 +51,7 @@ static int is_stuck(const dmb_model *model, uint32_t string)
     return 0;
 }
 
-static int has_rings(const dmb_scene *scene, uint32_t string)
+static int has_stabilisers(const dmb_scene *scene, uint32_t string)
 {
     for (uint32_t i = 0; i < scene->ring_count; i++)
         if (scene->rings[i].string == string) return 1;
@@ -62,7 +62,7 @@ const char *dmb_soft_string_lacks(const dmb_model *model, const dmb_scene *scene
 {
     const dmb_string_plan *plan = (const dmb_string_plan *)model->strings.items + string;
     if (plan->def.follows_hole == 0) return "the string does not follow the hole; set follows_hole of its definition";
-    if (has_rings(scene, string))
+    if (has_stabilisers(scene, string))
         return "the string has rings, whose weight and diameter the soft string leaves out; leave them out, or ask for "
                "steady states (dmb_analysis_static)";
     if (plan->continued != 0)
@@ -99,7 +99,7 @@ typedef struct march {
     dmb_soft_place place;
 } march;
 
-static void take_pipe(march *m, const dmb_pipe_def *pipe)
+static void read_pipe(march *m, const dmb_pipe_def *pipe)
 {
     const dmb_soft_string *soft = m->soft;
     dmb_pipe_section section;
@@ -139,7 +139,7 @@ static double friction_at(const march *m, double depth)
 static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N, double *by_force)
 {
     double wall = dmb_confined_wall_force(pipe, N, by_force);
-    if (m->soft->post_buckling && N < 0.0 && !(dmb_helical_share(pipe, N) <= 1.0)) {
+    if (m->soft->post_buckling && N < 0.0 && !(dmb_helical_ratio(pipe, N) <= 1.0)) {
         wall += pipe->clearance * N * N / (4.0 * pipe->EI);
         *by_force += pipe->clearance * N / (2.0 * pipe->EI);
     }
@@ -255,8 +255,8 @@ static int visit_side(march *m, double into, dmb_soft_visit visit, void *context
     confined_at(m, m->place.depth + into, &pipe);
     m->place.wall = wall_force(m, &pipe, N, &unused);
     m->place.curvature = dmb_vec3_norm(pipe.bend);
-    m->place.sinusoidal = dmb_sinusoidal_share(&pipe, N);
-    m->place.helical = dmb_helical_share(&pipe, N);
+    m->place.sinusoidal = dmb_sinusoidal_ratio(&pipe, N);
+    m->place.helical = dmb_helical_ratio(&pipe, N);
     visit(context, &m->place);
     return 1;
 }
@@ -309,7 +309,7 @@ int dmb_soft_string_march(const dmb_soft_string *soft, const dmb_operation *oper
     int told = 0;
     for (uint32_t i = soft->model->runs.count; i-- > 0 && top > soft->start;) {
         if (runs[i].string != soft->string) continue;
-        take_pipe(&m, &runs[i].def);
+        read_pipe(&m, &runs[i].def);
         if (!told) {
             begin(&m, depth);
             if (!visit_side(&m, 0.0, visit, context)) return 0;

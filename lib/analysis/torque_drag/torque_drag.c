@@ -138,7 +138,7 @@ static double depth_of(const request *r, uint32_t i)
 }
 
 /* Operation i of the caller's array, whose stride is the struct_size of the first item. */
-static int32_t take_operation(request *r, const dmb_operation *operations, uint32_t i, dmb_operation *out)
+static int32_t read_operation(request *r, const dmb_operation *operations, uint32_t i, dmb_operation *out)
 {
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag: operation", i);
     const unsigned char *item = (const unsigned char *)operations + (size_t)i * operations->struct_size;
@@ -156,7 +156,7 @@ static int32_t take_operation(request *r, const dmb_operation *operations, uint3
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-static void take_largest(double value, double depth, double *largest, double *at)
+static void keep_largest(double value, double depth, double *largest, double *at)
 {
     if (!(value > *largest) && !isnan(value)) return;
     *largest = value;
@@ -182,10 +182,10 @@ static void visit_row(void *context, const dmb_soft_place *place)
         row->lowest_force = N;
         row->lowest_at = place->depth;
     }
-    take_largest(place->helical, place->depth, &row->helical_share, &row->buckled_at);
-    take_largest(place->sinusoidal, place->depth, &row->sinusoidal_share, NULL);
+    keep_largest(place->helical, place->depth, &row->helical_share, &row->buckled_at);
+    keep_largest(place->sinusoidal, place->depth, &row->sinusoidal_share, NULL);
     if (isnan(place->helical)) row->helical_share = row->sinusoidal_share = (double)NAN;
-    if (!isnan(row->yield_share)) take_largest(yield_share(place), place->depth, &row->yield_share, &row->yield_at);
+    if (!isnan(row->yield_share)) keep_largest(yield_share(place), place->depth, &row->yield_share, &row->yield_at);
     if (!(place->helical <= 1.0)) row->helix_length += place->step;
     row->hook_load = N;
     row->torque = place->state[DMB_SOFT_TORQUE];
@@ -236,7 +236,7 @@ static int32_t make_rows(request *r, const dmb_operation *operations, uint32_t c
         status = dmb_progress_pulse(r->sim);
         for (uint32_t k = 0; k < count && status >= 0; k++) {
             dmb_operation operation;
-            (void)take_operation(r, operations, k, &operation);
+            (void)read_operation(r, operations, k, &operation);
             made[(size_t)i * count + k] = row_of(&r->soft, &operation, depth_of(r, i));
         }
     }
@@ -257,7 +257,7 @@ static int32_t analyse(request *r, const dmb_torque_drag_options *options, const
         return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the rows is not one of this library");
     dmb_check_count(&check, "operation_count", count, 1, OPERATIONS_MAX);
     if (check.status < 0) return check.status;
-    for (uint32_t k = 0; k < count && status >= 0; k++) status = take_operation(r, operations, k, &operation);
+    for (uint32_t k = 0; k < count && status >= 0; k++) status = read_operation(r, operations, k, &operation);
     return status < 0 ? status : make_rows(r, operations, count, rows);
 }
 
@@ -307,7 +307,7 @@ static int32_t sample(request *r, const dmb_torque_drag_options *options, const 
     dmb_check check = dmb_check_of(&r->sim->message, "torque and drag profile", DMB_NONE);
     dmb_operation operation;
     int32_t status = read_options(r, options);
-    if (status >= 0) status = take_operation(r, given, 0, &operation);
+    if (status >= 0) status = read_operation(r, given, 0, &operation);
     if (status < 0) return status;
     dmb_check_count(&check, "station_count", count, 2, DEPTHS_MAX);
     if (check.status < 0) return check.status;
@@ -380,7 +380,7 @@ static int32_t fit(fitting *f, const dmb_torque_drag_options *options, const dmb
 {
     dmb_check check = dmb_check_of(&f->r->sim->message, "friction factor", DMB_NONE);
     int32_t status = read_options(f->r, options);
-    if (status >= 0) status = take_operation(f->r, operation, 0, &f->operation);
+    if (status >= 0) status = read_operation(f->r, operation, 0, &f->operation);
     if (status < 0) return status;
     f->r->soft.by_depth = f->r->options.friction_by_depth;
     dmb_check_choice(&check, "measured", f->measured, DMB_MEASURED_HOOK_LOAD, DMB_MEASURED_TORQUE);

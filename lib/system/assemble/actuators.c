@@ -90,7 +90,7 @@ void dmb_actuators_settle(dmb_sim *sim)
     }
 }
 
-void dmb_actuators_take(dmb_sim *sim)
+void dmb_actuators_copy_flow(dmb_sim *sim)
 {
     const uint32_t count = sim->scene->actuator_count;
     if (count > 0) memcpy(sim->now.actuator, sim->trial.actuator, count * sizeof(dmb_actuator_flow));
@@ -100,7 +100,7 @@ void dmb_actuators_accept(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     if (!evaluation->dynamic) {
-        dmb_actuators_take(sim);
+        dmb_actuators_copy_flow(sim);
         dmb_actuators_settle(sim);
         return;
     }

@@ -26,7 +26,7 @@ void dmb_actuators_settle(dmb_sim *sim);
 /* End of an accepted step, or of a static analysis, whose flow also becomes that of now. */
 void dmb_actuators_accept(const dmb_evaluation *evaluation);
 /* Copies the flow of the trial into now. */
-void dmb_actuators_take(dmb_sim *sim);
+void dmb_actuators_copy_flow(dmb_sim *sim);
 
 /* 1: some delayed commands may jump. */
 int32_t dmb_actuators_may_jump(const dmb_scene *scene);

@@ -86,8 +86,8 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
                        dmb_site_force *out);
 /* Its forces as used by the step that ends in the configuration, which near touch differ from those of the law
  * (eq:touch.weights). */
-void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t site,
-                            dmb_site_force *force);
+void dmb_site_weighted_force(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t site,
+                             dmb_site_force *force);
 /* Friction of a contact point with the normal force in `force`, at its slip; bristles off the wall as in steady
  * sliding. */
 void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, dmb_site_force *force);
@@ -123,14 +123,14 @@ void dmb_contact_place(dmb_sim *sim, uint32_t s, double depth);
 void dmb_contacts_start(dmb_sim *sim);
 void dmb_contacts_follow_assembly(dmb_sim *sim);
 void dmb_contacts_assume_slip(const dmb_evaluation *evaluation);
-void dmb_contacts_take_slip(dmb_sim *sim);
-void dmb_contacts_take_touch(dmb_sim *sim);
+void dmb_contacts_copy_slip(dmb_sim *sim);
+void dmb_contacts_copy_touch(dmb_sim *sim);
 void dmb_contacts_forget(dmb_sim *sim);
 void dmb_contacts_slide(dmb_sim *sim);
 
 void dmb_assemble_contacts(dmb_evaluation *evaluation);
 /* Contact forces at all points on nodes, in chunks if there are many. */
-void dmb_press_rings(const dmb_sim *sim, dmb_wall_args *args);
+void dmb_press_sites(const dmb_sim *sim, dmb_wall_args *args);
 /* Contact points inside elements whose evaluation was deferred. */
 void dmb_contacts_accept(dmb_evaluation *evaluation);
 void dmb_assemble_axial_torsional_friction(dmb_evaluation *evaluation);
@@ -247,9 +247,9 @@ void dmb_stuck_wrench_of(const dmb_sim *sim, const dmb_configuration *configurat
                          double w[6]);
 #define DMB_STUCK_REACHED (1.0 - 1e-12) /* [-] fraction of the release force at which it releases */
 /* [-] Largest force over its release force; 0 if it is not stuck. */
-double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates);
+double dmb_stuck_ratio(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates);
 /* [-] The same, largest of all stuck places. */
-double dmb_stuck_largest_share(const dmb_sim *sim, const dmb_configuration *configuration, int rates);
+double dmb_stuck_largest_ratio(const dmb_sim *sim, const dmb_configuration *configuration, int rates);
 
 /* State at time 0, as described or as set by its input. */
 void dmb_stuck_start(dmb_sim *sim, uint32_t i);

@@ -22,7 +22,7 @@ typedef struct argument {
 
 /* ---- From the scene to the question ------------------------------------------------------------------------------ */
 
-static void take_place(const dmb_scene *scene, const dmb_configuration *c, int rates, uint32_t i, argument *a,
+static void read_place(const dmb_scene *scene, const dmb_configuration *c, int rates, uint32_t i, argument *a,
                        dmb_caller_question *ask)
 {
     const dmb_scene_force *force = ask->force;
@@ -37,7 +37,7 @@ static void take_place(const dmb_scene *scene, const dmb_configuration *c, int r
     dmb_mat3_vec(a->point.R, ask->v[i] + 3, ask->v[i] + 3);
 }
 
-static void take_joint(const dmb_sim *sim, const dmb_configuration *c, int rates, uint32_t i, argument *a,
+static void read_joint(const dmb_sim *sim, const dmb_configuration *c, int rates, uint32_t i, argument *a,
                        dmb_caller_question *ask)
 {
     dmb_joint_motion_of(sim->scene, c, a->joint, &a->relative, NULL);
@@ -57,9 +57,9 @@ static void read_arguments(const dmb_sim *sim, const dmb_configuration *c, int r
         a[i].component = ask->force->component[i];
         a[i].open = 0;
         if (dmb_caller_is_place(ask->force, i))
-            take_place(sim->scene, c, rates, i, a + i, ask);
+            read_place(sim->scene, c, rates, i, a + i, ask);
         else
-            take_joint(sim, c, rates, i, a + i, ask);
+            read_joint(sim, c, rates, i, a + i, ask);
     }
 }
 
@@ -144,7 +144,7 @@ typedef struct caller_tangent {
     wide_row rate[DMB_CALLER_WIDE]; /* of V by displacements at constant velocities of the nodes */
 } caller_tangent;
 
-static void take_nodes(const dmb_scene *scene, const dmb_scene_force *force, const argument *a, dmb_force_tangent *t)
+static void read_nodes(const dmb_scene *scene, const dmb_scene_force *force, const argument *a, dmb_force_tangent *t)
 {
     dmb_force_tangent_begin(t);
     if (force->constraint != DMB_NONE) {
@@ -218,7 +218,7 @@ static void add_tangent(const dmb_evaluation *evaluation, const dmb_caller_quest
     caller_tangent t;
     memset(t.L, 0, sizeof t.L);
     memset(t.rate, 0, sizeof t.rate);
-    take_nodes(scene, force, a, &t.sum);
+    read_nodes(scene, force, a, &t.sum);
     if (force->frame != DMB_FRAME_BODY) {
         turn_matrix(ask, to->A);
         turn_matrix(ask, to->B);

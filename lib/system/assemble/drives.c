@@ -252,7 +252,7 @@ void dmb_drives_accept(const dmb_evaluation *evaluation)
     }
 }
 
-void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to)
+void dmb_drives_read_reactions(dmb_sim *sim, dmb_configuration *to)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
@@ -264,27 +264,27 @@ void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to)
     }
 }
 
-void dmb_drives_take_targets(dmb_sim *sim)
+void dmb_drives_copy_targets(dmb_sim *sim)
 {
     memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
 }
 
-static void take_joints(dmb_sim *sim)
+static void copy_joints(dmb_sim *sim)
 {
     memcpy(sim->now.drive_speed, sim->trial.drive_speed, sim->scene->drive_count * sizeof(double));
     memcpy(sim->now.drive_rate, sim->trial.drive_rate, sim->scene->drive_count * sizeof(double));
 }
 
-void dmb_drives_take_motion(dmb_sim *sim)
+void dmb_drives_copy_motion(dmb_sim *sim)
 {
     memcpy(sim->now.drive_position, sim->trial.drive_position, sim->scene->drive_count * sizeof(double));
-    take_joints(sim);
+    copy_joints(sim);
 }
 
-void dmb_drives_take_forces(dmb_sim *sim)
+void dmb_drives_copy_forces(dmb_sim *sim)
 {
-    dmb_drives_take_targets(sim);
+    dmb_drives_copy_targets(sim);
     memcpy(sim->now.drive_force, sim->trial.drive_force, sim->scene->drive_count * sizeof(double));
-    dmb_actuators_take(sim);
-    take_joints(sim);
+    dmb_actuators_copy_flow(sim);
+    copy_joints(sim);
 }

@@ -32,11 +32,11 @@ void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed
 void dmb_drives_accept(const dmb_evaluation *evaluation);
 /* Forces of motion drives, from the multipliers of the trial or, for drives of nodes, from the residual, into a
  * configuration. */
-void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to);
+void dmb_drives_read_reactions(dmb_sim *sim, dmb_configuration *to);
 /* Copies of the trial into now: targets; motion of joint coordinates; targets, forces, and speeds and rates of joints.
  */
-void dmb_drives_take_targets(dmb_sim *sim);
-void dmb_drives_take_motion(dmb_sim *sim);
-void dmb_drives_take_forces(dmb_sim *sim);
+void dmb_drives_copy_targets(dmb_sim *sim);
+void dmb_drives_copy_motion(dmb_sim *sim);
+void dmb_drives_copy_forces(dmb_sim *sim);
 
 #endif

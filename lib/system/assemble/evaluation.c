@@ -323,7 +323,7 @@ void dmb_system_get_reactions(dmb_sim *sim, dmb_configuration *to)
     for (uint32_t i = 0; i < scene->constrained_count; i++)
         sim->support_reaction[i] =
             sim->residual[scene->layout.row[scene->constrained_node[i]] + scene->constrained_component[i]];
-    dmb_drives_take_reactions(sim, to);
+    dmb_drives_read_reactions(sim, to);
 }
 
 void dmb_system_accept(dmb_evaluation *evaluation)

@@ -34,7 +34,7 @@ static int give_way(dmb_sim *sim, uint32_t j, double more)
 {
     int touched = 0;
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
-        const double share = dmb_hole_share_of_cut(&sim->scene->hole, j, sim->now.site_depth[s]);
+        const double share = dmb_hole_fraction_of_cut(&sim->scene->hole, j, sim->now.site_depth[s]);
         if (share > 0.0 && sim->now.site_penetration[s] > 0.0) touched = 1;
         sim->now.site_penetration[s] -= share * more;
     }
@@ -79,6 +79,6 @@ int dmb_hole_cut(dmb_sim *sim)
         any = 1;
         touched |= widen(sim, k, from, to);
     }
-    if (touched && sim->options.energy_ledger) dmb_ledger_take_rock(sim, stored - dmb_contact_energy(scene, &sim->now));
+    if (touched && sim->options.energy_ledger) dmb_ledger_add_rock(sim, stored - dmb_contact_energy(scene, &sim->now));
     return touched;
 }

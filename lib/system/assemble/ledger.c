@@ -63,7 +63,7 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     powers(sim, evaluation, sim->clock->power);
-    dmb_ledger_take_forces(sim);
+    dmb_ledger_copy_forces(sim);
 }
 
 /* Half of the step each, or the parts before and after a breakpoint inside, at which powers jump. */
@@ -120,20 +120,20 @@ void dmb_ledger_move(dmb_sim *sim, int kind, double excess)
 }
 
 /* Instantaneous change of energy (a joint closes): lost kinetic and stored energy are work of the impact. */
-void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
+void dmb_ledger_add_impact(dmb_sim *sim, double kinetic, double stored)
 {
     sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;
     sim->ledger->work[DMB_POWER_INERTIA] += kinetic;
     sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
 }
 
-void dmb_ledger_take_rock(dmb_sim *sim, double stored)
+void dmb_ledger_add_rock(dmb_sim *sim, double stored)
 {
     sim->ledger->work[DMB_POWER_ROCK] -= stored;
     sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
 }
 
-void dmb_ledger_take_change(dmb_sim *sim, double stored)
+void dmb_ledger_add_change(dmb_sim *sim, double stored)
 {
     sim->ledger->work[DMB_POWER_LOADS] += stored;
     sim->ledger->work[DMB_POWER_POTENTIAL] -= stored;

@@ -16,11 +16,11 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* After a jump: powers of the evaluation and forces of the trial apply from now on; no work is added. */
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Adds the losses of an impact between two steps [J]: kinetic energy of bodies, and released stored energy. */
-void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
+void dmb_ledger_add_impact(dmb_sim *sim, double kinetic, double stored);
 /* Adds the loss of energy [J] stored in the wall that cutters have removed. */
-void dmb_ledger_take_rock(dmb_sim *sim, double stored);
+void dmb_ledger_add_rock(dmb_sim *sim, double stored);
 /* After a change of parameters by the caller: the poses store this much more energy [J], added to the work of loads. */
-void dmb_ledger_take_change(dmb_sim *sim, double stored);
+void dmb_ledger_add_change(dmb_sim *sim, double stored);
 /* Moves [J] of the trapezoidal rule of the powers `kind`, in excess of the work of the step, to the work of potential
  * forces. */
 void dmb_ledger_move(dmb_sim *sim, int kind, double excess);
@@ -56,6 +56,6 @@ double dmb_ledger_damping_excess(const dmb_sim *sim, const dmb_ledger_parts *par
  * opening for friction of those that open in the step (released). */
 double dmb_ledger_wall_excess(const dmb_sim *sim, const dmb_ledger_parts *parts, int released);
 /* now <- trial: forces and speeds at the start of the next step. */
-void dmb_ledger_take_forces(dmb_sim *sim);
+void dmb_ledger_copy_forces(dmb_sim *sim);
 
 #endif

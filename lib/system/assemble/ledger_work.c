@@ -116,7 +116,7 @@ static void friction_of(const dmb_sim *sim, const dmb_configuration *c, uint32_t
 {
     dmb_site_force_of(sim->scene, c, s, f);
     if (f->penetration > 0.0)
-        dmb_site_take_weighted(sim, c, s, f);
+        dmb_site_weighted_force(sim, c, s, f);
     else
         f->friction[0] = f->friction[1] = 0.0;
 }
@@ -136,7 +136,7 @@ double dmb_ledger_wall_excess(const dmb_sim *sim, const dmb_ledger_parts *parts,
     return sum;
 }
 
-void dmb_ledger_take_forces(dmb_sim *sim)
+void dmb_ledger_copy_forces(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     dmb_configuration *a = &sim->now;

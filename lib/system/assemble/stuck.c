@@ -74,7 +74,7 @@ void dmb_stuck_wrench_of(const dmb_sim *sim, const dmb_configuration *configurat
     }
 }
 
-double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates)
+double dmb_stuck_ratio(const dmb_sim *sim, const dmb_configuration *configuration, uint32_t i, int rates)
 {
     const dmb_scene_stuck *stuck = sim->scene->stuck + i;
     dmb_stuck_hold hold;
@@ -83,11 +83,11 @@ double dmb_stuck_share(const dmb_sim *sim, const dmb_configuration *configuratio
     return fmax(fabs(hold.force[0]) / stuck->release[0], fabs(hold.force[3]) / stuck->release[1]);
 }
 
-double dmb_stuck_largest_share(const dmb_sim *sim, const dmb_configuration *configuration, int rates)
+double dmb_stuck_largest_ratio(const dmb_sim *sim, const dmb_configuration *configuration, int rates)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < sim->scene->stuck_count; i++)
-        most = fmax(most, dmb_stuck_share(sim, configuration, i, rates));
+        most = fmax(most, dmb_stuck_ratio(sim, configuration, i, rates));
     return most;
 }
 
@@ -248,7 +248,7 @@ double dmb_stuck_energy(const dmb_sim *sim, const dmb_configuration *configurati
 
 /* ---- Stuck and free ---------------------------------------------------------------------------------------------- */
 
-static void take_anchor(dmb_sim *sim, uint32_t i)
+static void set_anchor(dmb_sim *sim, uint32_t i)
 {
     dmb_point_motion m;
     double *to = sim->stuck_anchor + 12 * (size_t)i;
@@ -260,14 +260,14 @@ static void take_anchor(dmb_sim *sim, uint32_t i)
 void dmb_stuck_start(dmb_sim *sim, uint32_t i)
 {
     const dmb_scene_stuck *stuck = sim->scene->stuck + i;
-    take_anchor(sim, i);
+    set_anchor(sim, i);
     sim->stuck_held[i] = stuck->input != DMB_NONE ? sim->input_value[stuck->input] > 0.5 : stuck->initially;
 }
 
 void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held)
 {
     if (sim->stuck_held[i] == held) return;
-    if (held) take_anchor(sim, i);
+    if (held) set_anchor(sim, i);
     sim->stuck_held[i] = held;
 }
 

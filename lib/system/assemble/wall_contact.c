@@ -207,7 +207,7 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation)
     args.potential = evaluation->power[DMB_POWER_POTENTIAL];
     args.impact = evaluation->power[DMB_POWER_IMPACT];
     args.friction = evaluation->power[DMB_POWER_FRICTION];
-    dmb_press_rings(evaluation->sim, &args);
+    dmb_press_sites(evaluation->sim, &args);
     if (scene->inside_count > 0) dmb_assemble_contacts_inside(evaluation, 0, &args);
     evaluation->rounding = args.rounding;
     evaluation->power[DMB_POWER_POTENTIAL] = args.potential;
@@ -215,7 +215,7 @@ void dmb_assemble_contacts(dmb_evaluation *evaluation)
     evaluation->power[DMB_POWER_FRICTION] = args.friction;
 }
 
-void dmb_site_take_weighted(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
+void dmb_site_weighted_force(const dmb_sim *sim, const dmb_configuration *c, uint32_t s, dmb_site_force *f)
 {
     if (!dmb_scene_has_touch(sim->scene)) return;
     const double whole = c->site_touch[DMB_TOUCH_SIZE * (size_t)s + DMB_TOUCH_FORCE];
@@ -415,12 +415,12 @@ void dmb_contacts_assume_slip(const dmb_evaluation *evaluation)
         evaluation->sim->trial.friction_slip[i] = evaluation->slipping ? evaluation->slip[i] : 0.0;
 }
 
-void dmb_contacts_take_slip(dmb_sim *sim)
+void dmb_contacts_copy_slip(dmb_sim *sim)
 {
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
 }
 
-void dmb_contacts_take_touch(dmb_sim *sim)
+void dmb_contacts_copy_touch(dmb_sim *sim)
 {
     if (!dmb_scene_has_touch(sim->scene)) return;
     memcpy(sim->now.site_touch, sim->trial.site_touch, DMB_TOUCH_SIZE * sim->scene->site_count * sizeof(double));

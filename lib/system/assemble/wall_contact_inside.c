@@ -73,18 +73,18 @@ typedef struct section_node {
     dmb_site site;
 } section_node;
 
-static void take_motion(const section *motion, double quaternion[4], double velocity[6])
+static void read_motion(const section *motion, double quaternion[4], double velocity[6])
 {
     dmb_quat_from_matrix(motion->R, quaternion);
     dmb_quat_normalize(quaternion);
     dmb_vec6_copy(motion->V, velocity);
 }
 
-static void take_node(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
+static void read_node(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
 {
     memset(at, 0, sizeof *at);
     dmb_vec3_copy(motion->x, at->displacement);
-    take_motion(motion, at->quaternion, at->velocity);
+    read_motion(motion, at->quaternion, at->velocity);
     at->site = sim->scene->sites[s];
     at->site.node = 0;
     at->site.offset = 0.0;
@@ -185,14 +185,14 @@ static int meets(const dmb_sim *sim, uint32_t s)
     return sim->trial.site_penetration[s] > 0.0 && !(sim->now.site_penetration[s] > 0.0);
 }
 
-static void take_before(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
+static void read_before(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
 {
     host then;
     section before;
     host_of(sim->scene, &sim->now, dmb_inside_point(sim->scene, s), &then);
     section_of(&then, dmb_inside_point(sim->scene, s), &before);
-    take_node(sim, s, motion, at);
-    take_motion(&before, at->now_quaternion, at->now_velocity);
+    read_node(sim, s, motion, at);
+    read_motion(&before, at->now_quaternion, at->now_velocity);
 }
 
 static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_wall_args *sums)
@@ -202,10 +202,10 @@ static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_w
     section in;
     section_node at;
     section_of(of, dmb_inside_point(sim->scene, s), &in);
-    take_node(sim, s, &in, &at);
+    read_node(sim, s, &in, &at);
     press(evaluation, s, &at, sums, &args);
     if (meets(sim, s)) {
-        take_before(sim, s, &in, &at);
+        read_before(sim, s, &in, &at);
         press(evaluation, s, &at, sums, &args);
     }
     sums->rounding = args.rounding;

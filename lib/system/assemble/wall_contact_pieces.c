@@ -50,7 +50,7 @@ static void add_sums(const dmb_chunk_sums *sums, dmb_wall_args *args)
 }
 
 /* Contact points of strings are ordered by node; those of bodies are last. */
-void dmb_press_rings(const dmb_sim *sim, dmb_wall_args *args)
+void dmb_press_sites(const dmb_sim *sim, dmb_wall_args *args)
 {
     const dmb_kernels *kernels = sim->scene->kernels;
     const uint32_t pieces = dmb_chunks_of(sim->scene->sites_in_order);

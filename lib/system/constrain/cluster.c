@@ -310,7 +310,7 @@ void dmb_cluster_move_multiplier(dmb_sim *sim, uint32_t row, double change)
     sim->trial.multiplier[row] += change;
 }
 
-void dmb_clusters_take_multipliers(dmb_sim *sim)
+void dmb_clusters_copy_multipliers(dmb_sim *sim)
 {
     memcpy(sim->now.multiplier, sim->trial.multiplier, sim->scene->constraint_row_count * sizeof(double));
 }

@@ -42,7 +42,7 @@ static void described_states(dmb_sim *sim)
         const int32_t state = sim->scene->joints[j].state;
         dmb_joint_place_find(sim, j);
         if (state != DMB_JOINT_LOCKED) dmb_joint_hold(sim, j); /* until it is locked */
-        dmb_joint_take_state(sim, j, state);
+        dmb_joint_set_state(sim, j, state);
     }
 }
 
@@ -210,7 +210,7 @@ static void assemble_moves(dmb_sim *sim, double damping, double apart)
     }
 }
 
-static void take_moves(dmb_sim *sim, int rigid)
+static void apply_moves(dmb_sim *sim, int rigid)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
@@ -242,7 +242,7 @@ static int32_t iterate_damped(dmb_evaluation *evaluation, int rigid)
         stalled = apart < 0.9 * best ? 0 : stalled + 1;
         best = fmin(best, apart);
         assemble_moves(sim, fmax(DMB_DAMPING_LEAST, fmin(DMB_DAMPING_MOST, part * part)), apart);
-        take_moves(sim, rigid);
+        apply_moves(sim, rigid);
     }
     const int32_t status = dmb_clusters_assemble(evaluation);
     if (status >= 0) dmb_clusters_choose(sim);
@@ -266,7 +266,7 @@ static int32_t iterate_newton(dmb_evaluation *evaluation)
 
 enum { BODIES_MOVE, CHAINS_MOVE, NODES_MOVE };
 
-static int32_t trial_step(dmb_evaluation *evaluation, int movers)
+static int32_t move_parts(dmb_evaluation *evaluation, int movers)
 {
     dmb_sim *sim = evaluation->sim;
     uint32_t row = 0;
@@ -326,7 +326,7 @@ static int32_t close_sparse(dmb_evaluation *evaluation, int start, int *closed)
     if (status < 0) return status;
     dmb_clusters_choose(sim);
     if (has_elements(sim->scene) && start != FROM_DESCRIBED_STRAINING && !is_closed(sim, &row)) return status;
-    status = trial_step(evaluation, NODES_MOVE);
+    status = move_parts(evaluation, NODES_MOVE);
     *closed = status >= 0 && is_closed(sim, &row);
     return status;
 }
@@ -340,7 +340,7 @@ static int32_t close_dense(dmb_evaluation *evaluation, int start, int *closed)
     *closed = 0;
     for (int movers = has_elements(sim->scene) ? BODIES_MOVE : NODES_MOVE;
          movers <= (rigid ? CHAINS_MOVE : NODES_MOVE) && !*closed && status != DMB_ERR_CALLBACK; movers++) {
-        status = trial_step(evaluation, movers);
+        status = move_parts(evaluation, movers);
         *closed = status >= 0 && is_closed(sim, &row);
     }
     return status;
@@ -460,7 +460,7 @@ static void keep_coordinates(dmb_sim *sim)
         dmb_joint_coordinates c;
         dmb_joint_motion(scene, &sim->trial, j, &relative, NULL);
         dmb_joint_coordinates_at(relative.R, relative.p, relative.V, joint->initial_position + 3, &c);
-        dmb_joint_take_turns(sim, j, &c);
+        dmb_joint_set_turns(sim, j, &c);
         for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
             sim->drive_offset[scene->joint_drives[i]] = c.value[scene->drives[scene->joint_drives[i]].component];
     }

@@ -209,7 +209,7 @@ static void settle_rows(dmb_sim *sim, const double *level, double *v, double *al
     }
 }
 
-static void take_raw(dmb_sim *sim)
+static void copy_raw(dmb_sim *sim)
 {
     const size_t bytes = sim->scene->row_count * sizeof(double);
     memcpy(sim->trial.velocity, sim->raw_velocity, bytes);
@@ -234,7 +234,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
 {
     dmb_sim *sim = evaluation->sim;
     int32_t status = DMB_OK;
-    if (from_raw) take_raw(sim);
+    if (from_raw) copy_raw(sim);
     if (from_raw &&
         !evaluation
              ->extrapolated) /* first iteration of a step: initial values for methods that solve for multipliers */

@@ -125,7 +125,7 @@ static void mark_redundant(scratch *s, uint32_t k, uint32_t rows, const dmb_rank
 }
 
 /* Result for a component too large for LAPACK, from its choice of rows. */
-static void take_choice(scratch *s, uint32_t k, dmb_cluster_rank *rank)
+static void read_choice(scratch *s, uint32_t k, dmb_cluster_rank *rank)
 {
     const dmb_rank found = {.rank = s->sim.partition_rank[k]};
     const uint32_t rows = dmb_cluster_active_rows(&s->sim, s->sim.scene->clusters + k);
@@ -141,7 +141,7 @@ static void rank_cluster(scratch *s, uint32_t k, dmb_cluster_rank *rank)
 {
     const dmb_cluster *cluster = s->sim.scene->clusters + k;
     if (cluster->sparse) {
-        take_choice(s, k, rank);
+        read_choice(s, k, rank);
         return;
     }
     const uint32_t rows = pack_rows(s, cluster);

@@ -74,11 +74,11 @@ void dmb_joint_reactions(dmb_evaluation *evaluation);
 /* End of an accepted step: revolutions of coordinates, multipliers of least norm, renewal of a poor partition. */
 void dmb_joints_accept(dmb_evaluation *evaluation);
 /* Sets the revolutions of the trial from the coordinates of joint j. */
-void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c);
+void dmb_joint_set_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c);
 /* Stores the present pose of frame b as the locked pose of joint j. */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j);
 /* Sets the state of joint j, DMB_JOINT_...; LOCKED keeps frame b in the present pose. */
-void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state);
+void dmb_joint_set_state(dmb_sim *sim, uint32_t j, int32_t state);
 /* [J] in springs and stops of the joints. */
 double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration);
 
@@ -162,7 +162,7 @@ void dmb_clusters_clear_multipliers(dmb_sim *sim);
 /* Adds the correction of an iteration to a multiplier of the trial. */
 void dmb_cluster_move_multiplier(dmb_sim *sim, uint32_t row, double change);
 /* Copies the multipliers of trial into now. */
-void dmb_clusters_take_multipliers(dmb_sim *sim);
+void dmb_clusters_copy_multipliers(dmb_sim *sim);
 
 /* Largest violation of an equation of position at the present rows, and its *row; dropped: of dropped rows only. */
 double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row);

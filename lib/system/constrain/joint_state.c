@@ -171,7 +171,7 @@ int32_t dmb_joints_refuse_gimbal_singularity(dmb_sim *sim, int moving, double ti
 }
 
 /* Stores the unwrapped angles RX and RY, from which the next step counts revolutions. */
-void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c)
+void dmb_joint_set_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c)
 {
     sim->trial.joint_turn[2 * j] = c->value[3];
     sim->trial.joint_turn[2 * j + 1] = c->value[4];
@@ -185,7 +185,7 @@ void dmb_joints_follow(dmb_evaluation *evaluation)
         dmb_joint_coordinates c;
         dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
         dmb_joint_coordinates_in(evaluation, j, &relative, &c);
-        dmb_joint_take_turns(sim, j, &c);
+        dmb_joint_set_turns(sim, j, &c);
     }
 }
 
@@ -220,7 +220,7 @@ void dmb_joint_hold(dmb_sim *sim, uint32_t j)
     dmb_joint_place_hold(sim, j, sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE);
 }
 
-void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state)
+void dmb_joint_set_state(dmb_sim *sim, uint32_t j, int32_t state)
 {
     sim->joint_state[j] = state;
     if (state == DMB_JOINT_LOCKED)

@@ -317,7 +317,7 @@ static void put_residual(dmb_sim *sim)
     }
 }
 
-static void take_multipliers(dmb_sim *sim)
+static void update_multipliers(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
@@ -341,7 +341,7 @@ void dmb_sparse_balance(dmb_sim *sim, int given)
         add_all_forces(sim, sim->raw_residual, NULL);
         put_residual(sim);
         dmb_block_signed_solve(&scene->pattern, &matrix, sim->sparse_vector);
-        take_multipliers(sim);
+        update_multipliers(sim);
     }
     add_all_forces(sim, sim->residual, sim->scale_row);
 }

@@ -17,7 +17,7 @@
 
 /* ---- Columns of nodes in their block ----------------------------------------------------------------------------- */
 
-static int is_six_dof(const dmb_sim *sim)
+static int is_bordered(const dmb_sim *sim)
 {
     return sim->reduced_mode->bordered;
 }
@@ -33,7 +33,7 @@ static uint32_t cluster_of(const dmb_scene *scene, uint32_t node)
 static uint32_t cluster_size(const dmb_sim *sim, uint32_t k)
 {
     const uint32_t columns = sim->scene->clusters[k].columns, rank = sim->partition_rank[k];
-    return is_six_dof(sim) ? columns + rank : columns - rank;
+    return is_bordered(sim) ? columns + rank : columns - rank;
 }
 
 /* Row of R for column c of component k: that of G, or a single 1. *one: column of the 1, or DMB_NONE. */
@@ -42,7 +42,7 @@ static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t 
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const uint32_t rank = sim->partition_rank[k], place = sim->cluster_place[cluster->column + c];
     *one = DMB_NONE;
-    if (is_six_dof(sim))
+    if (is_bordered(sim))
         *one = c;
     else if (place >= rank)
         *one = place - rank;
@@ -237,7 +237,7 @@ static void assemble_clusters(dmb_sim *sim, dmb_block_sparse *matrix)
         if (cluster->sparse) continue;
         const double *D = full_matrix(sim, cluster);
         double *A = dmb_block_sparse_diagonal(&scene->pattern, matrix, cluster->block);
-        if (is_six_dof(sim)) {
+        if (is_bordered(sim)) {
             border_cluster(sim, k, D, A);
             continue;
         }
@@ -307,7 +307,7 @@ static void assemble(dmb_sim *sim, int32_t method, int hold)
     sim->reduced_mode->bordered = method == DMB_METHOD_MULTIPLIERS;
     set_sizes(sim);
     dmb_block_sparse_clear(&scene->pattern, &matrix);
-    for (uint32_t k = 0; k < scene->cluster_count && !is_six_dof(sim); k++)
+    for (uint32_t k = 0; k < scene->cluster_count && !is_bordered(sim); k++)
         if (!scene->clusters[k].sparse) make_null_space(sim, k);
     assemble_nodes(sim, &matrix);
     assemble_clusters(sim, &matrix);
@@ -393,6 +393,6 @@ void dmb_reduced_solve(dmb_sim *sim, double *z)
         if (scene->node_block[i] != DMB_NONE) assemble_node(sim, i, z);
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->reduced_row, sim->reduced_solution);
     dmb_reduced_expand(sim, z);
-    if (is_six_dof(sim)) move_multipliers(sim);
+    if (is_bordered(sim)) move_multipliers(sim);
     if (scene->sparse_count) dmb_reduced_sparse_move(sim);
 }

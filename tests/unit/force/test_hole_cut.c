@@ -75,7 +75,7 @@ static void shares_add_up_to_the_widening(void **state)
     for (int i = 0; i < 1000; i++) {
         const double s = -0.6 + 2.6 * (i + 0.37) / 1000.0;
         double sum = 0.0;
-        for (uint32_t j = 0; j < STATIONS; j++) sum += dmb_hole_share_of_cut(&hole, j, s) * widening[j];
+        for (uint32_t j = 0; j < STATIONS; j++) sum += dmb_hole_fraction_of_cut(&hole, j, s) * widening[j];
         worst = fmax(worst, fabs(sum - value_at(&hole, s, 0)));
     }
     check_below("widening less the sum of shares [m]", worst, 1e-16);
