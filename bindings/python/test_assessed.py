@@ -42,6 +42,12 @@ class AssessedTest(FolderTest):
         self.assertIn("torque of rotation is not assessed", self.told(self.still(TURNING) + text, 0))
         self.assertNotIn("torque of rotation is not assessed", self.told(TURNING + text, 0))
 
+    def test_a_string_that_is_not_pulled(self):
+        """A run that only pushes says nothing about pulling out."""
+        text = failure("rig-pull", limit="3 kN")
+        self.assertIn("not assessed, because the rig never pulls", self.told(TURNING + text, 0))
+        self.assertNotIn("not assessed, because the rig never", self.told(LEVEL + text, 0))
+
     def test_a_bit_without_load(self):
         free = LEVEL.replace('"8 kN"', '"0 kN"')
         self.assertNotEqual(free, LEVEL)
@@ -58,6 +64,15 @@ class AssessedTest(FolderTest):
         self.assertNotIn("Traceback", told)
         for key in ("seed", "samples", "question"):
             self.assertIn("is a setting of the study", self.told(LEVEL + failure("rig-push", limit="9 kN"), 2, "--vary", f"variability.{key}=1,2"))
+
+    def test_a_map_that_is_flat(self):
+        """Torque and drag do not depend on the rotary speed: a note says so, and that dynamics are left out."""
+        text = LEVEL + failure("rig-push", limit="9.5 kN")
+        told = self.told(text, 0, "--vary", "time_function[1].segment.h1=60 rpm,120 rpm", "--vary", "hole.mu_static & hole.mu_dynamic=0.2,0.3")
+        self.assertIn("time_function[1].segment.h1 changes no percentile", told)
+        self.assertIn("leaves out dynamics", told)
+        told = self.told(text, 0, "--vary", "failure.limit=9 kN,9.5 kN")
+        self.assertNotIn("changes no percentile", told)
 
     def test_demands_that_nothing_acts_on(self):
         text = LEVEL + failure("rig-push", limit="9 kN")

@@ -208,15 +208,14 @@ class Answer:
             self.demands[one.name] = found
             self.output.summary.setdefault("demands", {})[one.name] = found.record()
             self.output.say(found.sentence(self.asked.confidence))
+            for text in found.doubts(self.question):
+                self.output.note_text(text)
             self._say_matters(found)
         if self.demands:
             self.output.picture("demands.png", lambda plots: plots.demands(list(self.demands.values())))
 
     def _say_matters(self, found: Demand) -> None:
         counting = [one for one in found.matters if abs(one.rank) > one.least]
-        if found.same:
-            self.output.note_text(f"{found.failure.name}: the demand is the same in all samples: nothing that varies acts on it, and its probability is that of "
-                                  "the scene as it is written")
         if not found.matters:
             self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same in all samples or there are "
                             "fewer than 10")

@@ -25,6 +25,7 @@ from .sample import SceneSample
 from .study import StudyError
 
 MOST_CELLS = 400
+FLAT = 0.01         #: relative change of demands below which a key is said to change none
 MOST_LINES = 12     #: pairs of neighbours that are stated on the terminal
 SIGNIFICANT = 0.05  #: chance below which a difference counts as shown
 
@@ -132,6 +133,7 @@ class Map:
                                          "estimates": {name: vars(estimate) for name, estimate in one.estimates.items()},
                                          "demands": {name: demand.record() for name, demand in one.demands.items()}} for one in self.cells]
         self._pairs()
+        self._flat()
         wide = [one for one in self.vary if len(one[1]) > 1] or self.vary[:1]
         if first and len(wide) <= 2:
             self.output.picture("map.png", lambda plots: plots.probability_map(wide, self._grid(), self.options.failure or ANY))
@@ -176,6 +178,19 @@ class Map:
                             f"fewer of the same {one.samples} samples, {(one.more - one.fewer) / one.samples:+.3g}: {one.word} (exact McNemar test, "
                             f"p = {one.chance:.2g})")
 
+    def _flat(self) -> None:
+        """A note of keys that change no demand: the question may leave out their effect."""
+        most: dict[str, float] = {}
+        for key, a, b in self._neighbours():
+            both = a.demands.keys() & b.demands.keys()
+            if both:
+                most[key] = max(most.get(key, 0.0), *(_change(a.demands[name], b.demands[name]) for name in both))
+        for key, change in most.items():
+            if change < FLAT:
+                left_out = "; this question leaves out dynamics, on which speed and feed act: ask --question run or auto" if self.question in (
+                    "torque-drag", "static") else ""
+                self.output.note_text(f"{key} changes no percentile of a demand by more than {100.0 * change:.2g} %{left_out}")
+
     def _neighbours(self) -> list[tuple[str, Cell, Cell]]:
         by_index = dict(zip(itertools.product(*(range(len(values)) for _, values in self.vary)), self.cells))
         found = []
@@ -185,6 +200,12 @@ class Map:
                 if other is not None:
                     found.append((key, cell, other))
         return found
+
+
+def _change(a: Demand, b: Demand) -> float:
+    """Largest relative difference of the percentiles of a demand, or of its limit."""
+    values = [(one.value, other.value) for one, other in zip(a.percentiles, b.percentiles)] + [(a.failure.limit, b.failure.limit)]
+    return max(0.0 if x == y else min(1.0, abs(x - y) / max(abs(x), abs(y))) if math.isfinite(x) and math.isfinite(y) else 1.0 for x, y in values)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from ..verdict import shown
 
 PERCENTS = (5, 50, 95)
 BINS = 20  #: of a histogram
+ROUNDING = 1e-9  #: of a limit: a demand below it is 0
 
 
 @dataclass
@@ -46,7 +47,8 @@ class Demand:
     limit_varies: bool = False  #: the limit is that of the scene file, and samples have others
     samples: int = 0        #: with a demand
     lost: int = 0           #: without one, which the intervals count as the smallest or the largest
-    same: bool = False      #: one demand in all of several samples
+    least: float = 0.0      #: demand of all samples
+    most: float = 0.0
 
     @property
     def worst(self) -> Percentile:
@@ -63,6 +65,17 @@ class Demand:
             f"{limit} {amount(self.failure.limit, unit)}"
         known = f" (of the {self.samples} of {self.samples + self.lost} samples that have one)" if self.lost else ""
         return f"{self.failure.name}: demand{known} {', '.join(parts)}; {share} at P{worst.percent}; {interval}"
+
+    def doubts(self, question: str) -> list[str]:
+        """Why no failure, or one in every sample, says little about the hole."""
+        name, kind, nothing = self.failure.name, self.failure.kind, ROUNDING * abs(self.failure.limit)
+        if kind in ("rig-push", "rig-pull") and self.most <= nothing:
+            more = "; ask --question torque-drag or static, which push the string in and pull it out" if question in ("run", "auto") else ""
+            return [f"{name}: not assessed, because the rig never {'pushes' if kind == 'rig-push' else 'pulls'} (largest demand "
+                    f"{amount(self.most, KINDS[kind].unit)}){more}"]
+        if self.samples > 1 and self.least == self.most and abs(self.most) > nothing and math.isfinite(self.most):
+            return [f"{name}: the demand is the same in all samples: nothing that varies acts on it, and its probability is that of the scene as it is written"]
+        return []
 
     def record(self) -> dict[str, Any]:
         """For summary.json."""
@@ -132,4 +145,4 @@ def demand_of(failure: Failure, demands: Any, inputs: Any, names: Sequence[str],
     points = [(percent, *percentile(ranked, percent, confidence, lost)) for percent in PERCENTS]
     return Demand(failure, [Percentile(*one, _share(one[1], failure)) for one in points], edges.tolist(), counts.tolist(),
                   int(len(known) - len(finite)), matters(known if margins is None else _excess(failure, margins[good]), inputs[good], names), margins is not None,
-                  len(known), lost, len(known) > 1 and bool(ranked[0] == ranked[-1]))
+                  len(known), lost, float(ranked[0]), float(ranked[-1]))
