@@ -40,8 +40,10 @@ void study_claim_model(tally *t, const study_results *results)
     printf("     here: one call describes the string of 100 pipes; part by part the count above takes 308 calls\n");
     study_verdict(t, UNDECIDED, "the study gives no effort or time to compare with");
     study_claim(t, "introduction", "multibody dynamics is more efficient than the traditional finite element method");
-    printf("     here: not computed; tests/bench compares cantilevers of both kinds, no rig in its hole\n");
-    study_verdict(t, UNDECIDED, "a finite element run of the rig in its hole has not been made");
+    printf("     here: the string falls on its wall: CalculiX 58 ms a step, 61 us here, same motion "
+           "(examples/validation)\n");
+    study_verdict(t, CONFIRMED_IF,
+                  "a general program with beams as solids stands for the method; no rotation, no friction");
     study_claim(t, "conclusions", "other methods for rigid than for flexible bodies make the analysis more accurate");
     printf("     here: one formulation for both (motion on SE(3)), rigid pipes are the same elements without strain\n");
     study_verdict(t, UNDECIDED, "the study shows no result of another choice of methods");
