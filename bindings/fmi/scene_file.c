@@ -171,44 +171,6 @@ static int add_output(scene_file *scene, const open_record *record)
     return 0;
 }
 
-/* ---- Terms that swing with revolutions ----------------------------------------------------------------------------
- */
-static int add_turning(scene_file *scene, const open_record *record)
-{
-    const scene_swing *swing = (const void *)record->structs;
-    scene_turning *turning = calloc(1, sizeof *turning);
-    if (!turning) return refuse(scene, "scene refused: no memory for a time function");
-    turning->share = swing->share;
-    turning->order = swing->order;
-    turning->term = swing->term;
-    turning->next = scene->turnings;
-    scene->turnings = turning;
-    return 0;
-}
-
-static int complete_turning(scene_file *scene, const open_record *record)
-{
-    if (!scene->turnings || scene->turnings->terms)
-        return refuse(scene, "scene refused: a call turning_of without turning; export the unit anew");
-    scene->turnings->terms = (const void *)record->structs;
-    scene->turnings->segment_count = record->head->structs;
-    return 0;
-}
-
-/* Gives the segments of a time function the callbacks that precede it in the record. */
-static int use_turnings(scene_file *scene, const open_record *record)
-{
-    for (scene_turning *turning = scene->turnings; turning && !turning->is_used; turning = turning->next) {
-        if (!turning->terms || turning->term >= record->head->structs)
-            return refuse(scene, "scene refused: a call turning does not fit its time function; export the unit anew");
-        dmb_segment *term = (dmb_segment *)(void *)record->structs + turning->term;
-        term->callback = scene_turning_value;
-        term->callback_context = turning;
-        turning->is_used = 1;
-    }
-    return 0;
-}
-
 /* Settings of the run; -2 where the call is none of these. */
 static int settings_call(scene_file *scene, const open_record *record)
 {
@@ -226,12 +188,6 @@ static int settings_call(scene_file *scene, const open_record *record)
     } else if (is_call(record, "output")) {
         if (!has_size(record, sizeof(scene_output))) return wrong_size(scene, record);
         return add_output(scene, record);
-    } else if (is_call(record, "turning")) {
-        if (!has_size(record, sizeof(scene_swing))) return wrong_size(scene, record);
-        return add_turning(scene, record);
-    } else if (is_call(record, "turning_of")) {
-        if (!has_size(record, sizeof(dmb_segment))) return wrong_size(scene, record);
-        return complete_turning(scene, record);
     } else {
         return -2;
     }
@@ -304,7 +260,6 @@ static int model_call(scene_file *scene, const open_record *record)
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         if (!is_call(record, calls[i].name)) continue;
         if (!has_size(record, calls[i].struct_size)) return wrong_size(scene, record);
-        if (is_call(record, "add_time_function") && use_turnings(scene, record) != 0) return -1;
         dmb_id id = {0, 0};
         const int32_t status = calls[i].function(scene->model, record->head, record->structs, &id);
         if (status < 0)
@@ -359,11 +314,6 @@ const char *scene_token(const scene_file *scene)
 void scene_close(scene_file *scene)
 {
     dmb_model_destroy(&scene->model);
-    while (scene->turnings) {
-        scene_turning *next = scene->turnings->next;
-        free(scene->turnings);
-        scene->turnings = next;
-    }
     free(scene->outputs);
     free(scene->bytes);
     memset(scene, 0, sizeof *scene);

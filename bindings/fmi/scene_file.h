@@ -4,16 +4,6 @@
 
 #include "scene_format.h"
 
-typedef struct scene_turning {
-    struct scene_turning *next;
-    double share, order;
-    const dmb_segment *terms; /* of the other time function, in the file's bytes; NULL: not there yet */
-    uint32_t segment_count, term;
-    int is_used; /* 1: a time function has it */
-} scene_turning;
-/* The callback of such a term; its context is a scene_turning. */
-int32_t scene_turning_value(void *context, double time, double out[3]);
-
 typedef struct scene_file {
     uint64_t *bytes; /* the whole file; structs are used where they stand */
     uint64_t size;   /* [byte] */
@@ -25,8 +15,7 @@ typedef struct scene_file {
     double step;           /* [s] scene_run */
     dmb_output *outputs;   /* shape (output_count) */
     uint32_t output_count; /* [-] */
-    scene_turning *turnings;
-    char message[512]; /* why the last call failed */
+    char message[512];     /* why the last call failed */
 } scene_file;
 
 /* Reads and checks the file; makes and compiles the model. 0, or -1 with the reason in `message`. scene_close in either

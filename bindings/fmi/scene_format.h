@@ -14,7 +14,7 @@
 #include <drillmbd/drillmbd.h>
 
 #define SCENE_MAGIC "DMBSCENE"
-enum { SCENE_FORMAT = 1, SCENE_LAYOUT = 8, SCENE_TOKEN = 48, SCENE_CALL = 24 };
+enum { SCENE_FORMAT = 2, SCENE_LAYOUT = 8, SCENE_TOKEN = 48, SCENE_CALL = 24 };
 
 typedef struct scene_header {
     char magic[8];
@@ -47,13 +47,6 @@ typedef struct scene_run {
     uint32_t struct_size, reserved;
     double step; /* [s] of the steps within a communication step; 0: chosen by the library */
 } scene_run;
-
-/* Call "turning", before the add_time_function whose term number `term` swings with the revolutions of another time
- * function; a call "turning_of" with the terms of that one follows it. */
-typedef struct scene_swing {
-    uint32_t struct_size, term;
-    double share, order; /* [-] of its rate; swings a revolution */
-} scene_swing;
 
 /* Calls with one struct that give an id. */
 #define SCENE_DEFINITIONS(X)              \

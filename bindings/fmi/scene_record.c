@@ -12,6 +12,7 @@ typedef struct id_field {
 /* clang-format off */
 static const id_field id_fields[] = {
     {"add_pipes", offsetof(dmb_pipe_def, string)},
+    {"add_time_function", offsetof(dmb_segment, of)},
     {"add_body", offsetof(dmb_body_def, string)},
     {"add_bit", offsetof(dmb_bit_def, string)}, {"add_bit", offsetof(dmb_bit_def, load)},
     {"add_stabiliser", offsetof(dmb_stabiliser_def, string)},

@@ -14,6 +14,7 @@ import drillmbd as mbd
 
 try:
     from drillmbd import scene
+    from drillmbd.model import remake
     from drillmbd.scene import fields, lines, schema, source, units
 except ImportError as missing:
     raise unittest.SkipTest(f"not there: {missing.name}") from missing
@@ -41,6 +42,22 @@ end = "10 ms"
 step = "1 ms"
 """
 
+WORN = """[[time_function]]
+name = "turning"
+segment = {kind = "step", x1 = "20 ms", h1 = "200 rpm"}
+[[time_function]]
+name = "worn"
+segment = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 3
+[[drive]]
+name = "head"
+component = "rx"
+time_function = "turning"
+excitation = "worn"
+"""
 EVERYTHING = """title = "every kind of part"
 [environment]
 gravity = [0, 0, "-9.8 m/s^2"]
@@ -64,7 +81,7 @@ depth = "25 m"
 mu_dynamic = 0.2
 [[time_function]]
 name = "shake"
-segment = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}]
+segment = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}, {kind = "periodic", table = [["2 ms", 0], ["3 ms", "5 N"], ["8 ms", 0]]}]
 [[time_function]]
 name = "half"
 segment = {h0 = 0.5}
@@ -729,6 +746,46 @@ name = "pdc"
         model.compile()
         with self.assertRaisesRegex(scene.CannotSave, "function of Python"):
             scene.saves(model)
+
+    def test_worn_gear(self):
+        """A speed per revolution moves the head as a function of the caller with the same formulas does, to rounding; so it does in the saved
+        file, to the bit."""
+        gear = scene.loads(WORN)
+        turning = gear.model.calls[0][1][0]
+
+        def worn(time):
+            x, height, length = min(time / 0.02, 1.0), turning["h1"], turning["x1"]
+            w, rate = height * x * x * (3.0 - 2.0 * x), height * 6.0 * x * (1.0 - x) / length
+            theta = height * (length * x ** 3 * (1.0 - 0.5 * x) + max(time - length, 0.0))
+            sine, cosine = math.sin(3.0 * theta), math.cos(3.0 * theta)
+            return 0.05 * w * sine, 0.05 * (rate * sine + 3.0 * w * w * cosine), 0.05 / 3.0 * (1.0 - cosine)
+
+        calls = [(name, (mbd.Segment(function=worn, provides=3).describe(),) if name == "add_time_function" and "of" in arguments[0] else arguments)
+                 for name, arguments in gear.model.calls]
+        with gear.new_sim() as one, remake(mbd.Model, calls).sim() as other, scene.loads(scene.saves(gear)).new_sim() as saved:
+            for sim in (one, other, saved):
+                sim.run(0.1, step=1e-3)
+            self.assertEqual(one.hash(), saved.hash())
+            for at in (one.motion("main").velocity[3], one.rotation("main"), one.drive("head").force):
+                self.assertGreater(abs(at), 0.01)
+            self.assertAlmostEqual(one.rotation("main"), other.rotation("main"), 13)
+            self.assertAlmostEqual(one.drive("head").speed, other.drive("head").speed, 12)
+            self.assertAlmostEqual(one.drive("head").force, other.drive("head").force, 6)
+
+    def test_faults_of_segments_per_revolution(self):
+        for old, new, wanted in (
+                ('of = "turning"', 'of = "later"', "must name a time function that stands before this one"),
+                ('of = "turning"', 'of = "worn"', "must name a time function that stands before this one"),
+                ("order = 3", "order = 0", "order"), ('share = "5 %"', 'share = "5 m"', "'m'"),
+                ('kind = "per-revolution"', 'kind = "harmonic"', 'belongs to segments with kind = "per-revolution"'),
+                ('component = "rx"\ntime_function = "turning"', 'component = "x"\ntime_function = "0 m/s"', "this time function is in m/s; use h1"),
+                ('h1 = "200 rpm"}', 'h1 = "200 rpm"}\n[[time_function]]\nname = "t"\nsegment = {kind = "periodic", table = [["0 s", 0], ["1 s", "2 rpm"]]}\nunit = "rpm"',
+                 "equal to the first value")):
+            text = WORN.replace(old, new)
+            self.assertNotEqual(text, WORN)
+            with self.subTest(new=new), self.assertRaises(scene.SceneError) as caught:
+                scene.loads(text)
+            self.assertIn(wanted, str(caught.exception))
 
     def test_schema(self):
         shipped = HERE / "drillmbd" / "scene" / "scene.schema.json"

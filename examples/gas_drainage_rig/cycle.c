@@ -1,7 +1,5 @@
 #include "cycle.h"
 
-#include <math.h>
-
 #define RADIANS_PER_SECOND(rpm) ((rpm)*3.14159265358979323846 / 30.0)
 
 rig_cycle rig_cycle_full(void)
@@ -64,53 +62,13 @@ int32_t rig_add_bottom_load(dmb_model *model, const rig_cycle *cycle, dmb_id *ti
 /* ---- Excitation ---------------------------------------------------------------------------------------------------
  * A worn gear in the head makes the speed swing once a revolution: with theta the angle turned so far and w its rate,
  *     speed added  s w sin(theta),   its rate  s (w' sin(theta) + w^2 cos(theta)),   its integral  s (1 - cos(theta)).
- * It rests when the head rests. No sum of library terms says this, so it is a callback. */
+ * It rests when the head rests. */
 
-typedef struct ramp {
-    double rate, value, integral;
-} ramp;
-
-/* STEP(t, begin, 0, end, 1) with its rate and its integral from the beginning. */
-static ramp ramp_at(double t, double begin, double end)
-{
-    const double length = end - begin, x = (t - begin) / length;
-    ramp r = {0.0, 0.0, 0.0};
-    if (x <= 0.0) return r;
-    if (x < 1.0) {
-        r.rate = 6.0 * x * (1.0 - x) / length;
-        r.value = x * x * (3.0 - 2.0 * x);
-        r.integral = length * x * x * x * (1.0 - 0.5 * x);
-        return r;
-    }
-    r.value = 1.0;
-    r.integral = 0.5 * length + (t - end);
-    return r;
-}
-
-static int32_t shake(void *context, double time, double out[3])
-{
-    const rig_cycle *cycle = context;
-    const double speed = RADIANS_PER_SECOND(RIG_ROTATION_RPM);
-    double w = 0.0, w_rate = 0.0, theta = 0.0;
-    for (int stage = 0; stage < 6; stage += 2) {
-        const ramp r = ramp_at(time, cycle->time[stage], cycle->time[stage + 1]);
-        const double height = stage == 0 ? speed : -speed;
-        w += height * r.value;
-        w_rate += height * r.rate;
-        theta += height * r.integral;
-    }
-    out[0] = RIG_SHAKE * w * sin(theta);
-    out[1] = RIG_SHAKE * (w_rate * sin(theta) + w * w * cos(theta));
-    out[2] = RIG_SHAKE * (1.0 - cos(theta));
-    return 0;
-}
-
-int32_t rig_add_shake(dmb_model *model, rig_cycle *cycle, dmb_id *time_function)
+int32_t rig_add_shake(dmb_model *model, dmb_id rotation, dmb_id *time_function)
 {
     dmb_segment term = dmb_segment_default();
-    term.kind = DMB_SEGMENT_CALLBACK;
-    term.callback = shake;
-    term.callback_context = cycle;
-    term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
+    term.kind = DMB_SEGMENT_PER_REVOLUTION;
+    term.of = rotation;
+    term.share = RIG_SHAKE;
     return dmb_model_add_time_function(model, &term, 1, time_function);
 }

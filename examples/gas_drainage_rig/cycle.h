@@ -20,10 +20,10 @@ rig_cycle rig_cycle_full(void);
 rig_cycle rig_cycle_quick(void);
 const char *rig_stage_name(int stage);
 
-/* Time functions of the cycle. `cycle` must live as long as the model: the excitation reads it. */
+/* Time functions of the cycle; the shake follows the rotation. */
 int32_t rig_add_rotation(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function);
 int32_t rig_add_feed(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function);
 int32_t rig_add_bottom_load(dmb_model *model, const rig_cycle *cycle, dmb_id *time_function);
-int32_t rig_add_shake(dmb_model *model, rig_cycle *cycle, dmb_id *time_function);
+int32_t rig_add_shake(dmb_model *model, dmb_id rotation, dmb_id *time_function);
 
 #endif

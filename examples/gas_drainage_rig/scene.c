@@ -85,7 +85,7 @@ static int32_t add_drives(dmb_model *model, rig_options *options, rig_scene *sce
     if (status >= 0) status = dmb_model_add_drive(model, &drive, &scene->feed);
     drive.component = DMB_RX;
     if (status >= 0) status = rig_add_rotation(model, &options->cycle, &drive.time_function);
-    if (status >= 0) status = rig_add_shake(model, &options->cycle, &drive.excitation);
+    if (status >= 0) status = rig_add_shake(model, drive.time_function, &drive.excitation);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, &scene->rotation);
 }
 

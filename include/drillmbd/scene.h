@@ -117,12 +117,15 @@ DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environmen
 /* ---- Time functions ----------------------------------------------------------------------------------------------
  * A time function is a sum of segments. Integration steps end at their breakpoints, except bounded-work steps. */
 enum {
-    DMB_SEGMENT_CONSTANT = 0, /* h0 */
-    DMB_SEGMENT_STEP = 1,     /* h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0) */
-    DMB_SEGMENT_STEP5 = 2,    /* the same with D^3 (10 - 15 D + 6 D^2) */
-    DMB_SEGMENT_HARMONIC = 3, /* h0 + h1 sin(omega t + phase) */
-    DMB_SEGMENT_TABLE = 4,    /* straight lines through (time, value) pairs, constant outside */
-    DMB_SEGMENT_CALLBACK = 5  /* the caller's function */
+    DMB_SEGMENT_CONSTANT = 0,      /* h0 */
+    DMB_SEGMENT_STEP = 1,          /* h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0) */
+    DMB_SEGMENT_STEP5 = 2,         /* the same with D^3 (10 - 15 D + 6 D^2) */
+    DMB_SEGMENT_HARMONIC = 3,      /* h0 + h1 sin(omega t + phase) */
+    DMB_SEGMENT_TABLE = 4,         /* straight lines through (time, value) pairs, constant outside */
+    DMB_SEGMENT_CALLBACK = 5,      /* the caller's function */
+    DMB_SEGMENT_PERIODIC = 6,      /* TABLE repeated before and after, with the period last time - first time */
+    DMB_SEGMENT_PER_REVOLUTION = 7 /* h0 + (h1 + share w) sin(order theta + phase): w is the time function `of`, theta
+                                      its integral from 0 s. A worn gear: share alone, `of` the speed that turns it */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0];
  * values that `provides` does not announce are computed by differences and quadrature. All within
@@ -136,13 +139,17 @@ typedef struct dmb_segment {
     double x0, x1;             /* [s] start and end of STEP and STEP5, x1 > x0; default 0 and 1 */
     double h0, h1;             /* [unit of the time function] default 0 and 0 */
     double omega;              /* [rad/s] of HARMONIC; default 0 */
-    double phase;              /* [rad] of HARMONIC; default 0 */
+    double phase;              /* [rad] of HARMONIC and PER_REVOLUTION; default 0 */
     const double *table_time;  /* [s] strictly increasing, shape (table_count); copied */
-    const double *table_value; /* [unit of the time function] shape (table_count); copied */
-    uint32_t table_count;      /* [-] 1 .. 2^20 */
+    const double *table_value; /* [unit of the time function] shape (table_count); copied. First = last for PERIODIC */
+    uint32_t table_count;      /* [-] 1 .. 2^20; 2 .. 2^20 of PERIODIC, with a period of at least 1 us */
     int32_t provides;          /* DMB_PROVIDES_..., of CALLBACK */
     dmb_time_fn callback;      /* of CALLBACK; pure: same values for the same time, callable from any thread */
     void *callback_context;
+    dmb_id of;    /* of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and
+                     PER_REVOLUTION. It is followed as described; inputs and limits of drives do not change it */
+    double share; /* [-] of PER_REVOLUTION: amplitude over w; default 0. Its integral is exact to round-off */
+    double order; /* [-] of PER_REVOLUTION: periods a revolution, > 0; default 1 */
 } dmb_segment;
 DMB_SIZED_STRUCT(dmb_segment)
 /* Adds a time function of segment_count segments (1 .. 64), each with the same struct_size. */

@@ -44,7 +44,7 @@ int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
  *     int32_t T_read(T *out, const void *src)  defaults overlaid with the caller's struct; *out unchanged on error
  *     int32_t T_write(void *dst, const T *src) a result written into the caller's struct
  * oldest_size is sizeof(T) in the first release that had it, with pointers of 64 bits. Example:
- *     DMB_DEFINE_INIT(dmb_segment, 96, {.kind = DMB_SEGMENT_CONSTANT, .x1 = 1.0}) */
+ *     DMB_DEFINE_INIT(dmb_segment, 120, {.kind = DMB_SEGMENT_CONSTANT, .x1 = 1.0, .order = 1.0}) */
 #define DMB_DEFINE_INIT(T, oldest_size, ...)                                                                         \
     static const T T##_defaults = __VA_ARGS__;                                                                       \
     _Static_assert(offsetof(T, struct_size) == 0, #T " does not begin with struct_size");                            \

@@ -8,6 +8,8 @@
 #define DMB_DEPTH_MIN 1e-12      /* [m] of depths over which a force is taken up */
 #define DMB_POSITION_MAX 1e9     /* [m] coordinates and measured depths; map coordinates fit in */
 #define DMB_ANGLE_MAX 1e9        /* [rad] */
+#define DMB_ORDER_MIN 1e-6       /* [-] periods a revolution */
+#define DMB_ORDER_MAX 1e6        /* [-] */
 #define DMB_CURVATURE_MAX 1e6    /* [rad/m] */
 #define DMB_SPEED_MIN 1e-12      /* [m/s] of regularisation speeds */
 #define DMB_SPEED_MAX 1e9        /* [m/s, rad/s] */

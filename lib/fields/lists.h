@@ -35,7 +35,7 @@
     FIELD(T, 13, flow_eccentricity, "-", WITHIN(0.0, DMB_FLOW_ECCENTRICITY_MAX), 0.0)
 
 #define DMB_SEGMENT_FIELDS(FIELD, ARRAY, T) \
-    FIELD(T, 1, kind, "", WITHIN(DMB_SEGMENT_CONSTANT, DMB_SEGMENT_CALLBACK), DMB_SEGMENT_CONSTANT) \
+    FIELD(T, 1, kind, "", WITHIN(DMB_SEGMENT_CONSTANT, DMB_SEGMENT_PER_REVOLUTION), DMB_SEGMENT_CONSTANT) \
     FIELD(T, 2, x0, "s", WITHIN(-DMB_TIME_MAX, DMB_TIME_MAX), 0.0) \
     FIELD(T, 3, x1, "s", WITHIN(-DMB_TIME_MAX, DMB_TIME_MAX), 1.0) \
     FIELD(T, 4, h0, "unit of the time function", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 0.0) \
@@ -47,7 +47,10 @@
     FIELD(T, 10, table_count, "-", ANY, 0) \
     FIELD(T, 11, provides, "", ANY, 0) \
     FIELD(T, 12, callback, "", ANY, NULL) \
-    FIELD(T, 13, callback_context, "", ANY, NULL)
+    FIELD(T, 13, callback_context, "", ANY, NULL) \
+    FIELD(T, 14, of, "", PART_OR_NONE(DMB_PART_TIME_FUNCTION), {0, 0}) \
+    FIELD(T, 15, share, "-", WITHIN(-DMB_SPEED_MAX, DMB_SPEED_MAX), 0.0) \
+    FIELD(T, 16, order, "-", WITHIN(-DMB_ORDER_MAX, DMB_ORDER_MAX), 1.0)
 
 #define DMB_WALL_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, survey_count, "-", ZERO_OR(2, 1 << 16), 0) \
@@ -345,7 +348,7 @@
 /* X(number, struct, part in messages, kind of its id, size in the first release, fields): numbers never change. */
 #define DMB_DESCRIBED(X) \
     X(1, dmb_environment_def, "environment", 0, 64, DMB_ENVIRONMENT_FIELDS) \
-    X(2, dmb_segment, "time function", DMB_PART_TIME_FUNCTION, 96, DMB_SEGMENT_FIELDS) \
+    X(2, dmb_segment, "time function", DMB_PART_TIME_FUNCTION, 120, DMB_SEGMENT_FIELDS) \
     X(3, dmb_wall_def, "wall", DMB_PART_WALL, 184, DMB_WALL_FIELDS) \
     X(4, dmb_hole_section, "hole sections", 0, 104, DMB_HOLE_SECTION_FIELDS) \
     X(5, dmb_string_def, "string", DMB_PART_STRING, 136, DMB_STRING_FIELDS) \

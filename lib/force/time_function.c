@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "force/time_segment.h"
 #include "math/elementary.h"
 #include "math/quadrature.h"
 
@@ -10,149 +11,8 @@
 #define DMB_RATE_STEP_FACTOR 1e-10 /* [-] the same relative to |t|, for times beyond 1e5 s */
 #define DMB_GAUSS_PART 0.05        /* [s] longest interval of one 5-point rule */
 #define DMB_GAUSS_PARTS_MAX 1000.0
-
-/* ---- STEP and STEP5 ---------------------------------------------------------------------------------------------- */
-
-/* D^2 (3 - 2D) or D^3 (10 - 15 D + 6 D^2), 0 <= D <= 1 */
-static double ramp(int32_t kind, double d)
-{
-    if (kind == DMB_SEGMENT_STEP5) return d * d * d * (10.0 + d * (6.0 * d - 15.0));
-    return d * d * (3.0 - 2.0 * d);
-}
-
-static double ramp_slope(int32_t kind, double d)
-{
-    const double bump = d * (1.0 - d);
-
-    return kind == DMB_SEGMENT_STEP5 ? 30.0 * bump * bump : 6.0 * bump;
-}
-
-static void step_value(const dmb_segment *segment, double t, double *value, double *rate)
-{
-    const double width = segment->x1 - segment->x0;
-    const double rise = segment->h1 - segment->h0;
-
-    if (t < segment->x0 || t >= segment->x1) {
-        *value = t < segment->x0 ? segment->h0 : segment->h1;
-        *rate = 0.0;
-        return;
-    }
-    *value = segment->h0 + rise * ramp(segment->kind, (t - segment->x0) / width);
-    *rate = rise / width * ramp_slope(segment->kind, (t - segment->x0) / width);
-}
-
-/* Integral of the ramp over [a, b] inside [x0, x1]. The ramp is a polynomial of degree 3 or 5, so the three-point Gauss
- * rule is its exact integral; unlike a difference of antiderivatives it keeps all digits when b - a is small. */
-static double step_inside(const dmb_segment *segment, double a, double b)
-{
-    const dmb_gauss_rule *rule = dmb_gauss(3);
-    const double width = segment->x1 - segment->x0;
-    double mean = 0.0;
-
-    for (int i = 0; i < rule->count; ++i)
-        mean += rule->weight[i] * ramp(segment->kind, (a - segment->x0 + (b - a) * rule->node[i]) / width);
-    return (b - a) * (segment->h0 + (segment->h1 - segment->h0) * mean);
-}
-
-static double step_integral(const dmb_segment *segment, double t0, double t1)
-{
-    double sum = 0.0;
-
-    if (t0 < segment->x0) sum += segment->h0 * (fmin(t1, segment->x0) - t0);
-    if (t0 < segment->x1 && t1 > segment->x0) sum += step_inside(segment, fmax(t0, segment->x0), fmin(t1, segment->x1));
-    if (t1 > segment->x1) sum += segment->h1 * (t1 - fmax(t0, segment->x1));
-    return sum;
-}
-
-/* ---- HARMONIC ---------------------------------------------------------------------------------------------------- */
-
-static void harmonic_value(const dmb_segment *segment, double t, double *value, double *rate)
-{
-    const double angle = segment->omega * t + segment->phase;
-    double sine, cosine;
-
-    dmb_sin_cos(angle, &sine, &cosine);
-    *value = segment->h0 + segment->h1 * sine;
-    *rate = segment->h1 * segment->omega * cosine;
-}
-
-/* (cos A - cos B)/omega = 2 sin((A+B)/2) sin((B-A)/2)/omega = (t1-t0) sin(middle) sin(half)/half */
-static double harmonic_integral(const dmb_segment *segment, double t0, double t1)
-{
-    const double middle = segment->omega * (0.5 * t0 + 0.5 * t1) + segment->phase;
-    const double half = 0.5 * segment->omega * (t1 - t0);
-    const double shape = half != 0.0 ? dmb_sin(half) / half : 1.0;
-
-    return (t1 - t0) * (segment->h0 + segment->h1 * dmb_sin(middle) * shape);
-}
-
-/* ---- TABLE ------------------------------------------------------------------------------------------------------- */
-
-/* Number of knots at or before t: 0 .. table_count. */
-static uint32_t knots_until(const dmb_segment *segment, double t)
-{
-    uint32_t low = 0;
-    uint32_t high = segment->table_count;
-
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (segment->table_time[middle] <= t)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/* Number of knots before t. */
-static uint32_t knots_before(const dmb_segment *segment, double t)
-{
-    const uint32_t until = knots_until(segment, t);
-    return until > 0 && segment->table_time[until - 1] == t ? until - 1 : until;
-}
-
-/* Value at t given the number of knots at or before it. */
-static double table_at(const dmb_segment *segment, uint32_t before, double t)
-{
-    const double *x = segment->table_time;
-    const double *y = segment->table_value;
-
-    if (before == 0) return y[0];
-    if (before == segment->table_count) return y[before - 1];
-    return y[before - 1] + (y[before] - y[before - 1]) * ((t - x[before - 1]) / (x[before] - x[before - 1]));
-}
-
-/* Slope of the interval after `before` knots. */
-static double table_slope(const dmb_segment *segment, uint32_t before)
-{
-    if (before == 0 || before == segment->table_count) return 0.0;
-    return (segment->table_value[before] - segment->table_value[before - 1]) /
-           (segment->table_time[before] - segment->table_time[before - 1]);
-}
-
-static void table_value(const dmb_segment *segment, double t, double *value, double *rate)
-{
-    const uint32_t before = knots_until(segment, t);
-
-    *value = table_at(segment, before, t);
-    *rate = table_slope(segment, before);
-}
-
-/* Trapezoidal rule from knot to knot: exact. */
-static double table_integral(const dmb_segment *segment, double t0, double t1)
-{
-    uint32_t next = knots_until(segment, t0);
-    double start = t0;
-    double start_value = table_at(segment, next, t0);
-    double sum = 0.0;
-
-    for (; next < segment->table_count && segment->table_time[next] < t1; ++next) {
-        sum += 0.5 * (start_value + segment->table_value[next]) * (segment->table_time[next] - start);
-        start = segment->table_time[next];
-        start_value = segment->table_value[next];
-    }
-    return sum + 0.5 * (start_value + table_at(segment, next, t1)) * (t1 - start);
-}
+#define DMB_GAUSS_ANGLE 0.5     /* [rad] of a sine, longest interval of one 5-point rule: an error of 1e-15 */
+#define DMB_SWING_PARTS_MAX 1e5 /* [-] intervals of one integral of a swing */
 
 /* ---- CALLBACK ---------------------------------------------------------------------------------------------------- */
 
@@ -231,39 +91,155 @@ static int32_t callback_integral(const dmb_segment *segment, double t0, double t
     return status;
 }
 
+/* ---- PER_REVOLUTION ---------------------------------------------------------------------------------------------- */
+
+/* Of a segment whose callback_context is the time function w that it follows, with theta(t) the integral of w from 0 to
+ * t and psi = order theta + phase (eq:drive.per-revolution). */
+
+/* Sum of the integrals of w from t0 to t1, whatever their order. */
+static double angle_between(const dmb_time_function *turning, double t0, double t1)
+{
+    double sum = 0.0;
+
+    for (uint32_t i = 0; i < turning->count; ++i)
+        sum += dmb_time_segment_integral(turning->segments + i, fmin(t0, t1), fmax(t0, t1));
+    return t1 < t0 ? -sum : sum;
+}
+
+/* w at t and its rate, from the left if `before`. */
+static void speed_at(const dmb_time_function *turning, double t, int before, double *speed, double *slope)
+{
+    *speed = *slope = 0.0;
+    for (uint32_t i = 0; i < turning->count; ++i) {
+        double value, rate;
+        dmb_time_segment_value(turning->segments + i, t, &value, &rate);
+        *speed += value;
+        *slope += before ? dmb_time_segment_rate_before(turning->segments + i, t) : rate;
+    }
+}
+
+/* h0 + (h1 + share w) sin psi, and its rate share w' sin psi + (h1 + share w) order w cos psi. */
+static void swing_value(const dmb_segment *segment, double t, int before, double *value, double *rate)
+{
+    const dmb_time_function *turning = segment->callback_context;
+    double speed, slope, sine, cosine;
+
+    speed_at(turning, t, before, &speed, &slope);
+    dmb_sin_cos(segment->order * angle_between(turning, 0.0, t) + segment->phase, &sine, &cosine);
+    const double amplitude = segment->h1 + segment->share * speed;
+    *value = segment->h0 + amplitude * sine;
+    *rate = segment->share * slope * sine + amplitude * segment->order * speed * cosine;
+}
+
+static double breakpoint_of(const dmb_time_function *turning, double t)
+{
+    double breakpoint = (double)INFINITY;
+
+    for (uint32_t i = 0; i < turning->count; ++i)
+        breakpoint = fmin(breakpoint, dmb_time_segment_next_breakpoint(turning->segments + i, t));
+    return breakpoint;
+}
+
+/* Intervals of Gauss rules between the neighbouring breakpoints a and b of w, for sin psi. */
+static double swing_parts(const dmb_segment *segment, double a, double b)
+{
+    const dmb_time_function *turning = segment->callback_context;
+    double speed = 0.0, fastest = 0.0;
+
+    for (uint32_t i = 0; i < turning->count; ++i) {
+        double bound, pace;
+        dmb_time_segment_scales(turning->segments + i, a, b, &bound, &pace);
+        speed += bound;
+        fastest = fmax(fastest, pace);
+    }
+    fastest = fmax(fastest, fabs(segment->order) * speed);
+    return ceil(fmax((b - a) * fastest / DMB_GAUSS_ANGLE, 1.0));
+}
+
+/* Integral of sin psi over one interval; `angle` is theta at its start, and at its end after the call. */
+static double swing_part(const dmb_segment *segment, double a, double b, double *angle)
+{
+    const dmb_time_function *turning = segment->callback_context;
+    const dmb_gauss_rule *rule = dmb_gauss(5);
+    double sum = 0.0;
+
+    for (int i = 0; i < rule->count; ++i) {
+        const double theta = *angle + angle_between(turning, a, a + (b - a) * rule->node[i]);
+        sum += (b - a) * rule->weight[i] * dmb_sin(segment->order * theta + segment->phase);
+    }
+    *angle += angle_between(turning, a, b);
+    return sum;
+}
+
+/* Integral of sin psi from t0 to t1 by Gauss rules between breakpoints of w. */
+static int32_t sine_integral(const dmb_segment *segment, double t0, double t1, double *integral)
+{
+    const dmb_time_function *turning = segment->callback_context;
+    double angle = angle_between(turning, 0.0, t0);
+    double used = 0.0, sum = 0.0;
+
+    while (t0 < t1) {
+        const double end = fmin(t1, breakpoint_of(turning, t0));
+        const double parts = swing_parts(segment, t0, end);
+        used += parts;
+        if (!(used <= DMB_SWING_PARTS_MAX)) return DMB_ERR_TOO_LARGE;
+        for (double i = 0.0; i < parts; i += 1.0)
+            sum += swing_part(segment, t0 + (end - t0) * (i / parts), t0 + (end - t0) * ((i + 1.0) / parts), &angle);
+        t0 = end;
+    }
+    *integral = sum;
+    return DMB_OK;
+}
+
+/* The integral of w sin psi is (cos psi0 - cos psi1)/order = turn sin(middle) sin(half)/half: exact to round-off. */
+static int32_t swing_integral(const dmb_segment *segment, double t0, double t1, double *integral)
+{
+    const dmb_time_function *turning = segment->callback_context;
+    const double start = angle_between(turning, 0.0, t0), turn = angle_between(turning, t0, t1);
+    const double middle = segment->order * (start + 0.5 * turn) + segment->phase;
+    const double half = 0.5 * segment->order * turn;
+    const double shape = half != 0.0 ? dmb_sin(half) / half : 1.0;
+    double sine = 0.0;
+
+    const int32_t status = segment->h1 != 0.0 ? sine_integral(segment, t0, t1, &sine) : DMB_OK;
+    if (status != DMB_OK) return status;
+    *integral = segment->h0 * (t1 - t0) + segment->h1 * sine + segment->share * turn * dmb_sin(middle) * shape;
+    return DMB_OK;
+}
+
 /* ---- Sum of segments --------------------------------------------------------------------------------------------- */
 
 static int32_t segment_value(const dmb_segment *segment, double t, double *value, double *rate)
 {
     double unused = 0.0;
-    double *slope = rate != NULL ? rate : &unused;
 
-    switch (segment->kind) {
-    case DMB_SEGMENT_STEP:
-    case DMB_SEGMENT_STEP5: step_value(segment, t, value, slope); return DMB_OK;
-    case DMB_SEGMENT_HARMONIC: harmonic_value(segment, t, value, slope); return DMB_OK;
-    case DMB_SEGMENT_TABLE: table_value(segment, t, value, slope); return DMB_OK;
-    case DMB_SEGMENT_CALLBACK: return callback_value(segment, t, value, rate);
-    case DMB_SEGMENT_REFERENCE: dmb_reference_value(segment->callback_context, t, value, slope); return DMB_OK;
-    default:
-        *value = segment->h0;
-        *slope = 0.0;
-        return DMB_OK;
-    }
+    if (segment->kind == DMB_SEGMENT_CALLBACK) return callback_value(segment, t, value, rate);
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION)
+        swing_value(segment, t, 0, value, rate != NULL ? rate : &unused);
+    else
+        dmb_time_segment_value(segment, t, value, rate != NULL ? rate : &unused);
+    return DMB_OK;
+}
+
+static int32_t segment_rate_before(const dmb_segment *segment, double t, double *rate)
+{
+    double value;
+
+    if (segment->kind == DMB_SEGMENT_CALLBACK) return callback_value(segment, t, &value, rate);
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION)
+        swing_value(segment, t, 1, &value, rate);
+    else
+        *rate = dmb_time_segment_rate_before(segment, t);
+    return DMB_OK;
 }
 
 /* Integral of one segment over t0 <= t1. */
 static int32_t segment_integral(const dmb_segment *segment, double t0, double t1, double *integral)
 {
-    switch (segment->kind) {
-    case DMB_SEGMENT_STEP:
-    case DMB_SEGMENT_STEP5: *integral = step_integral(segment, t0, t1); return DMB_OK;
-    case DMB_SEGMENT_HARMONIC: *integral = harmonic_integral(segment, t0, t1); return DMB_OK;
-    case DMB_SEGMENT_TABLE: *integral = table_integral(segment, t0, t1); return DMB_OK;
-    case DMB_SEGMENT_CALLBACK: return callback_integral(segment, t0, t1, integral);
-    case DMB_SEGMENT_REFERENCE: *integral = dmb_reference_integral(segment->callback_context, t0, t1); return DMB_OK;
-    default: *integral = segment->h0 * (t1 - t0); return DMB_OK;
-    }
+    if (segment->kind == DMB_SEGMENT_CALLBACK) return callback_integral(segment, t0, t1, integral);
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION) return swing_integral(segment, t0, t1, integral);
+    *integral = dmb_time_segment_integral(segment, t0, t1);
+    return DMB_OK;
 }
 
 int32_t dmb_time_function_value(const dmb_time_function *time_function, double t, double *value, double *rate)
@@ -292,12 +268,9 @@ int32_t dmb_time_function_rate_before(const dmb_time_function *time_function, do
 
     if (!isfinite(t)) return DMB_ERR_NOT_FINITE;
     for (uint32_t i = 0; i < time_function->count; ++i) {
-        const dmb_segment *segment = &time_function->segments[i];
-        double value, slope = 0.0;
-        const int32_t status = segment_value(segment, t, &value, &slope);
+        double slope = 0.0;
+        const int32_t status = segment_rate_before(&time_function->segments[i], t, &slope);
         if (status != DMB_OK) return status;
-        if (segment->kind == DMB_SEGMENT_TABLE) slope = table_slope(segment, knots_before(segment, t));
-        if (segment->kind == DMB_SEGMENT_REFERENCE) slope = dmb_reference_rate_before(segment->callback_context, t);
         sum += slope;
     }
     if (!isfinite(sum)) return DMB_ERR_NOT_FINITE;
@@ -322,23 +295,18 @@ int32_t dmb_time_function_integral(const dmb_time_function *time_function, doubl
     return DMB_OK;
 }
 
+/* Breakpoints of a segment are its own, or those of the time function that it follows. */
+static double breakpoint_after(const dmb_segment *segment, double t)
+{
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION) return breakpoint_of(segment->callback_context, t);
+    return dmb_time_segment_next_breakpoint(segment, t);
+}
+
 double dmb_time_function_next_breakpoint(const dmb_time_function *time_function, double t)
 {
     double breakpoint = (double)INFINITY;
 
-    for (uint32_t i = 0; i < time_function->count; ++i) {
-        const dmb_segment *segment = &time_function->segments[i];
-        if (segment->kind == DMB_SEGMENT_STEP || segment->kind == DMB_SEGMENT_STEP5) {
-            if (segment->x0 > t)
-                breakpoint = fmin(breakpoint, segment->x0);
-            else if (segment->x1 > t)
-                breakpoint = fmin(breakpoint, segment->x1);
-        } else if (segment->kind == DMB_SEGMENT_TABLE) {
-            const uint32_t next = knots_until(segment, t);
-            if (next < segment->table_count) breakpoint = fmin(breakpoint, segment->table_time[next]);
-        } else if (segment->kind == DMB_SEGMENT_REFERENCE) {
-            breakpoint = fmin(breakpoint, dmb_reference_next_breakpoint(segment->callback_context, t));
-        }
-    }
+    for (uint32_t i = 0; i < time_function->count; ++i)
+        breakpoint = fmin(breakpoint, breakpoint_after(&time_function->segments[i], t));
     return breakpoint;
 }

@@ -7,18 +7,14 @@
 #include <stdint.h>
 
 #include "drillmbd/scene.h"
-#include "force/reference.h"
 
 /* [units of a time function, a constraint] Largest absolute value that a callback may return; the bound of numbers of a
  * model. */
 #define DMB_CALLBACK_MAX 1e30
 
-/* Kind of a segment in addition to those of drillmbd/scene.h: its callback_context is the dmb_reference
- * (force/reference.h) of an input. Definitions cannot use it. */
-enum { DMB_SEGMENT_REFERENCE = 6 };
-
 typedef struct dmb_time_function {
-    const dmb_segment *segments; /* full-size segments, checked by the model, shape (count) */
+    const dmb_segment *segments; /* full-size segments, checked by the model, shape (count); the callback_context of
+                                    PER_REVOLUTION is the dmb_time_function that it follows */
     uint32_t count;              /* [-] */
 } dmb_time_function;
 
@@ -36,11 +32,13 @@ int32_t dmb_time_function_rate_before(const dmb_time_function *time_function, do
 
 /* Integral from t0 to t1 [unit s]; t1 < t0 gives the negative. Exact to round-off relative to the integral over the
  * interval, whatever the size of t0, for every kind except CALLBACK, which gives the difference of the provided
- * integral, or 5-point Gauss rules over intervals of at most 0.05 s (at most 1000 intervals). Errors as above. */
+ * integral, or 5-point Gauss rules over intervals of at most 0.05 s (at most 1000 intervals), and for h1 of
+ * PER_REVOLUTION, by Gauss rules over intervals of at most 0.5 rad. Errors as above, and DMB_ERR_TOO_LARGE where these
+ * would be more than 1e5. O(count), of PER_REVOLUTION O(points from 0 to t1) for each table that it follows. */
 int32_t dmb_time_function_integral(const dmb_time_function *time_function, double t0, double t1, double *integral);
 
-/* [s] Smallest breakpoint later than t: x0 and x1 of STEP and STEP5, knots of tables, breakpoints of references;
- * INFINITY if there is none. */
+/* [s] Smallest breakpoint later than t: x0 and x1 of STEP and STEP5, knots of tables, breakpoints of references and of
+ * what PER_REVOLUTION follows; INFINITY if there is none. */
 double dmb_time_function_next_breakpoint(const dmb_time_function *time_function, double t);
 
 #endif

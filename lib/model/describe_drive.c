@@ -35,6 +35,40 @@ static void check_table(dmb_check *check, const dmb_segment *segment)
     }
 }
 
+#define DMB_PERIOD_MIN 1e-6 /* [s] of a table that repeats: times up to 1e9 s find their place in it */
+
+static void check_periodic(dmb_check *check, const dmb_segment *segment)
+{
+    const uint32_t last = segment->table_count - 1;
+    dmb_check_count(check, "table_count", segment->table_count, 2, TABLE_MAX);
+    if (check->status < 0) return;
+    if (!(segment->table_time[last] - segment->table_time[0] >= DMB_PERIOD_MIN))
+        dmb_check_fail(check, DMB_ERR_VALUE, "table_time", segment->table_time[last],
+                       "the first time + the period, at least 1e-6 s");
+    if (check->status >= 0 && segment->table_value[last] != segment->table_value[0])
+        dmb_check_fail(check, DMB_ERR_VALUE, "table_value", segment->table_value[last],
+                       "equal to the first value, with which the next period begins");
+}
+
+/* A segment per revolution follows a time function of this model, made of segments that are given by numbers alone. */
+static void check_per_revolution(dmb_check *check, const dmb_model *model, const dmb_segment *segment)
+{
+    dmb_check_id(check, model, "of", segment->of, DMB_PART_TIME_FUNCTION, "time function");
+    dmb_check_within(check, "order", segment->order, DMB_ORDER_MIN, DMB_ORDER_MAX);
+    if (check->status < 0) return;
+    const dmb_time_function *of = DMB_LIST_AT(const dmb_time_function, model->time_functions,
+                                              dmb_model_part_index(model, segment->of, DMB_PART_TIME_FUNCTION));
+    for (uint32_t i = 0; i < of->count && check->status >= 0; ++i) {
+        const int32_t kind = of->segments[i].kind;
+        if (kind != DMB_SEGMENT_CALLBACK && kind != DMB_SEGMENT_PER_REVOLUTION) continue;
+        check->status = DMB_ERR_UNSUPPORTED;
+        dmb_message_set(check->message,
+                        "%s %u: of: segment %u of that time function is of kind %s, must be CONSTANT, STEP, STEP5, "
+                        "HARMONIC, TABLE or PERIODIC",
+                        check->part, check->index, i, kind == DMB_SEGMENT_CALLBACK ? "CALLBACK" : "PER_REVOLUTION");
+    }
+}
+
 static void check_callback(dmb_check *check, const dmb_segment *segment)
 {
     dmb_check_mask(check, "provides", segment->provides, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL);
@@ -43,11 +77,18 @@ static void check_callback(dmb_check *check, const dmb_segment *segment)
     dmb_message_set(check->message, "%s %u: callback is NULL", check->part, check->index);
 }
 
-static void check_segment(dmb_check *check, const dmb_segment *segment)
+static int has_table(const dmb_segment *segment)
+{
+    return segment->kind == DMB_SEGMENT_TABLE || segment->kind == DMB_SEGMENT_PERIODIC;
+}
+
+static void check_segment(dmb_check *check, const dmb_model *model, const dmb_segment *segment)
 {
     if (segment->kind == DMB_SEGMENT_STEP || segment->kind == DMB_SEGMENT_STEP5) check_ramp(check, segment);
-    if (segment->kind == DMB_SEGMENT_TABLE) check_table(check, segment);
+    if (has_table(segment)) check_table(check, segment);
+    if (segment->kind == DMB_SEGMENT_PERIODIC && check->status >= 0) check_periodic(check, segment);
     if (segment->kind == DMB_SEGMENT_CALLBACK) check_callback(check, segment);
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION) check_per_revolution(check, model, segment);
 }
 
 /* ---- The caller's array ------------------------------------------------------------------------------------------ */
@@ -62,7 +103,15 @@ static int32_t read_segment(const dmb_segment *segments, uint32_t i, uint32_t st
     return size == stride ? dmb_segment_read(out, item) : DMB_ERR_STRUCT_SIZE;
 }
 
-/* Checks every segment and counts the numbers of its tables (both columns). */
+/* [double] Room of a segment behind the segments: both columns of a table, at most 64 x 2^21, or the time function that
+ * it follows. */
+static size_t numbers_of(const dmb_segment *segment)
+{
+    if (segment->kind == DMB_SEGMENT_PER_REVOLUTION) return sizeof(dmb_time_function) / sizeof(double);
+    return has_table(segment) ? 2 * (size_t)segment->table_count : 0;
+}
+
+/* Checks every segment and counts the numbers behind them. */
 static int32_t check_segments(dmb_model *model, const dmb_segment *segments, uint32_t count, size_t *numbers)
 {
     dmb_message part;
@@ -74,9 +123,9 @@ static int32_t check_segments(dmb_model *model, const dmb_segment *segments, uin
         int32_t status = read_segment(segments, i, segments->struct_size, &segment);
         if (status < 0) return status;
         dmb_check_fields(&check, model, DMB_FIELDS_OF(dmb_segment), &segment);
-        if (check.status >= 0) check_segment(&check, &segment);
+        if (check.status >= 0) check_segment(&check, model, &segment);
         if (check.status < 0) return check.status;
-        if (segment.kind == DMB_SEGMENT_TABLE) *numbers += 2 * (size_t)segment.table_count; /* at most 64 x 2^21 */
+        *numbers += numbers_of(&segment);
     }
     return DMB_OK;
 }
@@ -98,7 +147,7 @@ static double *copy_numbers(const double *from, uint32_t count, double *to)
  */
 static void forget_unused(dmb_segment *segment)
 {
-    if (segment->kind != DMB_SEGMENT_TABLE) {
+    if (!has_table(segment)) {
         segment->table_time = segment->table_value = NULL;
         segment->table_count = 0;
     }
@@ -106,16 +155,28 @@ static void forget_unused(dmb_segment *segment)
         segment->callback = NULL;
         segment->callback_context = NULL;
     }
+    if (segment->kind != DMB_SEGMENT_PER_REVOLUTION) segment->of = (dmb_id){0, 0};
 }
 
-static void copy_segments(const dmb_segment *segments, uint32_t count, dmb_segment *copy)
+/* A copy of the time function that the segment follows: its segments stay where they are as long as the model lives. */
+static double *follow(const dmb_model *model, dmb_segment *segment, double *numbers)
+{
+    dmb_time_function *turning = (dmb_time_function *)(void *)numbers;
+    *turning = *DMB_LIST_AT(const dmb_time_function, model->time_functions,
+                            dmb_model_part_index(model, segment->of, DMB_PART_TIME_FUNCTION));
+    segment->callback_context = turning;
+    return numbers + numbers_of(segment);
+}
+
+static void copy_segments(const dmb_model *model, const dmb_segment *segments, uint32_t count, dmb_segment *copy)
 {
     double *numbers = (double *)(void *)(copy + count);
     for (uint32_t i = 0; i < count; ++i) {
         dmb_segment *segment = copy + i;
         (void)read_segment(segments, i, segments->struct_size, segment);
         forget_unused(segment);
-        if (segment->kind != DMB_SEGMENT_TABLE) continue;
+        if (segment->kind == DMB_SEGMENT_PER_REVOLUTION) numbers = follow(model, segment, numbers);
+        if (!has_table(segment)) continue;
         double *values = copy_numbers(segment->table_time, segment->table_count, numbers);
         segment->table_time = numbers;
         numbers = copy_numbers(segment->table_value, segment->table_count, values);
@@ -127,7 +188,7 @@ void dmb_time_function_release(dmb_time_function *time_function, const dmb_alloc
 {
     void *block;
     size_t numbers = 0;
-    for (uint32_t i = 0; i < time_function->count; ++i) numbers += 2 * (size_t)time_function->segments[i].table_count;
+    for (uint32_t i = 0; i < time_function->count; ++i) numbers += numbers_of(&time_function->segments[i]);
     memcpy(&block, &time_function->segments, sizeof block); /* the model owns what others may only read */
     dmb_release(allocator, block, block_size(time_function->count, numbers));
     time_function->segments = NULL;
@@ -141,7 +202,7 @@ static int32_t append_time_function(dmb_model *model, const dmb_segment *segment
     int32_t status;
     dmb_segment *copy = dmb_allocate(&model->allocator, block_size(count, numbers));
     if (copy == NULL) return DMB_ERR_NO_MEMORY;
-    copy_segments(segments, count, copy);
+    copy_segments(model, segments, count, copy);
     time_function.segments = copy;
     status = dmb_describe_append(model, &model->time_functions, &time_function, sizeof time_function,
                                  DMB_PART_TIME_FUNCTION, id);

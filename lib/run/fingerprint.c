@@ -138,11 +138,14 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
 static uint64_t add_segment(uint64_t h, const dmb_segment *t)
 {
     const double numbers[] = {t->x0, t->x1, t->h0, t->h1, t->omega, t->phase};
-    const size_t table = t->kind == DMB_SEGMENT_TABLE ? t->table_count : 0;
+    const double swing[] = {t->share, t->order};
     h = dmb_fnv_word(h, (uint32_t)t->kind);
     h = DMB_NUMBERS(h, numbers);
-    h = dmb_fnv_numbers(h, t->table_time, table);
-    return dmb_fnv_numbers(h, t->table_value, table);
+    h = dmb_fnv_numbers(h, t->table_time, t->table_count);
+    h = dmb_fnv_numbers(h, t->table_value, t->table_count);
+    if (t->kind != DMB_SEGMENT_PER_REVOLUTION) return h;
+    h = dmb_fnv_word(h, t->of.index);
+    return DMB_NUMBERS(h, swing);
 }
 
 static uint64_t add_time_functions(uint64_t h, const dmb_scene *s)

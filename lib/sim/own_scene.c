@@ -5,6 +5,7 @@
 
 #include "base/sized_struct.h"
 #include "drillmbd/scene.h"
+#include "force/time_segment.h"
 #include "model/describe.h"
 #include "sim/access.h"
 

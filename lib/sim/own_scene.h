@@ -5,6 +5,7 @@
 #define DMB_SIM_OWN_SCENE_H
 
 #include "base/memory.h"
+#include "force/reference.h"
 #include "sim/sim.h"
 
 typedef struct dmb_own_scene {

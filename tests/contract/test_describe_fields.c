@@ -106,9 +106,10 @@ static int32_t add_environment(dmb_model *model, const any_def *def)
 }
 
 static const field segment_fields[] = {
-    F(dmb_segment, kind, WHOLE, 1), F(dmb_segment, x0, REAL, 1),           F(dmb_segment, x1, REAL, 1),
-    F(dmb_segment, h0, REAL, 1),    F(dmb_segment, h1, REAL, 1),           F(dmb_segment, omega, REAL, 1),
-    F(dmb_segment, phase, REAL, 1), F(dmb_segment, table_count, COUNT, 1), F(dmb_segment, provides, WHOLE, 1)};
+    F(dmb_segment, kind, WHOLE, 1),        F(dmb_segment, x0, REAL, 1),       F(dmb_segment, x1, REAL, 1),
+    F(dmb_segment, h0, REAL, 1),           F(dmb_segment, h1, REAL, 1),       F(dmb_segment, omega, REAL, 1),
+    F(dmb_segment, share, REAL, 1),        F(dmb_segment, order, REAL, 1),    F(dmb_segment, phase, REAL, 1),
+    F(dmb_segment, table_count, COUNT, 1), F(dmb_segment, provides, WHOLE, 1)};
 static void fill_segment(const scene_under_test *s, any_def *def)
 {
     (void)s;
@@ -718,7 +719,7 @@ static void what_must_be_refused(void **state)
         double value;
     } cases[] = {{1, "x1", 0.0},
                  {1, "x1", -1.0},
-                 {1, "kind", 6.0},
+                 {1, "kind", 8.0},
                  {2, "table_count", 0.0},
                  {3, "diameter", 0.0},
                  {3, "diameter", -1.0},
@@ -950,6 +951,55 @@ static void callbacks_and_counts_of_terms(void **state)
     dmb_model_destroy(&s.model);
 }
 
+static int32_t add_alone(scene_under_test *s, const dmb_segment *term, const char *named)
+{
+    const int32_t status = dmb_model_add_time_function(s->model, term, 1, NULL);
+    if (status < 0) assert_non_null(strstr(dmb_model_message(s->model), named));
+    return status;
+}
+
+/* A segment per revolution follows a time function of this model that is given by numbers; a table that repeats ends as
+ * it begins. */
+static void periodic_and_per_revolution(void **state)
+{
+    double time[3] = {0.0, 0.5, 1.0}, value[3] = {1.0, 2.0, 1.0};
+    scene_under_test s = begin(0), other = begin(0);
+    dmb_segment swing = dmb_segment_default(), pulse = dmb_segment_default(), called = dmb_segment_default();
+    dmb_id swings, calls;
+    (void)state;
+    swing.kind = DMB_SEGMENT_PER_REVOLUTION;
+    assert_int_equal(add_alone(&s, &swing, "of"), DMB_ERR_ID);
+    swing.of = s.string;
+    assert_int_equal(add_alone(&s, &swing, "of"), DMB_ERR_ID);
+    swing.of = other.time_function;
+    assert_int_equal(add_alone(&s, &swing, "of"), DMB_ERR_ID);
+    swing.of = s.time_function;
+    swing.order = 0.0;
+    assert_int_equal(add_alone(&s, &swing, "order"), DMB_ERR_VALUE);
+    swing.order = 2.0;
+    assert_int_equal(dmb_model_add_time_function(s.model, &swing, 1, &swings), DMB_OK);
+    called.kind = DMB_SEGMENT_CALLBACK;
+    called.callback = silent;
+    assert_int_equal(dmb_model_add_time_function(s.model, &called, 1, &calls), DMB_OK);
+    swing.of = swings;
+    assert_int_equal(add_alone(&s, &swing, "PER_REVOLUTION, must be CONSTANT"), DMB_ERR_UNSUPPORTED);
+    swing.of = calls;
+    assert_int_equal(add_alone(&s, &swing, "CALLBACK, must be CONSTANT"), DMB_ERR_UNSUPPORTED);
+    pulse.kind = DMB_SEGMENT_PERIODIC;
+    pulse.table_time = time;
+    pulse.table_value = value;
+    pulse.table_count = 1;
+    assert_int_equal(add_alone(&s, &pulse, "table_count"), DMB_ERR_VALUE);
+    pulse.table_count = 2;
+    assert_int_equal(add_alone(&s, &pulse, "table_value"), DMB_ERR_VALUE);
+    pulse.table_count = 3;
+    assert_int_equal(add_alone(&s, &pulse, ""), DMB_OK);
+    time[2] = 5e-7, time[1] = 2e-7;
+    assert_int_equal(add_alone(&s, &pulse, "table_time"), DMB_ERR_VALUE);
+    dmb_model_destroy(&s.model);
+    dmb_model_destroy(&other.model);
+}
+
 /* struct_size of every definition: garbage is refused. */
 static void struct_sizes(void **state)
 {
@@ -1000,6 +1050,7 @@ int main(void)
         cmocka_unit_test(tables),
         cmocka_unit_test(surveys),
         cmocka_unit_test(callbacks_and_counts_of_terms),
+        cmocka_unit_test(periodic_and_per_revolution),
         cmocka_unit_test(struct_sizes),
         cmocka_unit_test(inertia_must_be_positive_definite),
     };

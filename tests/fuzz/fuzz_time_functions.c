@@ -17,7 +17,7 @@ typedef struct subject {
     double times[TERMS][TABLE], values[TERMS][TABLE];
     callback callback;
     dmb_model *model;
-    dmb_id drive, input;
+    dmb_id drive, input, turning; /* turning: what segments per revolution follow */
 } subject;
 
 static double any_number(byte_source *s, double scale)
@@ -59,7 +59,7 @@ static dmb_segment draw_any_segment(subject *c, uint32_t i)
 {
     byte_source *s = &c->source;
     dmb_segment term = dmb_segment_default();
-    term.kind = (int32_t)draw_below(s, 8) - 1;
+    term.kind = (int32_t)draw_below(s, 10) - 1;
     term.provides = (int32_t)draw_below(s, 5);
     double *const fields[] = {&term.x0, &term.x1, &term.h0, &term.h1, &term.omega, &term.phase};
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) *fields[k] = any_number(s, k < 2 ? 0.01 : 10.0);
@@ -71,6 +71,10 @@ static dmb_segment draw_any_segment(subject *c, uint32_t i)
     term.callback = call_back;
     term.callback_context = &c->callback;
     draw_table(c, i, &term);
+    if (draw_chance(s, 128) && term.table_count > 0) c->values[i][term.table_count - 1] = c->values[i][0];
+    term.of = c->turning;
+    term.share = any_number(s, 1.0);
+    term.order = any_number(s, 3.0);
     return term;
 }
 
@@ -103,6 +107,9 @@ static int describe(subject *c)
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_segment terms[TERMS];
     const uint32_t count = 1 + draw_below(s, TERMS);
+    const dmb_segment turning = draw_any_segment(c, 0);
+    known(dmb_model_add_time_function(c->model, &turning, 1, &c->turning));
+    (void)dmb_model_clear_refused(c->model);
     for (int i = 0; i < 4; i++) c->callback.values[i] = any_number(s, 1.0);
     c->callback.fails_at = draw_chance(s, 30) ? 1 + draw_byte(s) : 0;
     for (uint32_t i = 0; i < count; i++) terms[i] = draw_any_segment(c, i);

@@ -256,29 +256,29 @@ class IdPart:
 
 
 class SegmentPart:
-    """One segment of a time function. `table` takes pairs (time, value) or two sequences, (times, values); `function` takes a
-    function of time that returns a value, or (value, rate), or (value, rate, integral)."""
+    """One segment of a time function. `table` takes pairs (time, value) or two sequences, (times, values), which SEGMENT_PERIODIC repeats;
+    `function` takes a function of time that returns a value, or (value, rate), or (value, rate, integral)."""
 
     def __init__(self, table: Any = None, function: Callable[[float], Any] | None = None, **fields: Any) -> None:
         super().__init__(**fields)
         self._function = function
         self._table: list[tuple[float, float]] = []
         if table is not None:
-            self._set_table(*points(table, "Segment"))
+            self._set_table(*points(table, "Segment"), 6 if fields.get("kind") == 6 else 4)
         if function is not None:
             if not callable(function):
                 refuse_type("Segment", "function", function, "be a function of time")
             self.kind = 5
 
-    def _set_table(self, times: Sequence[float], values: Sequence[float]) -> None:
-        self.kind, self.table_count = 4, len(times)
+    def _set_table(self, times: Sequence[float], values: Sequence[float], kind: int) -> None:
+        self.kind, self.table_count = kind, len(times)
         self.table_time, self.table_value = (c_double * len(times))(*times), (c_double * len(times))(*values)
         self._table = list(zip(times, values))
 
     def describe(self, every: bool = False) -> dict[str, Any]:
         """The fields as plain Python, `table` and `function` as given."""
         found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        for name in ("table_count",) + (("kind",) if self._table or self._function else ()):
+        for name in ("table_count",) + (("kind",) if self.kind in (4, 5) and (self._table or self._function) else ()):
             found.pop(name, None)
         if self._table:
             found["table"] = list(self._table)

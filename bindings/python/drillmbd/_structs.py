@@ -2259,8 +2259,11 @@ class Segment(SegmentPart, Sized):
     provides: int
     callback: Any
     callback_context: Any
+    of: Id
+    share: float
+    order: float
     if TYPE_CHECKING:
-        def __init__(self, table: Any = ..., function: Any = ..., *, kind: int = ..., x0: SupportsFloat = ..., x1: SupportsFloat = ..., h0: SupportsFloat = ..., h1: SupportsFloat = ..., omega: SupportsFloat = ..., phase: SupportsFloat = ..., table_time: Any = ..., table_value: Any = ..., table_count: int = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ...) -> None: ...
+        def __init__(self, table: Any = ..., function: Any = ..., *, kind: int = ..., x0: SupportsFloat = ..., x1: SupportsFloat = ..., h0: SupportsFloat = ..., h1: SupportsFloat = ..., omega: SupportsFloat = ..., phase: SupportsFloat = ..., table_time: Any = ..., table_value: Any = ..., table_count: int = ..., provides: int = ..., callback: Any = ..., callback_context: Any = ..., of: Id | None = ..., share: SupportsFloat = ..., order: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2276,6 +2279,9 @@ class Segment(SegmentPart, Sized):
         ("provides", c_int32),
         ("callback", TIME_FN),
         ("callback_context", c_void_p),
+        ("of", Id),
+        ("share", c_double),
+        ("order", c_double),
     ]
     field_docs = {
         "kind": ("", "SEGMENT_..., default SEGMENT_CONSTANT"),
@@ -2284,13 +2290,16 @@ class Segment(SegmentPart, Sized):
         "h0": ("unit of the time function", "default 0 and 0"),
         "h1": ("unit of the time function", "default 0 and 0"),
         "omega": ("rad/s", "of HARMONIC; default 0"),
-        "phase": ("rad", "of HARMONIC; default 0"),
+        "phase": ("rad", "of HARMONIC and PER_REVOLUTION; default 0"),
         "table_time": ("s", "strictly increasing, shape (table_count); copied"),
-        "table_value": ("unit of the time function", "shape (table_count); copied"),
-        "table_count": ("-", "1 .. 2^20"),
+        "table_value": ("unit of the time function", "shape (table_count); copied. First = last for PERIODIC"),
+        "table_count": ("-", "1 .. 2^20; 2 .. 2^20 of PERIODIC, with a period of at least 1 us"),
         "provides": ("", "PROVIDES_..., of CALLBACK"),
         "callback": ("", "of CALLBACK; pure: same values for the same time, callable from any thread"),
         "callback_context": ("", ""),
+        "of": ("", "of PER_REVOLUTION: a time function [rad/s] added before, of kinds other than CALLBACK and PER_REVOLUTION. It is followed as described; inputs and limits of drives do not change it"),
+        "share": ("-", "of PER_REVOLUTION: amplitude over w; default 0. Its integral is exact to round-off"),
+        "order": ("-", "of PER_REVOLUTION: periods a revolution, > 0; default 1"),
     }
 
 

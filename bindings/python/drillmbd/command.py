@@ -378,7 +378,7 @@ def _live(options: Any) -> int:
         same = found == wanted
         if not options.quiet or not same:
             print(f"{options.replay}: {end:g} s, hash {found}, " + ("as in the browser" if same else f"but {wanted} in the browser: another version of the library "
-                                                                   "or of the scene file, or a segment of kind per-revolution"))
+                                                                   "or of the scene file"))
         return 0 if same else exit_status.FAILED
     target = options.output or os.path.splitext(options.scene)[0] + ".html"
     if os.path.isdir(target):

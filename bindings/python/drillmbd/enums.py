@@ -269,6 +269,8 @@ class SegmentKind(IntEnum):
     HARMONIC: h0 + h1 sin(omega t + phase)
     TABLE: straight lines through (time, value) pairs, constant outside
     CALLBACK: the caller's function
+    PERIODIC: TABLE repeated before and after, with the period last time - first time
+    PER_REVOLUTION: h0 + (h1 + share w) sin(order theta + phase): w is the time function `of`, theta its integral from 0 s. A worn gear: share alone, `of` the speed that turns it
     """
     CONSTANT = 0
     STEP = 1
@@ -276,6 +278,8 @@ class SegmentKind(IntEnum):
     HARMONIC = 3
     TABLE = 4
     CALLBACK = 5
+    PERIODIC = 6
+    PER_REVOLUTION = 7
 
 
 SEGMENT_CONSTANT = SegmentKind.CONSTANT
@@ -284,6 +288,8 @@ SEGMENT_STEP5 = SegmentKind.STEP5
 SEGMENT_HARMONIC = SegmentKind.HARMONIC
 SEGMENT_TABLE = SegmentKind.TABLE
 SEGMENT_CALLBACK = SegmentKind.CALLBACK
+SEGMENT_PERIODIC = SegmentKind.PERIODIC
+SEGMENT_PER_REVOLUTION = SegmentKind.PER_REVOLUTION
 
 
 class TimeFunctionProvides(IntFlag):

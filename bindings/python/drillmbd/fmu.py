@@ -30,12 +30,11 @@ from xml.etree import ElementTree
 
 from . import _library, enums
 from ._record import Record
-from ._structs import Output, Id, Place, SimOptions, StaticOptions, Segment
+from ._structs import Output, Id, Place, SimOptions, StaticOptions
 from .outputs import output_unit
 from .model import _DEFINITIONS
 from .scene import Scene
 from .scene.fields import drive_unit
-from .scene.segments import PerRevolution
 
 BINARY = "drillmbd_fmu"
 INPUTS, OUTPUTS, EVENTS = 100000, 200000, 300000  # value references, as bindings/fmi/unit.h says
@@ -61,7 +60,7 @@ class CannotExport(ValueError):
 
 
 # ---- The scene as bytes: bindings/fmi/scene_format.h -----------------------------------------------------------------
-MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 1, 8, 48
+MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 2, 8, 48
 ARRAYS = {"add_time_function": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
           "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
@@ -77,11 +76,6 @@ class _Output(ctypes.Structure):
 class _Name(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id),
                 ("name", ctypes.c_char * 24)]
-
-
-class _Swing(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("segment", ctypes.c_uint32),
-                ("share", ctypes.c_double), ("order", ctypes.c_double)]
 
 
 class _Run(ctypes.Structure):
@@ -135,16 +129,10 @@ def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
     return b"".join([head, *bare, places, numbers])
 
 
-def _swings(segments: tuple[Any, ...]) -> Iterator[bytes]:
-    """The segments of a time function that swing with the revolutions of another. Other functions are refused."""
-    for number, one in enumerate(segments):
-        function = one.get("function")
-        if isinstance(function, PerRevolution):
-            yield _record("turning", [_Swing(sizeof(_Swing), number, function.share, function.order)])
-            yield _record("turning_of", [Segment(**segment) for segment in function.segments])
-        elif function is not None:
-            raise CannotExport("unit refused: a time function is a function of Python, which stays in Python; "
-                               "give it as a table")
+def _refuse_functions(segments: tuple[Any, ...]) -> None:
+    if any(one.get("function") is not None for one in segments):
+        raise CannotExport("unit refused: a time function is a function of Python, which stays in Python; "
+                           "give it as a table")
 
 
 def _calls(scene: Scene) -> Iterator[bytes]:
@@ -157,7 +145,7 @@ def _calls(scene: Scene) -> Iterator[bytes]:
         if name == "add_pipes":
             count, *arguments = arguments  # type: ignore[assignment]
         if name == "add_time_function":
-            yield from _swings(arguments)
+            _refuse_functions(arguments)
         if name == "set_name":
             yield _record(name, [_Name(sizeof(_Name), 0, arguments[0], arguments[1].encode())])
             continue

@@ -15,7 +15,7 @@ from .errors import Usage
 from .fmu import ARRAYS, CALLS, _is_pointer
 from .model import _DEFINITIONS, Model, remake
 from .scene import Scene
-from .scene.segments import PerRevolution
+from .scene.segments import by_numbers
 
 Call = tuple[str, tuple[Any, ...]]
 RPM = 30.0 / math.pi
@@ -50,7 +50,7 @@ class Described:
             kind, h0, h1 = one.get("kind", 0), one.get("h0", 0.0), one.get("h1", 0.0)
             values = [value for _, value in one.get("table", ())] or (
                 [h0] if kind == enums.SEGMENT_CONSTANT else [h0 - abs(h1), h0 + abs(h1)] if kind == enums.SEGMENT_HARMONIC else [h0, h1])
-            if one.get("function") is None:
+            if by_numbers(one):
                 low, high = low + min(values), high + max(values)
         return low, high
 
@@ -209,10 +209,7 @@ def _recorded(calls: list[Call]) -> list[list[Any]]:
             made = one if isinstance(one, Record) else _DEFINITIONS[name](**one)
             structs.append(plain(made, name))
             function = one.get("function") if isinstance(one, dict) else None
-            if isinstance(function, PerRevolution):
-                segments = [plain(_DEFINITIONS[name](**segment), name) for segment in function.segments]
-                structs[-1]["per_revolution"] = {"share": function.share, "order": function.order, "segments": segments}
-            elif function is not None:
+            if function is not None:
                 raise Usage("live page refused: a time function is a function of Python, which stays in Python; give it as a table")
         found.append([name, structs, *count])
     return found

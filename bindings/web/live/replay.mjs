@@ -1,5 +1,4 @@
 // Makes model and sim of a recorded scene: the calls that described it, with structs by the names of their fields.
-import { constants } from "../drillmbd.mjs";
 
 /** The record with NaN and infinities, which JSON has as texts, and with the ids stamped for a model. */
 function revived(value, generation) {
@@ -8,37 +7,6 @@ function revived(value, generation) {
     if (value === null || typeof value !== "object") return value;
     if ("generation" in value) return { index: value.index, generation: value.generation ? generation : 0 };
     return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, revived(one, generation)]));
-}
-
-/** [rate, value, integral] of the smooth step from 0 to 1, D^2 (3 - 2 D). */
-function smoothStep(time, begin, end) {
-    const length = end - begin, x = (time - begin) / length;
-    if (x <= 0) return [0, 0, 0];
-    if (x >= 1) return [0, 1, 0.5 * length + (time - end)];
-    return [(6 * x * (1 - x)) / length, x * x * (3 - 2 * x), length * x * x * x * (1 - 0.5 * x)];
-}
-
-function segmentAt(time, one) {
-    if (one.kind === constants.SEGMENT_STEP) {
-        const [rate, value, integral] = smoothStep(time, one.x0, one.x1), height = one.h1 - one.h0;
-        return [height * rate, one.h0 + height * value, one.h0 * time + height * integral];
-    }
-    if (one.kind === constants.SEGMENT_HARMONIC) {
-        const { omega: w, phase } = one;
-        const swing = w !== 0 ? (Math.cos(phase) - Math.cos(w * time + phase)) / w : Math.sin(phase) * time;
-        return [one.h1 * w * Math.cos(w * time + phase), one.h0 + one.h1 * Math.sin(w * time + phase), one.h0 * time + one.h1 * swing];
-    }
-    return [0, one.h0, one.h0 * time];
-}
-
-/** A speed that swings with the revolutions of another time function: with its rate w and integral theta, share w sin(order theta). */
-function perRevolution({ share, order, segments }) {
-    return (time) => {
-        const sum = [0, 0, 0];
-        for (const one of segments) segmentAt(time, one).forEach((value, k) => (sum[k] += value));
-        const sine = Math.sin(order * sum[2]), cosine = Math.cos(order * sum[2]);
-        return [share * sum[1] * sine, share * (sum[0] * sine + order * sum[1] * sum[1] * cosine), (share * (1 - cosine)) / order];
-    };
 }
 
 const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
@@ -57,7 +25,7 @@ export function modelOf(library, record, diameter) {
         const structs = widened(name, revived(given, generation), record.diameter, diameter);
         let made = null;
         if (name === "add_time_function") {
-            made = model.addTimeFunction(structs.map(({ per_revolution, ...one }) => (per_revolution ? { ...one, function: perRevolution(per_revolution) } : one)));
+            made = model.addTimeFunction(structs);
         } else if (name === "add_hole_sections") {
             model.addHoleSections(structs);
         } else if (name === "set_name") {

@@ -87,7 +87,8 @@ static int same_times(const dmb_segment *a, const dmb_segment *b)
 {
     if (a->kind != b->kind) return 0;
     if (a->kind == DMB_SEGMENT_STEP || a->kind == DMB_SEGMENT_STEP5) return a->x0 == b->x0 && a->x1 == b->x1;
-    if (a->kind != DMB_SEGMENT_TABLE) return 1;
+    if (a->kind == DMB_SEGMENT_PER_REVOLUTION) return a->of.index == b->of.index;
+    if (a->kind != DMB_SEGMENT_TABLE && a->kind != DMB_SEGMENT_PERIODIC) return 1;
     return a->table_count == b->table_count &&
            memcmp(a->table_time, b->table_time, a->table_count * sizeof *a->table_time) == 0;
 }

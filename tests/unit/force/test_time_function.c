@@ -251,6 +251,179 @@ static void breakpoints_of_a_sum(void **state)
     assert_true(value_at(&empty, 1) == 0.0 && integral_of(&empty, 0, 1) == 0.0);
 }
 
+/* ---- tables that repeat ---- */
+
+static const double pulse_time[4] = {0.3, 0.42, 0.5, 1.0};
+static const double pulse_value[4] = {-1.0, 3.0, 0.5, -1.0};
+
+static dmb_segment pulses(void)
+{
+    dmb_segment term = make(DMB_SEGMENT_PERIODIC, 0, 1, 0, 0);
+
+    term.table_time = pulse_time;
+    term.table_value = pulse_value;
+    term.table_count = 4;
+    return term;
+}
+
+/* Value, rates and integrals of a table that repeats are those of the table at the time less whole periods; at knots,
+ * which are found as breakpoints in their order, the rates from both sides are the slopes of the neighbours. */
+static void repeated_table(void **state)
+{
+    dmb_segment again = pulses(), once = pulses();
+    const dmb_time_function p = {&again, 1}, one = {&once, 1};
+    uint64_t seed = 99;
+    (void)state;
+
+    once.kind = DMB_SEGMENT_TABLE;
+    for (int i = 0; i < 40; ++i) {
+        const double n = floor(draw(&seed, -40, 40)), t = draw(&seed, 0.3, 1.0);
+        const double at = t + 0.7 * n;
+        CHECK_CLOSE(value_at(&p, at), value_at(&one, at - 0.7 * n), 1e-11);
+        const double later = draw(&seed, at, at + 3);
+        CHECK_CLOSE(integral_of(&p, at, later), quadrature(&p, at, later), 1e-10);
+    }
+    const double whole = integral_of(&one, 0.3, 1.0);
+    CHECK_RELATIVE(integral_of(&p, -6.7, 7000.3), whole * 7007.0 / 0.7, 1e-13);
+}
+
+static void breakpoints_of_a_repeated_table(void **state)
+{
+    const dmb_segment again = pulses();
+    const dmb_time_function p = {&again, 1};
+    const double slope[3] = {4.0 / 0.12, -2.5 / 0.08, -1.5 / 0.5};
+    double t = 1e4;
+    int at = -1;
+    (void)state;
+
+    for (int i = 0; i < 3000; ++i) {
+        const double next = dmb_time_function_next_breakpoint(&p, t);
+        double before = (double)NAN;
+        assert_true(next > t && next < t + 0.51);
+        assert_int_equal(dmb_time_function_rate_before(&p, next, &before), DMB_OK);
+        const double after = rate_at(&p, next), middle = rate_at(&p, 0.5 * (t + next));
+        if (at < 0)
+            for (int k = 0; k < 3; ++k)
+                if (fabs(after - slope[k]) < 1e-9) at = k;
+        assert_true(at >= 0);
+        CHECK_RELATIVE(after, slope[at], 1e-13);
+        CHECK_RELATIVE(before, slope[(at + 2) % 3], 1e-13);
+        if (i > 0) CHECK_RELATIVE(middle, before, 0.0);
+        at = (at + 1) % 3;
+        t = next;
+    }
+    CHECK_CLOSE(t, 1e4 + 700.0, 0.5);
+}
+
+/* ---- per revolution ---- */
+
+/* 0: the speed of a rig that starts and stops; 1: with a harmonic; 2: tables. */
+static dmb_time_function turning(int kind, dmb_segment term[3])
+{
+    term[0] = make(DMB_SEGMENT_STEP, 0, 1, 0, 21);
+    term[1] = make(DMB_SEGMENT_STEP5, 1.5, 2.25, 0, -30);
+    if (kind == 1) term[1] = harmonic(4, 9, 13, 0.5);
+    if (kind == 2) {
+        term[0] = table(5);
+        term[1] = pulses();
+    }
+    const dmb_time_function made = {term, 2};
+    return made;
+}
+
+static dmb_segment per_revolution(dmb_time_function *of, double h0, double h1, double share, double order)
+{
+    dmb_segment term = make(DMB_SEGMENT_PER_REVOLUTION, 0, 1, h0, h1);
+
+    term.share = share;
+    term.order = order;
+    term.phase = 0.3;
+    term.callback_context = of;
+    return term;
+}
+
+/* Of all the turnings, against closed forms with sin of the C library, central differences and quadrature. */
+static void swings(void **state)
+{
+    uint64_t seed = 4;
+    (void)state;
+
+    for (int kind = 0; kind < 3; ++kind) {
+        dmb_segment terms[3];
+        dmb_time_function of = turning(kind, terms);
+        const dmb_segment worn = per_revolution(&of, 0.2, 1.5, 0.02, 3.0);
+        const dmb_time_function p = {&worn, 1};
+        for (int i = 0; i < 100; ++i) {
+            const double t = draw(&seed, -1, 9), h = 1e-6;
+            const double angle = 3.0 * integral_of(&of, 0.0, t) + 0.3;
+            CHECK_CLOSE(value_at(&p, t), 0.2 + (1.5 + 0.02 * value_at(&of, t)) * sin(angle), 1e-13);
+            if (dmb_time_function_next_breakpoint(&p, t - 2 * h) <= t + 2 * h) continue;
+            CHECK_CLOSE(rate_at(&p, t), (value_at(&p, t + h) - value_at(&p, t - h)) / (2 * h), 1e-6); /* of 200 */
+        }
+        for (int i = 0; i < 4; ++i) {
+            const double a = draw(&seed, -1, 4), b = draw(&seed, a, a + 0.7);
+            CHECK_CLOSE(integral_of(&p, a, b), quadrature(&p, a, b), 1e-10);
+        }
+    }
+}
+
+/* The worn gear alone, as functions of the caller had it: share w sin, share (1 - cos)/order; short steps keep their
+ * digits. */
+static void swing_of_a_speed(void **state)
+{
+    dmb_segment terms[3];
+    dmb_time_function of = turning(0, terms);
+    dmb_segment worn = per_revolution(&of, 0.0, 0.0, 0.02, 1.0);
+    const dmb_time_function p = {&worn, 1};
+    uint64_t seed = 5;
+    (void)state;
+
+    worn.phase = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const double t = draw(&seed, 0, 4), theta = integral_of(&of, 0.0, t), w = value_at(&of, t);
+        CHECK_CLOSE(value_at(&p, t), 0.02 * w * sin(theta), 1e-14);
+        CHECK_CLOSE(rate_at(&p, t), 0.02 * (rate_at(&of, t) * sin(theta) + w * w * cos(theta)), 1e-12);
+        CHECK_CLOSE(integral_of(&p, 0.0, t), 0.02 * (1.0 - cos(theta)), 1e-15);
+    }
+    const double t0 = 1000.0, t1 = t0 + 1e-4; /* it turns backwards by 9 rad/s */
+    const double middle = integral_of(&of, 0.0, 0.5 * t0 + 0.5 * t1);
+    CHECK_RELATIVE(integral_of(&p, t0, t1), 0.02 * -9.0 * (t1 - t0) * sin(middle), 1e-6);
+}
+
+/* At a kink of the speed that it follows the rate has two sides; the kink is a breakpoint. */
+static void swing_at_breakpoints(void **state)
+{
+    dmb_segment terms[3];
+    dmb_time_function of = turning(2, terms);
+    const dmb_segment worn = per_revolution(&of, 0.0, 0.0, 0.02, 1.0);
+    const dmb_time_function p = {&worn, 1};
+    double before = (double)NAN;
+    (void)state;
+
+    const double kink = dmb_time_function_next_breakpoint(&p, 0.43);
+    assert_true(kink == dmb_time_function_next_breakpoint(&of, 0.43) && kink == 0.5);
+    assert_int_equal(dmb_time_function_rate_before(&p, kink, &before), DMB_OK);
+    CHECK_CLOSE(before, (3 * value_at(&p, kink) - 4 * value_at(&p, kink - 1e-5) + value_at(&p, kink - 2e-5)) / 2e-5,
+                1e-6);
+    CHECK_CLOSE(rate_at(&p, kink),
+                (4 * value_at(&p, kink + 1e-5) - 3 * value_at(&p, kink) - value_at(&p, kink + 2e-5)) / 2e-5, 1e-6);
+    assert_true(fabs(before - rate_at(&p, kink)) > 0.1);
+}
+
+/* An integral of h1 over more revolutions than can be summed is refused. */
+static void endless_swing(void **state)
+{
+    dmb_segment terms[3];
+    dmb_time_function of = turning(0, terms);
+    const dmb_segment worn = per_revolution(&of, 0.0, 1.0, 0.0, 1e6);
+    const dmb_time_function p = {&worn, 1};
+    double integral = 13;
+    (void)state;
+
+    assert_int_equal(dmb_time_function_integral(&p, 0.0, 1.0, &integral), DMB_ERR_TOO_LARGE);
+    assert_true(integral == 13);
+}
+
 /* ---- callbacks ---- */
 
 struct wave {
@@ -391,6 +564,12 @@ int main(void)
         cmocka_unit_test(small_intervals_far_out),
         cmocka_unit_test(table_values_and_breakpoints),
         cmocka_unit_test(breakpoints_of_a_sum),
+        cmocka_unit_test(repeated_table),
+        cmocka_unit_test(breakpoints_of_a_repeated_table),
+        cmocka_unit_test(swings),
+        cmocka_unit_test(swing_of_a_speed),
+        cmocka_unit_test(swing_at_breakpoints),
+        cmocka_unit_test(endless_swing),
         cmocka_unit_test(callbacks_agree),
         cmocka_unit_test(callbacks_that_fail),
         cmocka_unit_test(nonsense_times),

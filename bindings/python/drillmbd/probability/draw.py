@@ -6,8 +6,9 @@ import re
 from typing import Any
 
 from .._optional import need
-from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE
+from ..enums import SEGMENT_CONSTANT, SEGMENT_HARMONIC, SEGMENT_PERIODIC, SEGMENT_STEP, SEGMENT_STEP5, SEGMENT_TABLE, SegmentKind
 from ..scene import Scene
+from ..scene.fields import word_of
 from ..scene.segments import value_at
 from ..scene.units import text
 from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
@@ -24,19 +25,17 @@ def value_of_segments(segments: list[dict[str, Any]], time: float) -> float:
     """A time function at a time, by its described segments."""
     numpy, total = need("numpy"), 0.0
     for segment in segments:
-        kind = SEGMENT_TABLE if segment.get("table") else segment.get("kind", SEGMENT_CONSTANT)
-        if segment.get("function") is not None:
-            total += segment["function"](time)[0]
-        elif kind == SEGMENT_TABLE:
+        kind = segment.get("kind", SEGMENT_TABLE if segment.get("table") else SEGMENT_CONSTANT)
+        if kind in (SEGMENT_TABLE, SEGMENT_PERIODIC):
             times, values = zip(*segment["table"])
-            total += float(numpy.interp(time, times, values))
+            total += float(numpy.interp(time, times, values, period=times[-1] - times[0] if kind == SEGMENT_PERIODIC else None))
         elif kind == SEGMENT_STEP5:
             d = min(max((time - segment.get("x0", 0.0)) / (segment.get("x1", 1.0) - segment.get("x0", 0.0)), 0.0), 1.0)
             total += segment.get("h0", 0.0) + (segment.get("h1", 0.0) - segment.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
         elif kind in (SEGMENT_CONSTANT, SEGMENT_STEP, SEGMENT_HARMONIC):
             total += value_at(time, segment)
         else:
-            raise CannotDraw(f"a segment of kind {kind} cannot be multiplied; use how = \"added\"")
+            raise CannotDraw(f"a segment of kind {word_of(SegmentKind(kind))} cannot be multiplied; use how = \"added\"")
     return total
 
 
@@ -234,10 +233,10 @@ class Draw:
         struct = known.fields_of(known.DEFINITIONS["segment"])
         found = []
         for segment in segments:
-            if segment.get("function") is not None:
-                raise CannotDraw("a time function per revolution cannot be added to")
             one = {key: known.write(struct[key], value, unit if key in ("h0", "h1") else None)
-                   for key, value in segment.items() if key in struct}
+                   for key, value in segment.items() if key in struct and key != "of"}
+            if "of" in segment:
+                one["of"] = next(name for name, part in self.scene.names.items() if part == segment["of"])
             if segment.get("table"):
                 one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in segment["table"]]
             found.append(one)

@@ -5,20 +5,22 @@ import bisect
 from typing import Any
 
 from .. import enums
+from .segments import by_numbers
 
 STEPS = (enums.SEGMENT_STEP, enums.SEGMENT_STEP5)
 BETWEEN, MOST_BREAKPOINTS = 16, 2000  #: times between breakpoints, breakpoints up to which there are such
 
 
 def largest_of(segments: Any) -> float | None:
-    """The largest magnitude of a sum of segments over all times; None if a function of the caller is among them. Steps and tables are added at
-    the same times, so that a step up and one down later do not add up; harmonics count with their amplitude at any time."""
-    segments = [{**segment, "kind": int(enums.SEGMENT_TABLE if "table" in segment else segment.get("kind", enums.SEGMENT_CONSTANT))} for segment in segments]
-    if any(segment["kind"] == enums.SEGMENT_CALLBACK or segment.get("function") is not None for segment in segments):
+    """The largest magnitude of a sum of segments over all times; None if a function of the caller or a segment per revolution is among them. Steps and tables are added at
+    the same times, so that a step up and one down later do not add up; harmonics and tables that repeat count with their largest magnitude at any time."""
+    segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment else enums.SEGMENT_CONSTANT))} for segment in segments]
+    if not all(by_numbers(segment) for segment in segments):
         return None
     if len(segments) == 1 and segments[0].get("table"):
         return float(max(abs(value) for _, value in segments[0]["table"]))
     swing = sum(abs(segment.get("h1", 0.0)) for segment in segments if segment["kind"] == enums.SEGMENT_HARMONIC)
+    swing += sum(max(abs(value) for _, value in segment["table"]) for segment in segments if segment["kind"] == enums.SEGMENT_PERIODIC)
     return float(swing + max(abs(sum(_value_at(segment, time) for segment in segments)) for time in _times(segments)))
 
 
@@ -37,7 +39,7 @@ def _times(segments: list[dict[str, Any]]) -> list[float]:
 
 
 def _value_at(segment: dict[str, Any], time: float) -> float:
-    """Of one segment; of a harmonic its middle."""
+    """Of one segment; of a harmonic its middle, of a table that repeats 0."""
     if segment["kind"] == enums.SEGMENT_TABLE:
         return _between(segment.get("table", ()), time)
     h0, h1 = float(segment.get("h0", 0.0)), float(segment.get("h1", 0.0))

@@ -25,7 +25,7 @@ from .problems import Problem, Problems, SceneError, meant
 from .read_file import TooLarge, limited
 from .source import Source
 from .sub import Subs
-from .segments import PerRevolution
+from .segments import by_numbers
 
 MOST_BYTES = 50_000_000
 #: [s] damping_time of pipes that a scene file does not give: 0.03 % of critical damping at 1 Hz, 3 % at 100 Hz. Without any,
@@ -201,11 +201,21 @@ class Loader:
             uses += [(path + (key,), table.get(key), self.drive_unit(table)) for key in ("time_function", "excitation")]
         uses += [(path + ("load",), table.get("load"), "N") for path, table in self.parts("bit")]
         uses += [(path + ("time_function",), table.get("time_function"), "-") for path, table in self.parts("load")]
+        for path, table in self.parts("time_function"):
+            uses += [(where + ("of",), one["of"], "rad/s") for where, one in self._segments(path, table) if "of" in one]
         for path, name, unit in uses:
             if isinstance(name, str) and self.kinds.get(name) == "time_function":
                 if self.units.setdefault(name, unit) != unit:
                     self.problems.add(path, name, f"is used in {self.units[name]} elsewhere and in {unit} here; "
                                                   "make two time functions")
+
+    def _segments(self, path: Path, table: dict[str, Any]) -> list[tuple[Path, dict[str, Any]]]:
+        """The segments of a time function that are tables; others are refused later."""
+        given = table.get("segment")
+        found: list[tuple[Path, Any]] = [(path + ("segment",), given)]
+        if isinstance(given, list):
+            found = [(path + ("segment", number), one) for number, one in enumerate(given)]
+        return [(where, one) for where, one in found if isinstance(one, dict)]
 
     def drive_unit(self, table: dict[str, Any]) -> str:
         """The unit of the time function of a drive."""
@@ -395,25 +405,41 @@ class Loader:
         return None
 
     def _segment(self, path: Path, table: dict[str, Any], unit: str) -> dict[str, Any] | None:
-        """The fields of a Term."""
-        if table.get("kind") == "per-revolution":
-            return self._per_revolution(path, table)
+        """The fields of a Segment."""
         before = len(self.problems.found)
         try:
             units.factor_and_kind(unit)
         except units.UnitError as error:
             self.problems.add(path[:2] + ("unit",), unit, str(error))
             return None
-        values = self.read(path, table, fields_of(DEFINITIONS["segment"]), ("table",),
+        values = self.read(path, table, fields_of(DEFINITIONS["segment"]), ("table", "of"),
                            lambda name: unit if name in ("h0", "h1") else None)
-        if values.get("kind") == enums.SEGMENT_CALLBACK:
+        kind = values.get("kind")
+        if kind == enums.SEGMENT_CALLBACK:
             self.problems.add(path + ("kind",), "callback", "is for programs; a file has tables")
+        if kind == enums.SEGMENT_PER_REVOLUTION:
+            self._per_revolution(path, table, values, unit)
+        for key in (key for key in ("of", "share", "order") if key in table and kind != enums.SEGMENT_PER_REVOLUTION):
+            self.problems.add(path + (key,), table[key], 'belongs to segments with kind = "per-revolution"')
         if "table" in table:
             values["table"] = self.pairs(path + ("table",), table["table"], "s", unit, "time and value")
-            values.pop("kind", None)
-        elif values.get("kind") == enums.SEGMENT_TABLE:
+            if kind != enums.SEGMENT_PERIODIC:
+                values.pop("kind", None)
+        elif kind in (enums.SEGMENT_TABLE, enums.SEGMENT_PERIODIC):
             self.problems.add(path, None, 'must have a table, as table = [["0 s", "0 m/s"], ["1 s", "0.1 m/s"]]')
         return values if len(self.problems.found) == before else None
+
+    def _per_revolution(self, path: Path, table: dict[str, Any], values: dict[str, Any], unit: str) -> None:
+        of = table.get("of")
+        if not isinstance(of, str) or of not in self.segments:
+            self.problems.add(path + ("of",), of, "must name a time function that stands before this one"
+                              + meant(str(of), list(self.segments)))
+            return
+        if any(not by_numbers(segment) for segment in self.segments[of]):
+            self.problems.add(path + ("of",), of, "must name a time function without segments per revolution")
+        if values.get("share") and unit != "rad/s":
+            self.problems.add(path + ("share",), table["share"], f"is of a speed in rad/s, and this time function is in {unit}; use h1")
+        values["of"] = self.names.get(of)
 
     def pairs(self, path: Path, rows: Any, first: str, second: str, what: str) -> list[tuple[float, float]]:
         """A table of pairs in those units."""
@@ -431,21 +457,6 @@ class Loader:
             except units.UnitError as error:
                 self.problems.add(path + (number,), row, str(error))
         return found
-
-    def _per_revolution(self, path: Path, table: dict[str, Any]) -> dict[str, Any] | None:
-        number = {"share": Field("share", "quantity", "-"), "order": Field("order", "quantity", "-")}
-        values = self.read(path, table, number, ("kind", "of"))
-        of = table.get("of")
-        if not isinstance(of, str) or of not in self.segments:
-            known = [name for name in self.segments]
-            self.problems.add(path + ("of",), of, "must name a time function that stands before this one"
-                              + meant(str(of), known))
-            return None
-        if not PerRevolution.knows(self.segments[of]) or not values.get("order", 1.0) > 0.0:
-            self.problems.add(path, None, "must follow a time function of constants, steps and harmonics, by an order > 0")
-            return None
-        function = PerRevolution(of, values.get("share", 0.0), values.get("order", 1.0), tuple(self.segments[of]))
-        return {"function": function, "provides": int(enums.PROVIDES_RATE | enums.PROVIDES_INTEGRAL)}
 
     def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
         values = self.read(path, table, fields_of(DEFINITIONS["string"]), ("name", "pipes"))

@@ -19,13 +19,14 @@ from .fields import DEFINITIONS, fields_of
 from .hole import FRICTION
 from .lines import Path
 from .source import Source, decorated
-from .segments import PerRevolution
 
 DEFAULTS = "# defaults"
 #: Absent limits and delays are numbers of this size in the library; they are left out.
 NO_LIMIT = 1e30
 #: Fields of the segments of a time function by their kind.
-SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.SEGMENT_STEP5: ("kind", "x0", "x1", "h0", "h1")}
+SEGMENT_FIELDS = {enums.SEGMENT_CONSTANT: ("kind", "h0"), enums.SEGMENT_STEP: ("kind", "x0", "x1", "h0", "h1"), enums.SEGMENT_STEP5: ("kind", "x0", "x1", "h0", "h1"),
+                  enums.SEGMENT_HARMONIC: ("kind", "h0", "h1", "omega", "phase"),
+                  enums.SEGMENT_PER_REVOLUTION: ("kind", "h0", "h1", "phase", "of", "share", "order")}
 
 
 class CannotSave(ValueError):
@@ -253,15 +254,11 @@ class Writer:
             self._segment(name, segment, unit)
 
     def _segment(self, name: str, segment: dict[str, Any], unit: str) -> None:
-        function = segment.get("function")
-        if isinstance(function, PerRevolution):
-            for key, value in (("kind", "per-revolution"), ("of", function.of), ("share", function.share),
-                               ("order", function.order)):
-                self._key(key, value)
-            return
-        if function is not None:
+        if segment.get("function") is not None:
             raise CannotSave(f"time function {name}: a function of Python cannot be written to a file; use a table")
         if segment.get("table"):
+            if segment.get("kind") == enums.SEGMENT_PERIODIC:
+                self._key("kind", "periodic")
             self._key("table", [[units.text(t, "s"), units.text(v, unit)] for t, v in segment["table"]])
             return
         used = SEGMENT_FIELDS.get(segment.get("kind", enums.SEGMENT_CONSTANT), ())

@@ -50,8 +50,7 @@ def _many(one: dict[str, Any]) -> dict[str, Any]:
 
 def _segment() -> dict[str, Any]:
     known = fields_of(DEFINITIONS["segment"])
-    made = _object(known, table=_TABLE, of=_NAME, share={"type": ["number", "string"]}, order={"type": ["number", "string"]})
-    made["properties"]["kind"]["enum"].append("per-revolution")
+    made = _object(known, table=_TABLE)
     made["properties"]["kind"]["enum"].remove("callback")
     return made
 
