@@ -351,7 +351,7 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step 
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     const double step = trial_step->end.step;
-    const int usable = trial_step->whole && !trial_step->diverged &&
+    const int usable = trial_step->keep != DMB_KEEP_NOTHING && trial_step->stage < DMB_STAGE_OWN &&
                        fabs(sim->reuse->step - step) <= DMB_REUSE_STEP * step && sim->reuse->pause == 0;
     trial_step->factored = usable ? DMB_FACTORS_REUSED : DMB_FACTORS_NONE;
     trial_step->tried |= usable;
@@ -409,7 +409,7 @@ static int32_t is_near_touch(const dmb_sim *sim, const dmb_configuration *reache
 
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_configuration *reached)
 {
-    if (!trial_step->whole || trial_step->iterations == 0) return;
+    if (trial_step->keep == DMB_KEEP_NOTHING || trial_step->iterations == 0) return;
     if (trial_step->factored == DMB_FACTORS_REUSED) {
         count_success(sim->reuse, trial_step->iterations);
     } else if (trial_step->factored == DMB_FACTORS_FRESH) {
@@ -423,6 +423,5 @@ void dmb_factor_reuse_end(dmb_sim *sim, const dmb_trial_step *trial_step, const 
 void dmb_factor_reuse_revert(dmb_sim *sim, const dmb_trial_step *trial_step, const dmb_factor_reuse *kept)
 {
     *sim->reuse = *kept;
-    if (trial_step->whole && !trial_step->deferred && trial_step->factored == DMB_FACTORS_FRESH)
-        dmb_forget_factors(sim);
+    if (trial_step->keep == DMB_KEEP_AT_COMMIT && trial_step->factored == DMB_FACTORS_FRESH) dmb_forget_factors(sim);
 }

@@ -16,8 +16,7 @@ static int32_t may_be_linear(const dmb_sim *sim, const dmb_generalized_alpha *c,
 {
     const dmb_scene *scene = sim->scene;
     if (sim->options.newton_tolerance > 0.0) return 0;
-    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || trial_step->diverged || trial_step->constant)
-        return 0;
+    if (scene->cluster_count > 0 || scene->free_rigid_count > 0 || trial_step->stage != DMB_STAGE_FIRST) return 0;
     return c->af - c->am >= DMB_APART_MIN && sim->prediction->constant > 0 &&
            sim->prediction->constant <= DMB_SMOOTH_MOST && sim->prediction->pause == 0;
 }
@@ -40,7 +39,8 @@ void dmb_prediction_note(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     dmb_prediction *p = sim->prediction;
     if (!trial_step->linear) p->constant = trial_step->iterations;
-    if (!trial_step->linear && !trial_step->constant) {
+    const int changed = trial_step->stage == DMB_STAGE_CONSTANT || trial_step->stage == DMB_STAGE_CONSTANT_OWN;
+    if (!trial_step->linear && !changed) {
         if (p->pause > 0) p->pause--;
         return;
     }

@@ -94,12 +94,13 @@ static int32_t accept(dmb_sim *sim, dmb_trial_step *trial_step, dmb_stepping *st
     int jumped = 0;
     int32_t turns = 0, status = may_jump(sim, trial_step, &turns);
     if (status >= 0) {
-        trial_step->deferred = status > 0 && sim->scene->has_callback;
+        if (status > 0 && sim->scene->has_callback && trial_step->keep == DMB_KEEP_AT_COMMIT)
+            trial_step->keep = DMB_KEEP_AFTER_JUMP;
         if (status > 0 && !stepping->set_aside) dmb_state_back_up(sim);
         dmb_trial_step_commit(sim, trial_step);
         status = stepping_breakpoint(sim, turns, &jumped);
         if (status >= 0) {
-            if (trial_step->deferred && !jumped) dmb_factor_reuse_end(sim, trial_step, &sim->now);
+            if (trial_step->keep == DMB_KEEP_AFTER_JUMP && !jumped) dmb_factor_reuse_end(sim, trial_step, &sim->now);
             return DMB_OK;
         }
         if (!stepping->set_aside) dmb_state_restore(sim);

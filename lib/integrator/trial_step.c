@@ -1,20 +1,19 @@
-/* A trial step and its fallbacks. Each row is tried only if the one above it ends as the last column says:
+/* A trial step and its fallbacks (diagram of the stages: integrator/trial_step.h).
  *
- *     stage                          start                                           next stage if
- *     ----------------------------   ---------------------------------------------   ----------------------------------
- *     1 solve                        linear prediction if allowed, else constant;    contacts change    -> 2
- *                                    reused factors if they fit                      does not converge  -> 3
- *     2 solve, constant prediction   accelerations at the start                      does not converge  -> 3
- *     3 solve, no reuse              constant prediction, factors of its own         does not converge  -> step fails
+ *     stage          prediction                         factors
+ *     ------------   --------------------------------   -----------------------------------------
+ *     FIRST          linear if permitted, else constant reused ones if they fit, else its own
+ *     CONSTANT       constant                           the same
+ *     OWN,           constant                           its own
+ *     CONSTANT_OWN
  *
- *     solve = predict -> Newton -> contacts open? -> repeat without their force (at most 4 times)
+ *     each stage: predict -> Newton -> contacts open? -> repeat without their force (at most 4 times)
  *
- * Stage 2 follows a linear prediction only; stage 3 only if reused factors or a linear prediction were tried. The
- * release (eq:contact.release) follows each successful solve: contacts that open, and mean forces by which the step
- * gains energy (eq:contact.gain), leave the history of the step, which is then repeated from the increments found.
- * Final checks, each of which fails the step: an equation dropped as redundant is violated, a joint is near its gimbal
- * singularity, the mass matrix for the accelerations after mean forces is singular, an element has rotated too far. A
- * failed step is divided by the caller (integrator/step). */
+ * The release (eq:contact.release) follows each successful Newton iteration: contacts that open, and mean forces by
+ * which the step gains energy (eq:contact.gain), leave the history of the step, which is repeated from the increments
+ * found. Final checks, each of which fails the step: an equation dropped as redundant is violated, a joint is near its
+ * gimbal singularity, the mass matrix for the accelerations after mean forces is singular, an element has rotated too
+ * far. A failed step is divided by the caller (integrator/step). */
 #include "integrator/trial_step.h"
 
 #include <string.h>
@@ -231,27 +230,33 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
     return status == DMB_OK ? release(sim, c, trial_step) : status;
 }
 
+static int32_t run_stage(dmb_sim *sim, const dmb_generalized_alpha *c, int32_t stage, dmb_trial_step *trial_step)
+{
+    trial_step->stage = stage;
+    trial_step->iterations = 0;
+    return solve_step(sim, c, trial_step);
+}
+
+/* The stages of a trial step in the order of their diagram (integrator/trial_step.h). */
+static int32_t run_stages(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_trial_step *trial_step)
+{
+    int32_t status = run_stage(sim, c, DMB_STAGE_FIRST, trial_step);
+    if (status == DMB_CHANGES) status = run_stage(sim, c, DMB_STAGE_CONSTANT, trial_step);
+    if (status >= 0 || dmb_is_final(status) || !(trial_step->tried || trial_step->linear)) return status;
+    const int32_t own = trial_step->stage == DMB_STAGE_FIRST ? DMB_STAGE_OWN : DMB_STAGE_CONSTANT_OWN;
+    return run_stage(sim, c, own, trial_step);
+}
+
 static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_trial_step *trial_step)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
     memset(trial_step, 0, sizeof *trial_step);
     trial_step->end = *end;
-    trial_step->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
+    if (whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work) trial_step->keep = DMB_KEEP_AT_COMMIT;
     trial_step->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
-    status = solve_step(sim, &c, trial_step);
-    if (status == DMB_CHANGES) {
-        trial_step->constant = 1;
-        trial_step->iterations = 0;
-        status = solve_step(sim, &c, trial_step);
-    }
-    if ((trial_step->tried || trial_step->linear) && status < 0 && !dmb_is_final(status)) {
-        /* stage 3: factors of its own, constant prediction */
-        trial_step->diverged = 1;
-        trial_step->iterations = 0;
-        status = solve_step(sim, &c, trial_step);
-    }
+    status = run_stages(sim, &c, trial_step);
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
     if (status >= 0 && sim->scene->joint_count) {
         const int32_t refused = dmb_joints_refuse_gimbal_singularity(sim, 1, trial_step->evaluation.time);
@@ -259,7 +264,7 @@ static int32_t try_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dm
     }
     if (status >= 0) {
         const int32_t refused = dmb_bounces_end(&trial_step->evaluation, &trial_step->bounced);
-        if (trial_step->bounced) trial_step->whole = 0;
+        if (trial_step->bounced) trial_step->keep = DMB_KEEP_NOTHING;
         if (refused < 0) status = refused;
     }
     *sim->factors = DMB_FACTORS_NONE;
@@ -333,7 +338,7 @@ void dmb_trial_step_commit(dmb_sim *sim, dmb_trial_step *trial_step)
 {
     dmb_counters *counters = sim->counters;
     dmb_system_accept(&trial_step->evaluation);
-    if (!trial_step->deferred) dmb_factor_reuse_end(sim, trial_step, &sim->trial);
+    if (trial_step->keep == DMB_KEEP_AT_COMMIT) dmb_factor_reuse_end(sim, trial_step, &sim->trial);
     dmb_prediction_note(sim, trial_step);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &trial_step->evaluation, trial_step->released);
     dmb_bounces_accept(&trial_step->evaluation, trial_step->bounced);

@@ -7,6 +7,31 @@
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
+/* Stage of a trial step: which solve its result comes from. Each stage is a complete solve from the accepted state.
+ *
+ *                contacts change, after
+ *                a linear prediction
+ *     +-------+ ------------------------> +----------+
+ *     | FIRST |                           | CONSTANT |
+ *     +-------+                           +----------+
+ *         | does not converge *                | does not converge *
+ *         v                                    v
+ *     +-------+                           +--------------+
+ *     |  OWN  |                           | CONSTANT_OWN |
+ *     +-------+                           +--------------+
+ *
+ * Any stage that succeeds goes on to the checks of the step; OWN and CONSTANT_OWN fail if they do not converge.
+ * (*) If reused factors or a linear prediction were tried, otherwise the step fails at once. */
+enum {
+    DMB_STAGE_FIRST = 0,       /* linear prediction and reused factors, if permitted */
+    DMB_STAGE_CONSTANT = 1,    /* constant prediction */
+    DMB_STAGE_OWN = 2,         /* constant prediction and factors of its own */
+    DMB_STAGE_CONSTANT_OWN = 3 /* the same, because contacts change too */
+};
+
+/* Use of the factors of a trial step in later steps. AFTER_JUMP: a later callback may still revert the step. */
+enum { DMB_KEEP_NOTHING = 0, DMB_KEEP_AT_COMMIT = 1, DMB_KEEP_AFTER_JUMP = 2 };
+
 typedef struct dmb_trial_step {
     dmb_evaluation evaluation; /* the most recent one */
     dmb_step_end end;
@@ -15,13 +40,11 @@ typedef struct dmb_trial_step {
     uint32_t iterations;
     int32_t status;   /* DMB_OK, DMB_NOTE_WORK_LIMITED, or the error of a failed step */
     uint32_t block;   /* block found singular, with DMB_ERR_SINGULAR */
-    int32_t whole;    /* 1: the call cannot take the step back, so it may use and keep reused factors */
+    int32_t stage;    /* DMB_STAGE_... */
+    int32_t keep;     /* DMB_KEEP_...; NOTHING: reused factors are not used either */
     int32_t factored; /* DMB_FACTORS_...: factors of the last iteration */
     int32_t tried;    /* 1: reused factors were tried */
-    int32_t diverged; /* 1: these or a linear prediction failed, and the step was restarted without both */
     int32_t released; /* 1: contacts opened, and the step was repeated without their force (eq:contact.release) */
-    int32_t deferred; /* 1: commit does not keep the factors, because the step may still be reverted */
-    int32_t constant; /* 1: constant prediction, because contacts change in the step */
     int32_t bounced;  /* 1: contacts, stops or springs had mean forces (eq:unilateral.mean) */
     int32_t linear;   /* 1: linear prediction (eq:integration.prediction) */
 } dmb_trial_step;
