@@ -65,10 +65,20 @@ class AssessedTest(FolderTest):
         for key in ("seed", "samples", "question"):
             self.assertIn("is a setting of the study", self.told(LEVEL + failure("rig-push", limit="9 kN"), 2, "--vary", f"variability.{key}=1,2"))
 
+    def test_keys_that_samples_write(self):
+        """A value of --vary that each sample replaces by its own."""
+        text = LEVEL + failure("rig-push", limit="9 kN")
+        self.assertIn("each sample has a value of its own, of friction", self.told(text, 2, "--vary", "hole.mu_dynamic=0.1,0.2"))
+        self.assertIn("each sample has a value of its own", self.told(text, 2, "--vary", "hole.diameter & hole[0].mu_static=0.1,0.2"))
+        self.told(text, 0, "--vary", "variability.scatter[0].mean=0.2,0.3")
+        factor = text.replace("mean = 0.3\ndeviation = 0.03", "relative = true\nmean = 1\ndeviation = 0.1")
+        self.assertNotEqual(factor, text)
+        self.told(factor, 0, "--vary", "hole.mu_static & hole.mu_dynamic=0.1,0.2")
+
     def test_a_map_that_is_flat(self):
         """Torque and drag do not depend on the rotary speed: a note says so, and that dynamics are left out."""
         text = LEVEL + failure("rig-push", limit="9.5 kN")
-        told = self.told(text, 0, "--vary", "time_function[1].segment.h1=60 rpm,120 rpm", "--vary", "hole.mu_static & hole.mu_dynamic=0.2,0.3")
+        told = self.told(text, 0, "--vary", "time_function[1].segment.h1=60 rpm,120 rpm", "--vary", "variability.scatter.mean=0.2,0.3")
         self.assertIn("time_function[1].segment.h1 changes no percentile", told)
         self.assertIn("leaves out dynamics", told)
         told = self.told(text, 0, "--vary", "failure.limit=9 kN,9.5 kN")

@@ -110,7 +110,7 @@ class DefaultTest(FolderTest):
 
 
 class TogetherTest(FolderTest):
-    SCENE = LEVEL + PUSH
+    SCENE = LEVEL.replace("mean = 0.3\ndeviation = 0.03", "relative = true\nmean = 1\ndeviation = 0.1") + PUSH
 
     def test_grammar(self):
         self.assertEqual(varied("a.b & c=1 & 2 m,3"), ("a.b & c", ["1 & 2 m", 3]))

@@ -64,13 +64,32 @@ def _varied(texts: list[str]) -> list[tuple[str, list[Any]]]:
     return found
 
 
+def _plain(key: str) -> str:
+    """A key without the number 0 of tables and without those of pipes, as fields along a string write all pipes."""
+    return re.sub(r"\.pipes\[\d+\]", ".pipes", key).replace("[0]", "")
+
+
 class Map:
     """All cells of one command."""
 
     def __init__(self, sample: SceneSample, options: argparse.Namespace, question: str, output: CommandOutput) -> None:
         self.sample, self.options, self.question, self.output = sample, options, question, output
         self.vary = _varied(options.vary)
+        self._refuse_lost()
         self.cells: list[Cell] = []
+
+    def _refuse_lost(self) -> None:
+        """Keys that each sample writes anew: the values of --vary would be lost."""
+        from ..sweep import keys_of
+        varies = self.sample.draw.varies
+        parts = [("scatter", i, one) for i, one in enumerate(varies.scatters)] + [("field", i, one) for i, one in enumerate(varies.fields)]
+        written = {_plain(key): (table, i, one.name) for table, i, one in parts if not one.relative for key in one.keys}
+        for text, _ in self.vary:
+            for key in keys_of(text):
+                if _plain(key) in written:
+                    table, i, name = written[_plain(key)]
+                    raise Usage(f"--vary {key}: each sample has a value of its own, of {name}, so that these would be lost; vary a parameter of the "
+                                f"distribution, as variability.{table}[{i}].mean, or make it relative = true")
 
     def answer(self) -> int:
         """All cells, then the map; returns the exit status: 1 where a cell has no answer."""
