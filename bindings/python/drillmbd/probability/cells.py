@@ -79,7 +79,7 @@ class Map:
         self.cells: list[Cell] = []
 
     def _refuse_lost(self) -> None:
-        """Keys that each sample writes anew: the values of --vary would be lost."""
+        """Keys that each sample writes again: the values of --vary would be lost."""
         from ..sweep import keys_of
         varies = self.sample.draw.varies
         parts = [("scatter", i, one) for i, one in enumerate(varies.scatters)] + [("field", i, one) for i, one in enumerate(varies.fields)]
