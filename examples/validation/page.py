@@ -36,6 +36,18 @@ from drillmbd.report_page import STYLE
 GROUPS = (("measured", "Against measurements", "Figures that were measured in wells and tests."),
           ("published", "Against figures that others published or computed",
            "Benchmarks with certain digits, closed forms, and other methods that this page carries itself."))
+#: References that were searched for in public pages, documentation and repositories, with the reason why none is compared.
+ABSENT = (
+    ("Laboratory drill string of the Federal University of Rio de Janeiro (doi:10.1016/j.petrol.2018.07.008)",
+     "speed, torque and weight on bit are public (thiagoritto/drillstring), without a licence; stiffness of the shaft and inertia of the "
+     "discs were not found as figures"),
+    ("Drill-string set-up of Eindhoven (Mihajlović and others 2004)",
+     "abstracts of papers and thesis were found, tables of parameters and limit cycles were not"),
+    ("Helical buckling experiments in pipes", "no table of measured loads was found"),
+    ("Bricard's mechanism, problem A04 of the library of benchmarks", "the reference motion was found as a curve only"),
+    ("Flexible slider-crank, rotating shaft of Bauchau", "parameters or reference digits were not found"),
+    ("Regenerative axial vibration of a distributed string (Aarsnes, van de Wouw 2019)",
+     "the parameters that belong to the published roots were not found"))
 CLASSES = {"within": "ok", MISSED: "over", "shown": "open"}
 MORE_STYLE = """table.rows td,table.rows th{font-size:13px}td.number{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;margin:.4em 0}dt{font-weight:bold}dd{margin:0}
@@ -147,6 +159,12 @@ def store(cases: list[Case]) -> None:
                          for case in cases if CASES[case.name][1] for row in case.rows)
 
 
+def absent() -> str:
+    """The references that are not compared, with reasons."""
+    listed = "".join(f"<li>{html.escape(name)}: {html.escape(reason)}.</li>" for name, reason in ABSENT)
+    return f"<h2>Searched for and not compared</h2><ul>{listed}</ul>"
+
+
 def page(cases: list[Case], study_part: str) -> str:
     """The whole page."""
     parts = []
@@ -164,7 +182,7 @@ def page(cases: list[Case], study_part: str) -> str:
             f"is named in the row; nothing else was. The two cases of the wing are blind predictions: scenes and rules were committed (343a141e, "
             f"d64773ae) before the measured figures were read. Of the Volve well the scene and the rule of fitting were committed (2bb9b25d) "
             f"before the figures below 2200 m were read, but that its friction factor falls from 0.257 to 0.220 with depth was "
-            f"known.</p>{overview(cases)}{''.join(parts)}{study_part}</html>")
+            f"known.</p>{overview(cases)}{''.join(parts)}{absent()}{study_part}</html>")
 
 
 def study_section(program: pathlib.Path, folder: pathlib.Path) -> tuple[str, str]:
