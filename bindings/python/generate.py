@@ -6,6 +6,7 @@ _typed.py (methods that take the fields of a struct as keywords, as type checker
 usage: generate.py            writes them
        generate.py --check    tells whether they are up to date; exit status 1 if not
 """
+import functools
 import pathlib
 import re
 import sys
@@ -148,9 +149,9 @@ class Reader:
         return found
 
     def comment_before(self, place):
-        before = self.text[:place].rstrip(" ")
-        match = re.search(r"/\*(?:(?!\*/).)*\*/\n\Z", before, re.S)
-        text = words(match.group(0)) if match else ""
+        end = len(self.text[:place].rstrip(" "))
+        begin = self.text.rfind("/*", 0, end) if self.text.endswith("*/\n", 0, end) else end
+        text = words(self.text[begin:end]) if begin < end else ""
         return re.sub(r"^---- .*?-{4,} ?(\* )?", "", text)
 
     def enums(self):
@@ -175,6 +176,7 @@ class Reader:
                  if f"POINTER({name})" in signature and not function.endswith("_init")]
         return f"For {', '.join(found[:4])}." if found else ""
 
+    @functools.lru_cache
     def prototypes(self):
         """[(name, signature, text)]"""
         found = []
