@@ -7,12 +7,9 @@
 /* The rig moves its end of the string: up to `speed` within the first second. */
 static int32_t add_drive(dmb_model *model, int32_t component, double speed)
 {
-    dmb_segment rise = dmb_segment_default();
-    rise.kind = DMB_SEGMENT_STEP;
-    rise.h1 = speed;
     dmb_drive_def drive = dmb_drive_def_default();
     drive.component = component;
-    const int32_t status = dmb_model_add_time_function(model, &rise, 1, &drive.time_function);
+    const int32_t status = dmb_model_add_ramp(model, 0.0, speed, 0.0, 1.0, &drive.time_function);
     return status < 0 ? status : dmb_model_add_drive(model, &drive, NULL);
 }
 
@@ -49,7 +46,7 @@ int main(int count, char **words)
     if (status >= 0) status = describe(model, &string);
     if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
     if (status >= 0) status = dmb_analysis_static(sim, NULL, NULL); /* lies down on the low side of the hole */
-    for (int k = 0; k < 2000 && status >= 0; ++k) status = dmb_sim_step(sim, 1e-3, NULL);
+    if (status >= 0) status = dmb_sim_steps(sim, 1e-3, 2000, NULL, NULL);
 
     /* Pipes count from 0 at the rig; 1.0 is the far end of a pipe. */
     if (status >= 0) status = dmb_query_pose(sim, dmb_station(string, 9, 1.0), &pose);

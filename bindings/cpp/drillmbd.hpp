@@ -299,6 +299,13 @@ public:
         described(dmb_model_add_time_function(handle_, terms, count, &id));
         return id;
     }
+    /* from before start, to after end, smooth between. */
+    dmb_id add_ramp(double from, double to, double start, double end)
+    {
+        dmb_id id = {0, 0};
+        described(dmb_model_add_ramp(handle_, from, to, start, end, &id));
+        return id;
+    }
     dmb_id add_time_function(const dmb_segment &term) { return add_time_function(&term, 1); }
     dmb_id add_time_function(std::initializer_list<dmb_segment> terms)
     {

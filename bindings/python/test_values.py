@@ -6,6 +6,7 @@ import unittest
 import warnings
 
 import drillmbd as mbd
+from drillmbd import scene
 
 NAN, HUGE = math.nan, 10 ** 400
 
@@ -18,6 +19,31 @@ def string_in_hole():
     feed = model.add_drive(time_function=model.add_time_function(0.01))
     model.compile()
     return model, string, feed
+
+
+class ShortPaths(unittest.TestCase):
+    def test_constant_drive_and_ramp(self):
+        """A drive of a value is one of a constant time function; a ramp is one segment; a file says both by a time function."""
+        states = []
+        for constant in (True, False):
+            model = mbd.Model()
+            model.add_wall()
+            model.add_pipes(3)
+            ramp = model.add_ramp(0.0, 2.0, end=0.01)
+            model.add_drive(**({"value": 0.02} if constant else {"time_function": model.add_time_function(0.02)}))
+            model.add_drive(component=mbd.RX, time_function=ramp)
+            model.compile()
+            with model.sim() as sim:
+                sim.steps(1e-3, 20)
+                states.append((sim.hash(), sim.output("drive_speed", model.ids[-1])))
+            if constant:
+                saved = scene.saves(model)
+                self.assertIn('time_function = "0.02 m/s"', saved)
+                with scene.loads(saved).new_sim() as sim:
+                    sim.steps(1e-3, 20)
+                    states.append((sim.hash(), states[0][1]))
+        self.assertEqual(len(set(states)), 1)
+        self.assertAlmostEqual(states[0][1], 2.0)
 
 
 class Refusals(unittest.TestCase):

@@ -564,6 +564,9 @@ enum {
  * or a multiplier that is not there, DMB_ERR_UNSUPPORTED for a string without the part it needs (a bit, a rock law, a
  * flexible first pipe) and for outputs of a window. */
 DMB_API int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *value);
+/* The same as a number, of one DMB_OUTPUT_...; NaN where it fails, dmb_sim_message and dmb_last_error say why. Example:
+ * dmb_sim_value(sim, DMB_OUTPUT_DRIVE_FORCE, (dmb_place){.part = drive}). */
+DMB_API double dmb_sim_value(const dmb_sim *sim, int32_t quantity, dmb_place place);
 /* "bit_speed", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change. */
 DMB_API const char *dmb_output_name(int32_t quantity, const char **unit);
 /* The number of a name; DMB_ERR_VALUE where it is none. */

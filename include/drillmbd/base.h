@@ -98,6 +98,12 @@ typedef struct dmb_id {
     uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
 } dmb_id;
 
+/* 1 if both name the same part of the same model, or nothing. */
+static inline int dmb_id_equal(dmb_id a, dmb_id b)
+{
+    return a.index == b.index && a.generation == b.generation;
+}
+
 /* Where the number of a part, pipe or place is required: none of them. */
 #define DMB_NONE UINT32_MAX
 

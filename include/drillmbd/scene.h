@@ -155,6 +155,10 @@ DMB_SIZED_STRUCT(dmb_segment)
 /* Adds a time function of segment_count segments (1 .. 64), each with the same struct_size. */
 DMB_API int32_t dmb_model_add_time_function(dmb_model *model, const dmb_segment *segments, uint32_t segment_count,
                                             dmb_id *time_function);
+/* Adds a time function that is `from` up to `start` [s], `to` from `end` > start on, and smooth between: one segment
+ * DMB_SEGMENT_STEP5. */
+DMB_API int32_t dmb_model_add_ramp(dmb_model *model, double from, double to, double start, double end,
+                                   dmb_id *time_function);
 
 /* ---- Hole wall --------------------------------------------------------------------------------------------------- */
 enum {
@@ -563,8 +567,10 @@ typedef struct dmb_drive_def {
     dmb_id part;       /* a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string */
     int32_t component; /* DMB_X (feed, default) .. DMB_RZ; must be free there; of a joint: its coordinate */
     int32_t reserved;
-    dmb_id time_function; /* required */
+    dmb_id time_function; /* {0, 0} (default): the constant `value` */
     dmb_id excitation;    /* time function added to the first (vibration); {0, 0}: none */
+    double value;         /* [m/s, rad/s; N, N m of LOAD] without a time function; 0 with one; default 0: a MOTION
+                             drive holds its component */
     double gain;          /* [N s/m, N m s] kp of CONTROL, >= 0; default 0 */
     double integral_gain; /* [N/m, N m] ki of CONTROL, >= 0; default 0 */
     double limit_low;     /* [N, N m] default -1e30 */

@@ -244,7 +244,7 @@
     FIELD(T, 1, kind, "", WITHIN(DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL), DMB_DRIVE_MOTION) \
     FIELD(T, 2, part, "", ANY, {0, 0}) \
     FIELD(T, 3, component, "", WITHIN(DMB_X, DMB_RZ), DMB_X) \
-    FIELD(T, 4, time_function, "", PART(DMB_PART_TIME_FUNCTION), {0, 0}) \
+    FIELD(T, 4, time_function, "", PART_OR_NONE(DMB_PART_TIME_FUNCTION), {0, 0}) \
     FIELD(T, 5, excitation, "", PART_OR_NONE(DMB_PART_TIME_FUNCTION), {0, 0}) \
     FIELD(T, 6, gain, "N s/m, N m s", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
     FIELD(T, 7, integral_gain, "N/m, N m", WITHIN(0.0, DMB_FORCE_MAX), 0.0) \
@@ -263,7 +263,8 @@
     FIELD(T, 20, gain_count, "-", ZERO_OR(2, DMB_GAIN_POINTS), 0) \
     ARRAY(T, 21, gain_error, gain_count, 1, "m/s, rad/s", WITHIN(-DMB_SPEED_MAX, DMB_SPEED_MAX), {0.0}) \
     ARRAY(T, 22, gain_force, gain_count, 1, "N, N m", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), {0.0}) \
-    FIELD(T, 23, mud_pressure, "Pa/(N m)", WITHIN(0.0, DMB_MODULUS_MAX), 0.0)
+    FIELD(T, 23, mud_pressure, "Pa/(N m)", WITHIN(0.0, DMB_MODULUS_MAX), 0.0) \
+    FIELD(T, 24, value, "m/s, rad/s; N, N m of LOAD", WITHIN(-DMB_FORCE_MAX, DMB_FORCE_MAX), 0.0)
 
 #define DMB_LOAD_FIELDS(FIELD, ARRAY, T) \
     FIELD(T, 1, frame, "", WITHIN(DMB_FRAME_WORLD, DMB_FRAME_HOLE), DMB_FRAME_WORLD) \
@@ -359,7 +360,7 @@
     X(10, dmb_joint_def, "joint", DMB_PART_JOINT, 656, DMB_JOINT_FIELDS) \
     X(11, dmb_coupling_def, "coupling", DMB_PART_COUPLING, 64, DMB_COUPLING_FIELDS) \
     X(12, dmb_constraint_def, "constraint", DMB_PART_CONSTRAINT, 160, DMB_CONSTRAINT_FIELDS) \
-    X(13, dmb_drive_def, "drive", DMB_PART_DRIVE, 72, DMB_DRIVE_FIELDS) \
+    X(13, dmb_drive_def, "drive", DMB_PART_DRIVE, 80, DMB_DRIVE_FIELDS) \
     X(14, dmb_load_def, "load", DMB_PART_LOAD, 88, DMB_LOAD_FIELDS) \
     X(15, dmb_spring_def, "spring", DMB_PART_SPRING, 184, DMB_SPRING_FIELDS) \
     X(16, dmb_force_def, "force", DMB_PART_FORCE, 280, DMB_FORCE_FIELDS) \

@@ -24,6 +24,10 @@ int32_t dmb_describe_check(dmb_model *model, const dmb_field_list *list, const v
 
 /* Frees a time function's copy of terms and tables. */
 void dmb_time_function_release(dmb_time_function *time_function, const dmb_allocator *allocator);
+/* Adds a time function of a constant value behind all others. */
+int32_t dmb_model_append_constant(dmb_model *model, double value, uint32_t *index);
+/* Removes time functions until there are `count`. */
+void dmb_model_drop_time_functions(dmb_model *model, uint32_t count);
 
 /* Frees a spring's table. */
 void dmb_spring_release(dmb_spring_plan *spring, const dmb_allocator *allocator);

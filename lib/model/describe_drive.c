@@ -1,4 +1,5 @@
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -227,6 +228,33 @@ int32_t dmb_model_add_time_function(dmb_model *model, const dmb_segment *segment
     return dmb_describe_part(model, &given, status);
 }
 
+int32_t dmb_model_add_ramp(dmb_model *model, double from, double to, double start, double end, dmb_id *time_function)
+{
+    dmb_segment ramp = dmb_segment_default();
+    ramp.kind = DMB_SEGMENT_STEP5;
+    ramp.h0 = from, ramp.h1 = to;
+    ramp.x0 = start, ramp.x1 = end;
+    return dmb_model_add_time_function(model, &ramp, 1, time_function);
+}
+
+int32_t dmb_model_append_constant(dmb_model *model, double value, uint32_t *index)
+{
+    dmb_segment constant = dmb_segment_default();
+    constant.h0 = value;
+    const int32_t status = append_time_function(model, &constant, 1, 0, NULL);
+    if (status >= 0) *index = model->time_functions.count - 1;
+    return status;
+}
+
+void dmb_model_drop_time_functions(dmb_model *model, uint32_t count)
+{
+    while (model->time_functions.count > count) {
+        --model->time_functions.count;
+        dmb_time_function_release(DMB_LIST_AT(dmb_time_function, model->time_functions, model->time_functions.count),
+                                  &model->allocator);
+    }
+}
+
 /* Drives and loads. */
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
@@ -319,10 +347,18 @@ static void check_actuator(dmb_check *check, const dmb_model *model, const dmb_d
                     check->part, (int)def->kind);
 }
 
+/* A time function, or a constant in its place. */
+static void check_driven_value(dmb_check *check, const dmb_drive_def *def)
+{
+    if (check->status < 0 || dmb_id_is_none(def->time_function) || !(fabs(def->value) > 0.0)) return;
+    dmb_check_fail(check, DMB_ERR_VALUE, "value", def->value, "0 with a time_function, which gives the value");
+}
+
 static void relate_drive(dmb_check *check, dmb_model *model, const void *part)
 {
     const dmb_drive_def *def = part;
     check_driven_part(check, model, def);
+    check_driven_value(check, def);
     dmb_check_above_field(check, "limit_high", def->limit_high, "limit_low", def->limit_low);
     check_gain_table(check, def);
     check_mud_pressure(check, model, def);

@@ -308,9 +308,11 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
     status = dmb_refused_check(&model->refused, &model->message);
     if (status >= 0) status = read_options(model, options, &read);
     if (status >= 0) {
+        const uint32_t described = model->time_functions.count;
         dmb_mesh_init(&mesh, model, &read);
         status = make_scene(&mesh, &scene);
         dmb_mesh_release(&mesh);
+        if (status < 0) dmb_model_drop_time_functions(model, described);
     }
     if (status < 0) return dmb_describe_close(model, "compile", status);
     tell(model, scene);

@@ -82,7 +82,7 @@ typedef struct dmb_mesh_rotor {
 } dmb_mesh_rotor;
 
 typedef struct dmb_mesh {
-    dmb_model *model; /* written to: its message only */
+    dmb_model *model; /* written to: its message, and time functions of constant drives */
     dmb_compile_options options;
     int32_t features;
     int32_t has_hole;

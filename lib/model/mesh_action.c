@@ -4,6 +4,7 @@
 
 #include "math/elementary.h"
 #include "math/so3.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 
@@ -84,6 +85,15 @@ static int32_t add_gain_table(dmb_mesh *mesh, const dmb_drive_def *def)
     return dmb_vector_append(&mesh->gain_tables, &mesh->model->allocator, &table, 1);
 }
 
+/* The drive's time function; of a drive with a constant value one that compile adds behind those of the description,
+ * which keep their numbers. */
+static int32_t find_driven_value(const dmb_mesh *mesh, const dmb_drive_def *def, uint32_t *time_function)
+{
+    if (dmb_id_is_none(def->time_function)) return dmb_model_append_constant(mesh->model, def->value, time_function);
+    *time_function = time_function_of(mesh, def->time_function);
+    return DMB_OK;
+}
+
 static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);
@@ -98,16 +108,15 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .row = DMB_NONE,
                              .kind = def->kind,
                              .component = def->component,
-                             .time_function = time_function_of(mesh, def->time_function),
                              .excitation = excited ? time_function_of(mesh, def->excitation) : DMB_NONE,
                              .joint = joint,
                              .constraint = DMB_NONE,
                              .actuator = has_actuator(def) ? (uint32_t)mesh->actuators.count : DMB_NONE,
                              .table = def->gain_count > 0 ? (uint32_t)mesh->gain_tables.count : DMB_NONE};
     memcpy(drive.name, def->name, sizeof drive.name);
-    const int32_t status = joint != DMB_NONE
-                               ? reserve_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
-                               : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
+    int32_t status = joint != DMB_NONE ? reserve_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
+                                       : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
+    if (status >= 0) status = find_driven_value(mesh, def, &drive.time_function);
     if (status < 0) return status;
     if (drive.actuator != DMB_NONE && add_actuator(mesh, def) < 0) return DMB_ERR_NO_MEMORY;
     if (drive.table != DMB_NONE && add_gain_table(mesh, def) < 0) return DMB_ERR_NO_MEMORY;

@@ -328,6 +328,13 @@ int32_t dmb_query_output(const dmb_sim *sim, const dmb_output *output, double *v
     return dmb_sim_fail(sim, status, "output", why.text);
 }
 
+double dmb_sim_value(const dmb_sim *sim, int32_t quantity, dmb_place place)
+{
+    const dmb_output output = {place, quantity, 0};
+    double value = 0.0;
+    return dmb_query_output(sim, &output, &value) < 0 ? (double)NAN : value;
+}
+
 int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count)
 {
     if (sim == NULL || outputs == NULL) return dmb_sim_told(sim, "outputs", DMB_ERR_NULL);

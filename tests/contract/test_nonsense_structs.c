@@ -622,7 +622,7 @@ static const entry entries[] = {
     GROWN(pipe_def, 264, 0),
     GROWN(body_def, 216, 0),
     GROWN(bit_def, 136, 0),
-    GROWN(drive_def, 72, 0),
+    GROWN(drive_def, 80, 0),
     GROWN(load_def, 88, 0),
     ENTRY(compile_options, 0),
     GROWN(sim_options, 96, 0),

@@ -295,7 +295,7 @@ static inline int32_t whole_add_spinning(dmb_model *model, whole_parts *parts)
     dmb_drive_def drive = dmb_drive_def_default();
     drive.part = parts->second;
     drive.component = DMB_RX;
-    drive.time_function = parts->smooth;
+    drive.value = 0.5;
     return dmb_model_add_drive(model, &drive, &parts->spinning);
 }
 

@@ -89,6 +89,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
     "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
+    "dmb_model_add_ramp": (c_int32, c_void_p, c_double, c_double, c_double, c_double, POINTER(Id),),
     "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
     "dmb_model_add_stabiliser": (c_int32, c_void_p, POINTER(StabiliserDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
@@ -219,6 +220,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_steps": (c_int32, c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(StepReport),),
     "dmb_sim_time": (c_double, c_void_p,),
     "dmb_sim_transfer_state": (c_int32, c_void_p, c_void_p,),
+    "dmb_sim_value": (c_double, c_void_p, c_int32, Place,),
     "dmb_speed_band_init": (c_int32, POINTER(SpeedBand), c_uint32,),
     "dmb_speeds_options_init": (c_int32, POINTER(SpeedsOptions), c_uint32,),
     "dmb_speeds_report_init": (c_int32, POINTER(SpeedsReport), c_uint32,),
@@ -330,6 +332,8 @@ FUNCTION_DOCS = {
         "Adds a joint. Errors: ERR_ID; ERR_VALUE for a part joined to itself, an axis of zero length, two grounds.",
     "dmb_model_add_pipes":
         "Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string. Pipes are numbered along the whole string, 0 at the rig end.",
+    "dmb_model_add_ramp":
+        "Adds a time function that is `from` up to `start` [s], `to` from `end` > start on, and smooth between: one segment SEGMENT_STEP5.",
     "dmb_model_add_spring":
         "Errors: ERR_ID, _VALUE; dmb_model_compile: ERR_VALUE (no such pipe, points that move as one), _GEOMETRY (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole). Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does.",
     "dmb_model_add_stabiliser":
@@ -500,6 +504,8 @@ FUNCTION_DOCS = {
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":
         "Continues from the state of `from` in a sim of another model that has pipes more or fewer at the rig end of its strings; the start of its strings and its time functions may differ, all else must be of the same kind and number (ERR_VALUE names the difference). Pipes are matched from the far end and keep pose and state; added pipes start unstressed in line with the old rig end and move with it. Supports, drives and bodies fixed to the rig end act on the new one at once, so do it at rest; speeds that they do not allow are projected (NOTE_PROJECTED). Time, statistics, drives, contacts, joints, cut rock and the energy ledger continue; energies change by those of the pipes added or removed, works and balance do not. Displacements and the advance of bits count from the poses of the new model. Random numbers of pipes are drawn again. Added pipes of a tilted rig end may penetrate the wall: dmb_analysis_static settles the string, but restarts the ledger. Errors, with sim as before: also ERR_GEOMETRY (a joint does not fit), _SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE. O(number of elements).",
+    "dmb_sim_value":
+        "The same as a number, of one OUTPUT_...; NaN where it fails, dmb_sim_message and dmb_last_error say why. Example: dmb_sim_value(sim, OUTPUT_DRIVE_FORCE, (dmb_place){.part = drive}).",
     "dmb_state_space_dense":
         "One of A, B, C, D, row by row.",
     "dmb_state_space_destroy":

@@ -2636,6 +2636,7 @@ class DriveDef(DrivePart, Sized):
     reserved: int
     time_function: Id
     excitation: Id
+    value: float
     gain: float
     integral_gain: float
     limit_low: float
@@ -2657,7 +2658,7 @@ class DriveDef(DrivePart, Sized):
     gain_force: Any
     mud_pressure: float
     if TYPE_CHECKING:
-        def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., time_function: Id | None = ..., excitation: Id | None = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
+        def __init__(self, curve: Any = ..., gain_table: Any = ..., *, kind: int = ..., part: Id | None = ..., component: int = ..., time_function: Id | None = ..., excitation: Id | None = ..., value: SupportsFloat = ..., gain: SupportsFloat = ..., integral_gain: SupportsFloat = ..., limit_low: SupportsFloat = ..., limit_high: SupportsFloat = ..., name: str | bytes = ..., delay: SupportsFloat = ..., force_rate: SupportsFloat = ..., lag: SupportsFloat = ..., drag: SupportsFloat = ..., back_drag: SupportsFloat = ..., inertia: SupportsFloat = ..., curve_count: int = ..., curve_speed: Iterable[float] = ..., curve_force: Iterable[float] = ..., gain_count: int = ..., gain_error: Iterable[float] = ..., gain_force: Iterable[float] = ..., mud_pressure: SupportsFloat = ...) -> None: ...
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2666,6 +2667,7 @@ class DriveDef(DrivePart, Sized):
         ("reserved", c_int32),
         ("time_function", Id),
         ("excitation", Id),
+        ("value", c_double),
         ("gain", c_double),
         ("integral_gain", c_double),
         ("limit_low", c_double),
@@ -2691,8 +2693,9 @@ class DriveDef(DrivePart, Sized):
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
         "part": ("", "a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string"),
         "component": ("", "X (feed, default) .. RZ; must be free there; of a joint: its coordinate"),
-        "time_function": ("", "required"),
+        "time_function": ("", "{0, 0} (default): the constant `value`"),
         "excitation": ("", "time function added to the first (vibration); {0, 0}: none"),
+        "value": ("m/s, rad/s; N, N m of LOAD", "without a time function; 0 with one; default 0: a MOTION drive holds its component"),
         "gain": ("N s/m, N m s", "kp of CONTROL, >= 0; default 0"),
         "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
         "limit_low": ("N, N m", "default -1e30"),

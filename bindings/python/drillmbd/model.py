@@ -15,7 +15,7 @@ from ._structs import (BitDef, BodyDef, Output, CompileOptions, ConstraintDef, C
                        ModelOptions, Motor, PipeDef, Place, StabiliserDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
                        SubDef, Segment, TimeFunctionId, WallDef)
 from ._values import real, refuse_type, refuse_value, whole
-from .enums import ERR_ORDER, NAME_SIZE, PartKind, Status
+from .enums import ERR_ORDER, NAME_SIZE, SEGMENT_STEP5, PartKind, Status
 from .errors import Error, check, status_text
 
 if TYPE_CHECKING:
@@ -118,6 +118,11 @@ class Model(Handle, ModelCalls):
         self._check(_lib.dmb_model_add_time_function(self._handle, array, len(segments), byref(part)))
         self._note("add_time_function", *made)
         return cast(TimeFunctionId, self._given(part))
+
+    @mirrors("dmb_model_add_ramp")
+    def add_ramp(self, before: float, after: float, start: float = 0.0, end: float = 1.0) -> TimeFunctionId:
+        """A time function that is `before` up to `start` [s], `after` from `end` on, and smooth between."""
+        return self.add_time_function(Segment(kind=SEGMENT_STEP5, h0=before, h1=after, x0=start, x1=end))
 
     def _segment(self, number: int, segment: Any) -> Any:
         if callable(segment):

@@ -26,7 +26,7 @@
     X(contact, 120)             \
     X(contact_total, 40)        \
     X(coupling_def, 64)         \
-    X(drive_def, 72)            \
+    X(drive_def, 80)            \
     X(drive_state, 56)          \
     X(energy, 128)              \
     X(environment_def, 64)      \

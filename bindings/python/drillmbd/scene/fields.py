@@ -27,6 +27,7 @@ LEFT_OUT = {"struct_size", "survey_count", "friction_table_count", "friction_tab
             "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
+LEFT_OUT_OF = {("DriveDef", "value")}  # time_function = "120 rpm" says the same
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def fields_of(struct: Any) -> dict[str, Field]:
     """The keys that mirror the fields of a struct."""
     found = {}
     for name, kind in struct._fields_:
-        if name not in LEFT_OUT and "reserved" not in name and not _is_pointer(kind):
+        if name not in LEFT_OUT and (struct.__name__, name) not in LEFT_OUT_OF and "reserved" not in name and not _is_pointer(kind):
             unit, about = struct.field_docs.get(name, ("", ""))
             found[name] = _field(name, kind, unit, about)
     return found

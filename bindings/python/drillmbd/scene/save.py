@@ -280,6 +280,8 @@ class Writer:
                 return fields.by_component(fields_of(DEFINITIONS[kind])[key].unit, component)
             return None
 
+        if kind == "drive" and description.get("value"):
+            self._key("time_function", units.text(description["value"], fields.drive_unit(description.get("kind", 0), component)))
         self._table(kind, description, unit_of)
         for key in fields.DRIVE_PAIRS if kind == "drive" else ():
             if description.get(key):
