@@ -98,16 +98,15 @@ private:
 class error : public std::runtime_error {
 public:
     // Of a status < 0 and the message of who failed; without one the text of the status.
-    explicit error(std::int32_t failed, const char *message = nullptr)
-        : error(last(failed, message), failed, message)
+    explicit error(std::int32_t failed, const char *message = nullptr) : error(last(failed, message), failed, message)
     {
     }
     // DMB_ERR_...
     DRILLMBD_NODISCARD std::int32_t status() const noexcept { return status_; }
     // Name of the status, "DMB_ERR_VALUE".
     DRILLMBD_NODISCARD const char *name() const noexcept { return dmb_status_name(status_); }
-    // All that the library knows of the failure: numbers of part and component, value, low, high. Defaults where the failure
-    // is none of the library.
+    // All that the library knows of the failure: numbers of part and component, value, low, high. Defaults where the
+    // failure is none of the library.
     DRILLMBD_NODISCARD const dmb_error &data() const noexcept { return data_; }
     // Such as "pipe 3"; as the others empty where the failure has no such part.
     DRILLMBD_NODISCARD std::string part() const { return data_.part; }
@@ -122,8 +121,8 @@ public:
 
 private:
     error(const dmb_error &data, std::int32_t failed, const char *message)
-        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(data, failed, message)), status_(failed),
-          data_(data)
+        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(data, failed, message)),
+          status_(failed), data_(data)
     {
     }
     // The thread's last failing call, if it is the one that failed.
