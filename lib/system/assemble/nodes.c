@@ -130,18 +130,31 @@ static void assemble_axial_torsional_rigid_mass(dmb_evaluation *evaluation, cons
     dmb_inertia_of(sim, rigid_mass->node)[3] += evaluation->mass_factor * rigid_mass->inertia[0];
 }
 
+/* Unit vector (world) along which an axial-torsional node advances: the hole's tangent at its depth, or the x axis of
+ * its initial pose in a straight hole or none. It is the node's x axis whatever its rotation, so that no pose is
+ * needed. */
+static void direction_of_advance(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double tangent[3])
+{
+    double R[9], point[3];
+    if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
+        dmb_hole_frame(&scene->hole, dmb_axial_torsional_depth(scene, c, node), point, tangent, NULL);
+        return;
+    }
+    dmb_quat_to_matrix(scene->reference_quaternion + 4 * (size_t)node, R);
+    for (int i = 0; i < 3; i++) tangent[i] = R[3 * i];
+}
+
 static void assemble_axial_torsional_weight(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    double f[6] = {0.0}, v[6], R[9], unused[3];
-    dmb_node_pose(scene, &sim->trial, node, R, unused);
-    dmb_mat3_tvec(R, scene->gravity, f);
-    dmb_vec3_scale(evaluation->load_factor * scene->weight_mass[node], f, f);
+    double tangent[3];
+    direction_of_advance(scene, &sim->trial, node, tangent);
+    const double along = evaluation->load_factor * scene->weight_mass[node] * dmb_vec3_dot(tangent, scene->gravity);
+    const double f[6] = {along, 0.0, 0.0, 0.0, 0.0, 0.0};
     dmb_apply_wrench(sim, node, f);
     if (!evaluation->dynamic) return;
-    dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, v);
-    evaluation->power[DMB_POWER_POTENTIAL] += dmb_vec6_dot(f, v);
+    evaluation->power[DMB_POWER_POTENTIAL] += along * sim->trial.velocity[scene->layout.row[node]];
 }
 
 static void assemble_axial_torsional_damping(dmb_evaluation *evaluation, uint32_t node)
