@@ -856,6 +856,18 @@ DMB_API uint32_t dmb_model_event_count(const dmb_model *model); /* as of inputs;
 DMB_API int32_t dmb_model_get_event(const dmb_model *model, uint32_t index, dmb_event_def *event);
 DMB_API int32_t dmb_model_find_event(const dmb_model *model, const char *name, dmb_id *event);
 
+/* ---- Scene record ------------------------------------------------------------------------------------------------ */
+/* The description of a model as bytes that are the same for all machines and for later versions: for files, firmware
+ * and other programs. Writes at most `room` bytes; *size is the length of the record, also with bytes NULL and room 0.
+ * Of a compiled model too; compile options are not part of it. Errors: DMB_ERR_NULL, _HANDLE, _TOO_LARGE (room),
+ * _UNSUPPORTED (functions of the caller, which no record holds), that of a refused part. */
+DMB_API int32_t dmb_model_write(const dmb_model *model, void *bytes, size_t room, size_t *size);
+/* Makes the model of a record. It is open for changes before dmb_model_compile; dmb_model_find gives its parts by their
+ * names, and its ids have the same index as those of the model that was written. Its scene is the same to the bit.
+ * Errors: DMB_ERR_NULL, _VALUE (damaged: length, checksum or content), _UNSUPPORTED (of a newer version), _TOO_LARGE,
+ * _NO_MEMORY, those of the calls that add parts; *model is NULL then, and dmb_last_error has the reason. */
+DMB_API int32_t dmb_model_read(const void *bytes, size_t size, const dmb_model_options *options, dmb_model **model);
+
 /* ---- Compile ----------------------------------------------------------------------------------------------------- */
 enum {
     DMB_FEATURE_GRAVITY = 1,

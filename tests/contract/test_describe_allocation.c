@@ -293,9 +293,57 @@ static void sub_fails_as_a_whole(void **state)
     assert_true(k >= 3);
 }
 
+/* ---- A model from its record ------------------------------------------------------------------------------------- */
+
+/* Returns whether an allocation was there to fail. */
+static int run_read(long failing, const unsigned char *bytes, size_t size)
+{
+    meter m = {failing, 0, 0, 0};
+    dmb_allocator allocator = dmb_allocator_default();
+    dmb_model_options options = dmb_model_options_default();
+    dmb_model *model = NULL;
+    allocator.context = &m;
+    allocator.allocate = take;
+    allocator.release = give;
+    options.allocator = &allocator;
+    const int32_t status = dmb_model_read(bytes, size, &options, &model);
+    assert_int_equal(status, m.failed ? DMB_ERR_NO_MEMORY : DMB_OK);
+    assert_int_equal(model == NULL, m.failed);
+    dmb_model_destroy(&model);
+    assert_int_equal(m.blocks, 0);
+    return m.failed;
+}
+
+static void record_is_read_as_a_whole(void **state)
+{
+    dmb_model *model = NULL;
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_segment table = dmb_segment_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    unsigned char bytes[8192];
+    size_t size;
+    long k = 0;
+    (void)state;
+    wall.survey = survey;
+    wall.survey_count = 3;
+    table.kind = DMB_SEGMENT_TABLE;
+    table.table_time = table_time;
+    table.table_value = table_value;
+    table.table_count = 3;
+    assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+    assert_int_equal(dmb_model_add_wall(model, &wall, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_time_function(model, &table, 1, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 2, NULL), DMB_OK);
+    assert_int_equal(dmb_model_write(model, bytes, sizeof bytes, &size), DMB_OK);
+    dmb_model_destroy(&model);
+    while (run_read(k, bytes, size)) ++k;
+    assert_true(k >= 7); /* model, reader, its numbers, survey, time function, string, pipes */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_fails_once),
-                                       cmocka_unit_test(sub_fails_as_a_whole)};
+                                       cmocka_unit_test(sub_fails_as_a_whole),
+                                       cmocka_unit_test(record_is_read_as_a_whole)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -379,9 +379,11 @@ static void of_names(void **state)
 {
     (void)state;
     dmb_model *model = s.r.model;
+    dmb_model *none = NULL;
     char name[24];
     dmb_id id;
     uint32_t first, count;
+    size_t size;
     MISSING(dmb_model_set_name(NULL, s.string, "a"));
     MISSING(dmb_model_get_name(NULL, s.string, name, sizeof name));
     MISSING(dmb_model_get_name(model, s.string, NULL, sizeof name));
@@ -390,6 +392,12 @@ static void of_names(void **state)
     MISSING(dmb_model_find(model, DMB_PART_STRING, "a", NULL));
     MISSING(dmb_model_find_pipes(NULL, "a", &id, &first, &count));
     MISSING(dmb_model_find_pipes(model, NULL, &id, &first, &count));
+    MISSING(dmb_model_write(NULL, NULL, 0, &size));
+    MISSING(dmb_model_write(model, NULL, 0, NULL));
+    MISSING(dmb_model_write(model, NULL, 1, &size));
+    MISSING(dmb_model_read(NULL, 1, NULL, &none));
+    MISSING(dmb_model_read(name, 1, NULL, NULL));
+    NO_OBJECT(dmb_model_write(JUNK(dmb_model), NULL, 0, &size));
     NO_OBJECT(dmb_model_set_name(JUNK(dmb_model), s.string, "a"));
     NO_OBJECT(dmb_model_get_name(JUNK(dmb_model), s.string, name, sizeof name));
     NO_OBJECT(dmb_model_find(JUNK(dmb_model), DMB_PART_STRING, "a", &id));

@@ -115,8 +115,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_message": (c_char_p, c_void_p,),
     "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
     "dmb_model_place_at_end": (c_int32, c_void_p, Id, c_double, POINTER(BodyDef), POINTER(StringDef),),
+    "dmb_model_read": (c_int32, c_void_p, c_size_t, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
     "dmb_model_set_name": (c_int32, c_void_p, Id, c_char_p,),
+    "dmb_model_write": (c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_size_t),),
     "dmb_modes_destroy": (None, POINTER(c_void_p),),
     "dmb_modes_get": (c_int32, c_void_p, c_uint32, POINTER(Mode),),
     "dmb_modes_get_info": (c_int32, c_void_p, POINTER(ModesInfo),),
@@ -372,8 +374,12 @@ FUNCTION_DOCS = {
         "Message of the last failing or noteworthy call on this model. Never NULL; lives until the next call on the model. Of a compiled model, and of questions, each thread reads the failure of its own calls.",
     "dmb_model_place_at_end":
         "Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other joints hold there. Either may be NULL. Errors: as above.",
+    "dmb_model_read":
+        "Makes the model of a record. It is open for changes before dmb_model_compile; dmb_model_find gives its parts by their names, and its ids have the same index as those of the model that was written. Its scene is the same to the bit. Errors: ERR_NULL, _VALUE (damaged: length, checksum or content), _UNSUPPORTED (of a newer version), _TOO_LARGE, _NO_MEMORY, those of the calls that add parts; *model is NULL then, and dmb_last_error has the reason.",
     "dmb_model_set_name":
         "Gives a part another name, or none by \"\"; an input or an event needs one. Before dmb_model_compile. Errors: ERR_ID, ERR_VALUE (too long, no UTF-8, another part of the kind has it), ERR_ORDER.",
+    "dmb_model_write":
+        "The description of a model as bytes that are the same for all machines and for later versions: for files, firmware and other programs. Writes at most `room` bytes; *size is the length of the record, also with bytes NULL and room 0. Of a compiled model too; compile options are not part of it. Errors: ERR_NULL, _HANDLE, _TOO_LARGE (room), _UNSUPPORTED (functions of the caller, which no record holds), that of a refused part.",
     "dmb_modes_destroy":
         "Gives the memory back and sets *modes to NULL. NULL-safe.",
     "dmb_modes_get":

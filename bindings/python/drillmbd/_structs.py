@@ -3055,7 +3055,7 @@ PATH_FN.__doc__ = "Called at each point with a sim that is there at rest: every 
 
 
 class ModelOptions(Sized):
-    c_name, about = "dmb_model_options", "For dmb_model_create."
+    c_name, about = "dmb_model_options", "For dmb_model_create, dmb_model_read."
     struct_size: int
     reserved: int
     allocator: Any

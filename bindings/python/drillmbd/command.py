@@ -157,7 +157,7 @@ def parser() -> argparse.ArgumentParser:
     _add_live(commands)
     save = commands.add_parser("save", help="writes the scene with all values that decide the result, comments and units kept")
     save.add_argument("scene")
-    save.add_argument("target", help="the new file; - for the terminal")
+    save.add_argument("target", help="the new file; - for the terminal; NAME.scene: a scene record for dmb_model_read, NAME.h: the same as an array of C")
     commands.add_parser("schema", help="prints the JSON schema of scene files")
     keys = commands.add_parser("keys", help="lists the keys of scene files with unit, default and meaning")
     keys.add_argument("table", nargs="?", help="a table, as string.pipes; left out: the usual keys of all")
@@ -433,6 +433,9 @@ def _ask(options: Any) -> int:
         return _new(options)
     if options.command == "save":
         loaded = scene.load(options.scene)
+        if options.target.endswith((".scene", ".h")):
+            scene.save_record(loaded, options.target)
+            return 0
         saved = scene.saves(loaded)
         for warning in warnings_of(loaded):
             print(f"note: {warning}", file=sys.stderr)

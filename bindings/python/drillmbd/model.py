@@ -102,6 +102,15 @@ class Model(Handle, ModelCalls):
         self._note("add_" + kind, definition)
         return self._given(part)
 
+    @mirrors("dmb_model_write")
+    def record(self) -> bytes:
+        """The scene record, which C programs read by dmb_model_read."""
+        size = c_size_t()
+        self._check(_lib.dmb_model_write(self._handle, None, 0, byref(size)))
+        found = create_string_buffer(size.value)
+        self._check(_lib.dmb_model_write(self._handle, found, size, byref(size)))
+        return found.raw
+
     if not TYPE_CHECKING:  # their signatures for type checkers: _typed.py
         @mirrors("dmb_model_set_environment")
         def set_environment(self, definition: EnvironmentDef | None = None, **fields: Any) -> None:

@@ -9,6 +9,6 @@ examples/conventions/README.md.
 from .content import Scene
 from .load import load, loads
 from .problems import Problem, SceneError
-from .save import CannotSave, save, saves
+from .save import CannotSave, save, save_record, saves
 
-__all__ = ["CannotSave", "Problem", "Scene", "SceneError", "load", "loads", "save", "saves"]
+__all__ = ["CannotSave", "Problem", "Scene", "SceneError", "load", "loads", "save", "save_record", "saves"]

@@ -38,6 +38,21 @@ def save(scene: Scene | Model, path: Any) -> None:
     pathlib.Path(path).write_text(saves(scene), encoding="utf-8")
 
 
+def save_record(scene: Scene | Model, path: Any) -> None:
+    """Writes the model as a scene record, for dmb_model_read: NAME.scene, or NAME.h with the bytes as an array of C."""
+    path, model = pathlib.Path(path), scene.model if isinstance(scene, Scene) else scene
+    found = model.record()
+    if path.suffix != ".h":
+        path.write_bytes(found)
+        return
+    name = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
+    name = name if re.match(r"[A-Za-z_]", name) else f"scene_{name}"
+    rows = [", ".join(f"0x{one:02x}" for one in found[at:at + 16]) + "," for at in range(0, len(found), 16)]
+    text = [f"/* Scene record for dmb_model_read({name}, sizeof {name}, NULL, &model). */", f"static const unsigned char {name}[{len(found)}] = {{",
+            *(f"    {row}" for row in rows), "};"]
+    path.write_text("\n".join(text) + "\n", encoding="utf-8")
+
+
 def saves(scene: Scene | Model, as_written: bool = True) -> str:
     """The text of the file. as_written: with the comments and units of the file that the scene was read from; else in SI without
     comments, so that two scenes that say the same have the same text."""
