@@ -46,6 +46,13 @@ static inline dmb_local_friction dmb_local_friction_of(const dmb_friction_law *l
  * coefficient; its static part must extend beyond smoothing_speed. Other laws are returned unchanged. */
 dmb_friction_law dmb_friction_law_of(dmb_friction_law law);
 
+/* 1: the law has a memory (bristles), i.e. a state beside position and velocity. The only place that decides this; a
+ * new law with memory also needs its state in lib/sim/sim.h and its force beside dmb_friction_bristle. */
+static inline int dmb_friction_has_memory(const dmb_friction_law *law)
+{
+    return law->kind == DMB_FRICTION_BRISTLE;
+}
+
 /* [-] Largest friction over normal force. */
 static inline dmb_real dmb_friction_most(const dmb_local_friction *local)
 {

@@ -291,7 +291,7 @@ static inline void add_friction(const dmb_wall_args *args, wall_group *g, dmb_co
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
-    if (args->friction_law->kind == DMB_FRICTION_BRISTLE && args->dynamic)
+    if (dmb_friction_has_memory(args->friction_law) && args->dynamic)
         bristles(args, g, -c->F[0], F, by_speed, by_normal);
     else if (args->yield > 0.0 && dmb_mask_any(g->own))
         rub_at_start(args, g, -c->F[0], F, by_speed, by_normal);
@@ -437,8 +437,7 @@ static inline void press_section(const dmb_wall_args *args, wall_group *g, const
                                    .penetration = depth,
                                    .normal_slope = slope,
                                    .friction = friction,
-                                   .memory =
-                                       args->dynamic && friction && args->friction_law->kind == DMB_FRICTION_BRISTLE};
+                                   .memory = args->dynamic && friction && dmb_friction_has_memory(args->friction_law)};
     dmb_section_force(&g->frame, c, &ring, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
 }

@@ -394,7 +394,7 @@ static inline uint32_t dmb_constrained_row(const dmb_scene *scene, uint32_t i)
 /* True if places of contact keep bristles from step to step. */
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {
-    return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
+    return dmb_friction_has_memory(&scene->friction_law);
 }
 
 /* True if the damping of the wall jumps when a contact closes. */

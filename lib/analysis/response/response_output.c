@@ -172,7 +172,7 @@ static int32_t of_contact(const request *r)
         return refuse(r, DMB_ERR_UNSUPPORTED, "contact is left out, its forces do not change");
     if (r->output->place.pipe >= (uint64_t)scene->site_count + scene->axial_torsional_site_count)
         return refuse(r, DMB_ERR_VALUE, "place.pipe is no number of a contact point");
-    if (c != DMB_Z && scene->friction_law.kind == DMB_FRICTION_BRISTLE)
+    if (c != DMB_Z && dmb_scene_has_bristles(scene))
         return refuse(r, DMB_ERR_UNSUPPORTED, "friction of bristles is not an output");
     dmb_contact_slope_of(scene, &r->copy->now, r->output->place.pipe, &slope);
     add_site(r, r->output->place.pipe);

@@ -339,7 +339,7 @@ void dmb_site_rub(const dmb_scene *scene, const dmb_configuration *configuration
 {
     dmb_friction_law local;
     const dmb_friction_law *law = dmb_contact_friction_law(scene, configuration, s, &local);
-    const int bristles = law->kind == DMB_FRICTION_BRISTLE;
+    const int bristles = dmb_friction_has_memory(law);
     const dmb_friction_law sliding = dmb_sliding_law(law);
     if (bristles && !f->closed)
         dmb_finished_friction(&sliding, NULL, 0, f);

@@ -88,10 +88,10 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
     const dmb_scene *scene = sim->scene;
     dmb_friction_law local;
     const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->trial, scene->site_count + p, &local);
-    if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
+    if (dmb_friction_has_memory(law) && evaluation->steady) {
         const dmb_friction_law sliding = dmb_sliding_law(law);
         dmb_friction_smooth(&sliding, N, v, out->F, out->dv, out->dN);
-    } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
+    } else if (dmb_friction_has_memory(law) && evaluation->dynamic) {
         const dmb_local_friction with = dmb_local_friction_of(law);
         sim->trial.axial_torsional_sticks[p] = dmb_friction_bristle(
             &with, N, v, sim->now.axial_torsional_bristle + 2 * p, sim->now.axial_torsional_slip + 2 * p,

@@ -31,7 +31,7 @@ void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, i
     out->sticks = sticks;
     const dmb_local_friction local = dmb_local_friction_of(law);
     if (law->kind == DMB_FRICTION_NONE) return;
-    if (law->kind == DMB_FRICTION_BRISTLE)
+    if (dmb_friction_has_memory(law))
         (void)dmb_friction_bristle(&local, N, slip, bristle, slip, sticks != 0, 0.0, z, out->friction, dv, dN);
     else
         dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
