@@ -13,6 +13,9 @@ needs("numpy")
 
 from drillmbd import enums, live, live_scene, scene  # noqa: E402
 from drillmbd.errors import Usage  # noqa: E402
+from drillmbd.language import Language  # noqa: E402
+from drillmbd.live_strings import strings_of  # noqa: E402
+from drillmbd import live_words  # noqa: E402
 from drillmbd.model import Model  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -134,6 +137,78 @@ class Record(unittest.TestCase):
             live_scene.record_of(loaded, "x")
 
 
+PIPES = "[[string.pipes]]\nlength = \"1 m\"\ncount = "
+#: A string, its continuation behind a sub, one more by a joint of both, and one that lies apart.
+STRINGS = f"""
+[[string]]
+name = "upper"
+follows_hole = false
+{PIPES}30
+outer_diameter = "89 mm"
+inner_diameter = "60 mm"
+{PIPES}30
+[[sub]]
+string = "upper"
+length = "0.5 m"
+body = {{name = "motor", mass = "40 kg"}}
+section = {{name = "middle", pipes = {{length = "1 m", count = 20}}}}
+[[string]]
+name = "last"
+follows_hole = false
+position = ["80.5 m", 0, 0]
+start_free = ["x", "y", "z", "rx", "ry", "rz"]
+{PIPES}20
+[[string]]
+name = "apart"
+follows_hole = false
+position = [0, "2 m", 0]
+{PIPES}5
+[[bit]]
+string = "last"
+[[joint]]
+kind = "fixed"
+place_a = {{part = "middle", pipe = 19, fraction = 1.0}}
+place_b = "last"
+[run]
+step = "1 ms"
+"""
+
+
+class Strings(unittest.TestCase):
+    def test_a_string_continues_the_one_that_it_is_joined_to(self):
+        loaded = scene.loads(STRINGS)
+        found, with_bit = strings_of(loaded, loaded.names["upper"])
+        number = {name: [one["index"] for one in found].index(part.index) for name, part in loaded.names.items() if name in ("upper", "middle", "last", "apart")}
+        self.assertEqual({name: found[at]["continues"] for name, at in number.items()},
+                         {"upper": None, "middle": number["upper"], "last": number["middle"], "apart": None})
+        self.assertEqual(with_bit, number["last"])
+        upper = found[number["upper"]]
+        self.assertEqual([one["end"] for one in upper["radii"]], [30.0, 60.0])
+        self.assertEqual(upper["radii"][0]["radius"], 0.0445)
+        self.assertEqual([found[number[name]]["length"] for name in ("upper", "middle", "last", "apart")], [60.0, 20.0, 20.0, 5.0])
+
+    def test_the_first_string_has_the_bit_that_names_none(self):
+        loaded = scene.load(SCENARIOS[0])
+        found, with_bit = strings_of(loaded, loaded.names[next(iter(loaded.pipes))])
+        self.assertEqual((len(found), with_bit, found[0]["continues"]), (1, 0, None))
+
+
+class Words(unittest.TestCase):
+    def test_every_sentence_of_template_and_scripts_is_there_and_used(self):
+        folder = ROOT / "bindings/web/live"
+        template = set(re.findall(r"\[\[(.+?)\]\]", (folder / "page.html").read_text(encoding="utf-8")))
+        self.assertEqual(template, set(live_words.PAGE))
+        scripts = {one for path in folder.glob("*.mjs") for one in re.findall(r'\bword\("([^"]*)"', path.read_text(encoding="utf-8"))}
+        self.assertEqual(scripts, set(live_words.SCRIPTS))
+        self.assertGreater(len(scripts), 20)
+
+    def test_no_text_outside_the_catalogue(self):
+        """In the template, letters between tags are of sentences in [[ ]], of parts @name@ that are filled in, or of the command."""
+        text = re.sub(r"<(style|script).*?</\1>|<code>.*?</code>|<title>.*?</title>", "", (ROOT / "bindings/web/live/page.html").read_text(encoding="utf-8"), flags=re.S)
+        left = re.sub(r"\[\[.*?\]\]|@\w+@", "", re.sub(r"<[^>]*>", " ", re.sub(r'aria-label="(.*?)"', r">\1<", text)))
+        self.assertEqual(re.findall(r"[A-Za-z]+", left), [])
+
+
 class Page(FolderTest):
     def setUp(self):
         super().setUp()
@@ -141,15 +216,32 @@ class Page(FolderTest):
         shutil.copytree(ROOT / "bindings/web/live", self.package / "live")
         subprocess.run(["python3", ROOT / "bindings/web/generate.py", self.package], check=True)
         shutil.copy(ROOT / "bindings/web/drillmbd.mjs", self.package)
-        (self.package / "drillmbd.wasm").write_bytes(b"\0asm\1\0\0\0")  # of the library only its place is asked here
+        for name in live.LIBRARIES:
+            (self.package / name).write_bytes(b"\0asm\1\0\0\0")  # of the library only its place is asked here
 
     def test_a_page_is_one_file_without_a_network(self):
         for path in SCENARIOS:
             text = live.page(scene.load(path), str(path), self.package)
             self.assertNotRegex(text, r"(src|href)\s*=\s*[\"'](?!#)|https?://|@\w+@")
-            self.assertEqual(len(re.findall("</script>", text)), 4)
+            self.assertEqual(len(re.findall("</script>", text)), 5)
             record = re.search(r'id="scene">(.*?)</script>', text, re.S)[1]
             self.assertEqual(json.loads(record)["title"], scene.load(path).title)
+
+    def test_a_page_in_chinese(self):
+        """Titles and comments of the scene file and names that it gives stay; all else is Chinese."""
+        path = SCENARIOS[-1]
+        text = live.page(scene.load(path), str(path), self.package, Language("zh"))
+        self.assertIn('<html lang="zh-CN">', text)
+        record = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
+        self.assertEqual(record["words"]["Run"], "运行")
+        shown = [one[key] for one in record["traces"] + record["controls"] for key in ("title", "unit")] + [one["text"] for trace in record["traces"] for one in trace["limits"]]
+        body = re.sub(r'<p class="about">.*?</p>|<h1>.*?</h1>|<code>.*?</code>', "", re.sub(r"<script.*?</script>|<style.*?</style>", "", text, flags=re.S))
+        for one in [*shown, *record["words"].values(), re.sub(r"<[^>]*>", " ", re.sub(r'aria-label="(.*?)"', r">\1<", body[body.index("<body>"):]))]:
+            left = set(re.findall(r"[A-Za-z]{2,}", re.sub(r"\{\w+\}", "", one)))
+            self.assertLessEqual(left, set("WebAssembly WebGL libdrillmbd kN mm ms rpm MPa kPa kg deg rad mu bit main string feed rotation GPa".split()), one)
+        english = json.loads(re.search(r'id="scene">(.*?)</script>', live.page(scene.load(path), str(path), self.package), re.S)[1])
+        self.assertEqual(english["checksum"], record["checksum"])
+        self.assertEqual(english["words"], {})
 
     @unittest.skipUnless(shutil.which("node"), "not there: node; the scripts were not read")
     def test_the_scripts_are_javascript(self):

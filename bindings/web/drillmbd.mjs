@@ -20,6 +20,18 @@ export class DrillError extends Error {
 /** A place on a part: `fraction` of pipe number `pipe` of a string, or a body or bit. */
 export const station = (part, pipe = 0, fraction = 0) => ({ part, pipe, fraction });
 
+/** The first of several sources (bytes) that this engine compiles, in their order: one with SIMD, then one without. */
+export async function compiled(sources) {
+    for (const [number, source] of sources.entries()) {
+        try {
+            return await WebAssembly.compile(source);
+        } catch (error) { // an instruction that the engine lacks
+            if (!(error instanceof WebAssembly.CompileError) || number === sources.length - 1) throw error;
+        }
+    }
+    throw new TypeError("sources is empty, must have at least one");
+}
+
 /** The library in its own memory. options.maximumMemory: [byte] most that it may take, at most 2 GiB. */
 export async function instantiate(source, options = {}) {
     const most = Math.min(32768, Math.max(64, Math.floor((options.maximumMemory ?? 2 ** 31) / PAGE)));
@@ -43,6 +55,11 @@ class Library {
     _begin(exports) {
         this.exports = exports;
         this._refresh();
+    }
+
+    /** Elements that are computed at once: 2 with SIMD, else 1. Results are the same. */
+    get lanes() {
+        return this._run("web_lanes");
     }
 
     /** A model to describe a scene in. */

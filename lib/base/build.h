@@ -11,8 +11,8 @@
 #ifndef DMB_LAZY /* LAPACKE and CHOLMOD are loaded at run time when they are first needed */
 #define DMB_LAZY 0
 #endif
-#ifndef DMB_WITH_LANES /* kernels with 2, 4 and 8 lanes in addition to the scalar kernels; results are bitwise equal \
-                        */
+#ifndef DMB_WITH_LANES /* kernels with 2, 4 and 8 lanes in addition to the scalar kernels; results are bitwise equal. \
+                          2: with 2 lanes alone, the width of a vector of WebAssembly */
 #define DMB_WITH_LANES 1
 #endif
 #ifndef DMB_WITH_FILES /* recorders and VTK write files by stdio */

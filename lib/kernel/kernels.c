@@ -4,7 +4,13 @@
 #include "kernel/kernels.h"
 
 extern const dmb_kernels dmb_kernels_1;
-#if DMB_WITH_LANES
+#if DMB_WITH_LANES == 2
+extern const dmb_kernels dmb_kernels_2;
+#define KERNELS                        \
+    {                                  \
+        &dmb_kernels_1, &dmb_kernels_2 \
+    }
+#elif DMB_WITH_LANES
 extern const dmb_kernels dmb_kernels_2, dmb_kernels_4, dmb_kernels_8;
 #define KERNELS                                                        \
     {                                                                  \

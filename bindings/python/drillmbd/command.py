@@ -233,6 +233,8 @@ def _add_live(commands: Any) -> None:
     asked = commands.add_parser("live", help=text, description=text, epilog=LIVE, formatter_class=argparse.RawDescriptionHelpFormatter)
     asked.add_argument("scene", help="a scene file (TOML)")
     asked.add_argument("--output", "-o", metavar="FILE", help="the page; left out: the name of the scene with .html")
+    asked.add_argument("--language", choices=LANGUAGES, default="en", help="of the page: English (default) or Chinese; titles, comments and names of "
+                       "the scene file stay as they are")
     asked.add_argument("--replay", metavar="LOG", help="a log that the page saved: computes its run and compares the hash of the state")
     asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
@@ -371,6 +373,7 @@ def _fmu(options: Any) -> int:
 
 def _live(options: Any) -> int:
     from . import live, scene
+    from .language import Language
     from .scene.warned import warnings_of
     loaded = scene.load(options.scene)
     if options.replay:
@@ -383,7 +386,7 @@ def _live(options: Any) -> int:
     target = options.output or os.path.splitext(options.scene)[0] + ".html"
     if os.path.isdir(target):
         raise Usage(f"--output {target}: is a folder, must be the file of the page")
-    size = live.write(loaded, options.scene, target)
+    size = live.write(loaded, options.scene, target, Language(options.language))
     if not options.quiet:
         for note in warnings_of(loaded):
             print(f"note: {note}")

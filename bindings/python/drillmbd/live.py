@@ -8,6 +8,7 @@ library, and in share/drillmbd/web of the usual prefixes."""
 from __future__ import annotations
 
 import base64
+import gzip
 import html
 import json
 import os
@@ -19,11 +20,14 @@ from typing import Any
 from . import __version__, _library
 from ._structs import InputRecord
 from .errors import Usage
+from .language import ENGLISH, Language, phrase
 from .live_scene import model_of, record_of
+from .live_words import filled, of_scripts
 from .scene import Scene, words
 
-WORKER = ("interface.mjs", "drillmbd.mjs", "live/replay.mjs", "live/worker.mjs")  #: scripts, each after those that it uses
-PAGE = ("live/traces.mjs", "live/view.mjs", "live/page.mjs")
+WORKER = ("interface.mjs", "drillmbd.mjs", "live/words.mjs", "live/replay.mjs", "live/worker.mjs")  #: scripts, each after those that it uses
+PAGE = ("live/words.mjs", "live/traces.mjs", "live/view.mjs", "live/page.mjs")
+LIBRARIES = ("drillmbd.wasm", "drillmbd_simd.wasm")  #: for all browsers, and for those with instructions for two numbers at once
 LARGEST = 5_000_000  #: [byte]
 
 
@@ -36,7 +40,7 @@ def find_package() -> pathlib.Path:
         library / "web", library.parent / "web", _library.HERE / "web",
         *(pathlib.Path(prefix) / "share/drillmbd/web" for prefix in (str(library.parent), str(library.parents[1]), sys.prefix, "/usr/local", "/usr"))]
     for place in places:
-        if all((place / name).is_file() for name in ("drillmbd.wasm", *WORKER, *PAGE)):
+        if all((place / name).is_file() for name in (*LIBRARIES, *WORKER, *PAGE)):
             return place
     raise Usage(f"live page refused: {places[0]} does not hold the library as WebAssembly; make it by bindings/web/build FOLDER, and name FOLDER "
                 "by the environment variable DRILLMBD_WEB")
@@ -68,28 +72,36 @@ def about(file: str, scene: Scene) -> str:
     return " ".join(lines) if lines and not lines[-1].startswith("drillmbd ") else scene.title
 
 
-def page(scene: Scene, file: str, folder: pathlib.Path | None = None) -> str:
+def page(scene: Scene, file: str, folder: pathlib.Path | None = None, to: Language = ENGLISH) -> str:
     """The HTML of a scene that was read from a file."""
     folder = find_package() if folder is None else folder
     with scene.new_sim() as sim:
         understood = words.describe(scene, sim.momentum().mass)
-    record = record_of(scene, os.path.splitext(os.path.basename(file))[0])
+    record = {**to.all(record_of(scene, os.path.splitext(os.path.basename(file))[0])), "words": of_scripts(to)}
     text = json.dumps(record, separators=(",", ":"), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
-    details = "".join(f"<li>{html.escape(str(one))}</li>" for one in understood)
+    details = "".join(f"<li>{html.escape(to(one))}</li>" for one in understood)
+    local = phrase("Computed in this browser by libdrillmbd {version}; nothing is sent to a network.", version=__version__)
     parts = {"title": html.escape(scene.title or os.path.basename(file)), "about": html.escape(about(file, scene)),
              "style": (folder / "live/page.css").read_text(encoding="utf-8"),
-             "details": f"<ul>{details}</ul><p>Computed in this browser by libdrillmbd {__version__}; nothing is sent anywhere.</p>",
-             "wasm": base64.b64encode((folder / "drillmbd.wasm").read_bytes()).decode(), "scene": text,
+             "details": f"<ul>{details}</ul><p>{html.escape(to(local))}</p>", "tag": to.tag,
+             "wasm": base64.b64encode((folder / "drillmbd.wasm").read_bytes()).decode(),
+             "simd": base64.b64encode(gzip.compress((folder / "drillmbd_simd.wasm").read_bytes(), 9, mtime=0)).decode(), "scene": text,
              "worker": bundle(folder, WORKER), "page": bundle(folder, PAGE)}
-    template = (folder / "live/page.html").read_text(encoding="utf-8")
+    template = filled((folder / "live/page.html").read_text(encoding="utf-8"), to)
     return re.sub(r"@(\w+)@", lambda match: parts[match.group(1)], template)
 
 
-def write(scene: Scene, file: str, target: Any) -> int:
-    """Writes the page; returns its size [byte]."""
-    text = page(scene, file).encode()
+def small_page(scene: Scene, file: str, to: Language = ENGLISH) -> bytes:
+    """The page, which is refused above LARGEST."""
+    text = page(scene, file, to=to).encode()
     if len(text) > LARGEST:
         raise Usage(f"live page refused: it would have {len(text) / 1e6:.1f} MB, must be <= {LARGEST / 1e6:g} MB; describe a shorter survey or shorter tables")
+    return text
+
+
+def write(scene: Scene, file: str, target: Any, to: Language = ENGLISH) -> int:
+    """Writes the page; returns its size [byte]."""
+    text = small_page(scene, file, to)
     pathlib.Path(target).write_bytes(text)
     return len(text)
 

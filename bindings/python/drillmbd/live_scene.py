@@ -10,9 +10,11 @@ from typing import Any
 
 from . import enums
 from ._record import Record
-from ._structs import DriveDef, Id, PipeDef, Place, SimOptions, StaticOptions
+from ._structs import DriveDef, Id, Place, SimOptions, StaticOptions
 from .errors import Usage
 from .fmu import ARRAYS, CALLS, _is_pointer
+from .language import phrase
+from .live_strings import strings_of
 from .model import _DEFINITIONS, Model, remake
 from .scene import Scene
 from .scene.segments import by_numbers
@@ -25,7 +27,6 @@ SHOWN = {"rad/s": (RPM, "rpm"), "m/s": (1e3, "mm/s"), "N": (1e-3, "kN"), "N m": 
 #: [unit of the set point/s] of prescribed motions: how fast a slider's value is reached. A rig turns up in seconds, not at once.
 RATE = {enums.X: 0.05, enums.RX: 10.0}
 USUAL = {enums.X: 0.05, enums.RX: 25.0, "bit load": 20e3}  #: upper bound where the scene describes nothing else than 0
-MOST_STATIONS = 300
 
 
 # ---- Inputs ----------------------------------------------------------------------------------------------------------
@@ -112,6 +113,18 @@ TARGETS: dict[int, tuple[float, float]] = {enums.TARGET_FRICTION: (0.0, 3.0), en
            enums.TARGET_LOAD_FACTOR: (0.0, 2.0), enums.TARGET_BIT_LOAD: (0.0, 20e3), enums.TARGET_FLOW_RATE: (0.0, 0.02)}
 
 
+TITLES = {"rotation": phrase("Rotation"), "feed": phrase("Feed"), "torque": phrase("Torque"), "thrust": phrase("Thrust"), "bit load": phrase("Bit load"),
+          "friction": phrase("Friction of the wall"), "stuck": phrase("Stuck (1), free (0)")}
+
+
+def title_of(name: str) -> str:
+    """Of a slider, by the name of its input; of those that have a number because there are several, with it."""
+    word, _, number = name.rpartition(" ")
+    if number.isdecimal() and word in TITLES:
+        return phrase("{title} no. {number}", title=TITLES[word], number=number)
+    return TITLES.get(name, name[:1].upper() + name[1:])
+
+
 def _controls(model: Model) -> list[dict[str, Any]]:
     """A slider for each input."""
     found = []
@@ -120,10 +133,9 @@ def _controls(model: Model) -> list[dict[str, Any]]:
         factor, word = SHOWN.get(unit, (1.0, unit))
         low, high = TARGETS.get(info.target, (-100.0, 100.0))
         low, high = (low if info.low <= -1e29 else info.low), (high if info.high >= 1e29 else info.high)
-        title = {"friction": "Friction of the wall", "stuck": "Stuck (1), free (0)"}.get(name, name[:1].upper() + name[1:])
         if info.target in (enums.TARGET_FRICTION, enums.TARGET_LOAD_FACTOR):
-            word = "times"
-        found.append({"name": name, "title": title, "unit": word, "factor": factor, "low": low * factor, "high": high * factor,
+            word = phrase("times")
+        found.append({"name": name, "title": title_of(name), "unit": word, "factor": factor, "low": low * factor, "high": high * factor,
                       "whole": info.target == enums.TARGET_STUCK})
     return found
 
@@ -152,17 +164,17 @@ def _traces(scene: Scene, parts: Described, generation: int) -> list[dict[str, A
     torque, thrust = rig(enums.RX, enums.OUTPUT_RIG_TORQUE), rig(enums.X, enums.OUTPUT_RIG_FORCE)
     found = []
     if torque:
-        found.append({"title": "Torque at the rig", "unit": "kN m", "factor": 1e-3, "least": 0.1, "lines": [torque],
-                      "limits": [_limit(limits["torque"], f"limit {limits['torque'] / 1e3:g} kN m")] if "torque" in limits else []})
+        found.append({"title": phrase("Torque at the rig"), "unit": "kN m", "factor": 1e-3, "least": 0.1, "lines": [torque],
+                      "limits": [_limit(limits["torque"], phrase("limit {value:g} kN m", value=limits["torque"] / 1e3))] if "torque" in limits else []})
     if thrust:
-        found.append({"title": "Thrust at the rig", "unit": "kN", "factor": 1e-3 if enums.X in drives else -1e-3, "least": 1.0, "lines": [thrust], "limits": [
-            *([_limit(limits["push"], f"push limit {limits['push'] / 1e3:g} kN")] if "push" in limits else []),
-            *([_limit(-limits["pull"], f"pull limit {limits['pull'] / 1e3:g} kN")] if "pull" in limits else [])]})
+        found.append({"title": phrase("Thrust at the rig"), "unit": "kN", "factor": 1e-3 if enums.X in drives else -1e-3, "least": 1.0, "lines": [thrust], "limits": [
+            *([_limit(limits["push"], phrase("push limit {value:g} kN", value=limits["push"] / 1e3))] if "push" in limits else []),
+            *([_limit(-limits["pull"], phrase("pull limit {value:g} kN", value=limits["pull"] / 1e3))] if "pull" in limits else [])]})
     if string:
-        found.append({"title": "Bit speed (dashed: rig)", "unit": "rpm", "factor": RPM, "least": 10.0, "limits": [],
+        found.append({"title": phrase("Bit speed (dashed: rig)"), "unit": "rpm", "factor": RPM, "least": 10.0, "limits": [],
                       "lines": [line(enums.OUTPUT_BIT_SPEED, string), line(enums.OUTPUT_ROTARY_SPEED, string)]})
     if any(call == "add_wall" for call, _ in parts.parts.values()):
-        found.append({"title": "Contact, whole string", "unit": "kN", "factor": 1e-3, "least": 1.0, "limits": [], "lines": [line(enums.OUTPUT_CONTACTS_NORMAL_FORCE)]})
+        found.append({"title": phrase("Contact, whole string"), "unit": "kN", "factor": 1e-3, "least": 1.0, "limits": [], "lines": [line(enums.OUTPUT_CONTACTS_NORMAL_FORCE)]})
     return found
 
 
@@ -215,17 +227,6 @@ def _recorded(calls: list[Call]) -> list[list[Any]]:
     return found
 
 
-def _radii(parts: list[Call]) -> list[dict[str, float]]:
-    """Runs of equal pipes: where they end along the strings [m], and their radius [m]."""
-    found: list[dict[str, float]] = []
-    for name, given in parts:
-        if name == "add_pipes":
-            pipe = PipeDef(**given[1])
-            end = (found[-1]["end"] if found else 0.0) + given[0] * pipe.length
-            found.append({"end": end, "radius": 0.5 * pipe.outer_diameter})
-    return found
-
-
 def model_of(scene: Scene, diameter: float | None = None) -> Model:
     """The model that the page makes: of the scene with inputs, and with another diameter of the hole [m]."""
     calls = with_inputs(scene)
@@ -267,17 +268,17 @@ def record_of(scene: Scene, file: str) -> dict[str, Any]:
     calls = with_inputs(scene)
     model = remake(Model, calls)
     generation = scene.model.ids[0].generation if scene.model.ids else 0
-    recorded, diameter, radii = _recorded(calls), _diameter(calls), _radii(calls)
-    if not radii:
+    recorded, diameter, parts = _recorded(calls), _diameter(calls), Described(scene.model)
+    if not any(scene.pipes.values()):
         raise Usage("live page refused: the scene has no string to draw; add [[string]] with [[string.pipes]]")
-    pipes = sum(scene.pipes.values())
+    first = next(index for index, (name, _) in parts.parts.items() if name in ("add_string", "add_pipes"))
+    strings, with_bit = strings_of(scene, Id(first, generation))
     step = 0.0 if scene.model.events() else float(scene.run.get("step", 0.0))
     text = json.dumps(recorded, separators=(",", ":"), sort_keys=True)
     return {"title": scene.title or file, "file": file, "calls": recorded, "sim": plain(SimOptions(**scene.sim)),
             "static": plain(StaticOptions(**scene.fields_of("static"))) if scene.run.get("static", 0) else None,
             "step": step, "end": float(scene.run.get("end", 0.0)), "interval": max(step, 0.01), "diameter": diameter,
             "diameters": [max(0.7 * diameter, 1.002 * _widest(calls)), 1.6 * diameter] if diameter else None,
-            "length": radii[-1]["end"], "radii": radii, "controls": _controls(model), "traces": _traces(scene, Described(scene.model), generation),
-            "strings": [{"part": plain(scene.names[name]), "stations": max(2, min(MOST_STATIONS * count // pipes, 2 * count) + 1)}
-                        for name, count in scene.pipes.items() if count],
+            "controls": _controls(model), "traces": _traces(scene, parts, generation),
+            "strings": [{**one, "part": plain(Id(one["index"], generation))} for one in strings], "with_bit": with_bit,
             "checksum": hashlib.sha256(text.encode()).hexdigest()[:16]}

@@ -1,6 +1,7 @@
 // The page: buttons, sliders, keys and pointers on one side, messages of the worker on the other.
 import { shown, Trace } from "./traces.mjs";
 import { View } from "./view.mjs";
+import { speak, word } from "./words.mjs";
 
 const SECONDS = 12; // [s] of the traces that are shown
 const byId = (id) => document.getElementById(id);
@@ -19,12 +20,21 @@ function say(text, isNote = false) {
     place.classList.toggle("note", isNote);
 }
 
+const bytesOf = (id) => Uint8Array.from(atob(byId(id).textContent), (c) => c.charCodeAt(0));
+
+/** The library with SIMD, which is packed because browsers that have SIMD can unpack it, and the library for all browsers. */
+async function sources() {
+    const plain = bytesOf("wasm");
+    if (typeof DecompressionStream !== "function") return [plain];
+    const wide = await new Response(new Blob([bytesOf("simd")]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+    return [wide, plain];
+}
+
 class Live {
     constructor(record) {
         Object.assign(this, { record, frames: 0, running: false, ready: false, last: null, waiting: [] });
         this.view = new View(byId("view"), (text) => say(text, true));
-        this.view.radii = record.radii;
-        this.view.pipeLength = record.length;
+        this.view.setStrings(record.strings, record.with_bit);
         this.traces = record.traces.map((trace) => {
             const place = document.createElement("div");
             place.className = "trace";
@@ -39,9 +49,9 @@ class Live {
     }
 
     // ---- Worker -----------------------------------------------------------------------------------------------------------------------
-    start() {
+    async start() {
         if (typeof WebAssembly !== "object") {
-            say("This browser has no WebAssembly, which computes the string. Every browser since 2018 has it: update this one, or open the page in another.");
+            say(word("This browser has no WebAssembly, which computes the string. Every browser since 2018 has it: update this one, or open the page in another."));
             return;
         }
         const text = byId("worker").textContent;
@@ -49,11 +59,10 @@ class Live {
         this.worker.onmessage = ({ data }) => this.answers[data.type].call(this, data);
         this.worker.onerror = (event) => {
             trouble(event.message);
-            say(`The computation stopped: ${event.message}. Reload the page.`);
+            say(word("The computation stopped: {reason}. Reload the page.", { reason: event.message }));
         };
-        const wasm = Uint8Array.from(atob(byId("wasm").textContent), (c) => c.charCodeAt(0)).buffer;
-        byId("clock").textContent = this.record.static ? "computing the static equilibrium ..." : "starting ...";
-        this.tell("load", { wasm, record: this.record, memory: 2 ** 20 * Number(/memory=(\d+)/.exec(location.hash)?.[1] ?? 1024) });
+        byId("clock").textContent = this.record.static ? word("computing the static equilibrium ...") : word("starting ...");
+        this.tell("load", { sources: await sources(), record: this.record, memory: 2 ** 20 * Number(/memory=(\d+)/.exec(location.hash)?.[1] ?? 1024) });
     }
 
     tell(type, more = {}) {
@@ -62,8 +71,8 @@ class Live {
 
     get answers() {
         return {
-            ready({ line, diameter, bytes }) {
-                Object.assign(this, { ready: true, bytes, samples: null });
+            ready({ line, diameter, bytes, lanes }) {
+                Object.assign(this, { ready: true, bytes, lanes, samples: null });
                 this.setRunning(false);
                 this.diameter = diameter;
                 this.view.setLine(line);
@@ -72,7 +81,7 @@ class Live {
                 this.traces.forEach((trace) => trace.clear());
                 this.showDiameter();
                 say("");
-                if (this.view.pen) say("This browser has no WebGL: the string is drawn as lines.", true);
+                if (this.view.pen) say(word("This browser has no WebGL: the string is drawn as lines."), true);
             },
             frame(data) {
                 this.last = data;
@@ -82,15 +91,16 @@ class Live {
                 this.redraw = true;
                 this.showInputs(data.inputs);
                 byId("restore").disabled = data.kept === null;
-                byId("restore").textContent = data.kept === null ? "Restore" : `Restore ${data.kept.toFixed(2)} s`;
-                const pace = data.running && data.pace ? `, ${data.pace < 10 ? data.pace.toFixed(1) : data.pace.toFixed(0)} times real time` : "";
-                byId("clock").innerHTML = `<b>${data.time.toFixed(3)} s</b>${pace}${data.hash ? `, hash ${data.hash}` : ""}`;
+                byId("restore").textContent = data.kept === null ? word("Restore") : word("Restore {time} s", { time: data.kept.toFixed(2) });
+                const pace = data.running && data.pace ? `, ${word("{pace} times real time", { pace: data.pace < 10 ? data.pace.toFixed(1) : data.pace.toFixed(0) })}` : "";
+                byId("clock").innerHTML = `<b>${data.time.toFixed(3)} s</b>${pace}${data.hash ? `, ${word("hash {hash}", { hash: data.hash })}` : ""}`;
                 if (data.hash) this.settle(data);
             },
-            failed({ what, text, advice, time }) {
+            failed({ what, reason, advice, time }) {
                 this.setRunning(false);
-                say(`${what === "start" ? "The scene could not start" : `Failed at ${time.toFixed(3)} s (${what})`}: ${text}\n${advice}`);
-                this.settle({ failed: text });
+                const said = { reason: word("{message}", { message: reason }), time: time.toFixed(3) };
+                say(`${what === "start" ? word("The scene could not start: {reason}", said) : word("Failed at {time} s: {reason}", said)}\n${advice}`);
+                this.settle({ failed: reason });
             },
             restored({ time }) {
                 this.traces.forEach((trace) => trace.clear(time));
@@ -156,10 +166,10 @@ class Live {
     scaleView() {
         if (!this.view.line) return;
         if (!this.chosen) this.view.exaggeration = this.toScale ? 1 : this.view.usualExaggeration();
-        const k = this.view.exaggeration, range = byId("exaggeration");
+        const k = this.view.exaggeration, range = byId("exaggeration"), length = shown(this.view.camera.length), factor = k < 10 ? k.toFixed(1) : k.toFixed(0);
         range.value = Math.log10(k);
-        range.nextElementSibling.textContent = k < 1.005 ? "to scale" : `${k < 10 ? k.toFixed(1) : k.toFixed(0)} times`;
-        byId("view").querySelector(".scale").textContent = `${shown(this.view.camera.length)} m shown, ${k < 1.005 ? "to scale" : `across the hole ${k < 10 ? k.toFixed(1) : k.toFixed(0)} times as large`}`;
+        range.nextElementSibling.textContent = k < 1.005 ? word("to scale") : word("{factor} times", { factor });
+        byId("view").querySelector(".scale").textContent = k < 1.005 ? word("{length} m shown, to scale", { length }) : word("{length} m shown, across the hole {factor} times as large", { length, factor });
         byId("toscale").setAttribute("aria-pressed", k < 1.005);
         this.redraw = true;
     }
@@ -180,7 +190,7 @@ class Live {
     // ---- Controls -----------------------------------------------------------------------------------------------------------------------
     setRunning(value) {
         this.running = value;
-        byId("go").textContent = value ? "Stop" : "Run";
+        byId("go").textContent = value ? word("Stop") : word("Run");
     }
 
     buttons() {
@@ -230,9 +240,9 @@ class Live {
         });
         const { diameter, diameters } = this.record;
         if (!diameter) return;
-        const control = { title: "Hole diameter", unit: "mm", low: 1000 * diameters[0], high: 1000 * diameters[1], note: "begins anew" };
+        const control = { title: word("Hole diameter"), unit: "mm", low: 1000 * diameters[0], high: 1000 * diameters[1], note: word("restarts the run") };
         this.hole = this.slider(control, () => {}, (value) => {
-            byId("clock").textContent = "making the scene anew ...";
+            byId("clock").textContent = word("building the model again ...");
             this.tell("rebuild", { diameter: value / 1000 });
         });
     }
@@ -258,7 +268,7 @@ class Live {
             const { range, show } = this.inputs[k], factor = this.record.controls[k].factor;
             if (document.activeElement !== range || !is_set) range.value = value * factor;
             const onTheWay = is_set && Math.abs(present - value) > 1e-6 * Math.abs(value) + 1e-12;
-            show(value * factor, is_set ? (onTheWay ? `now ${shown(present * factor)}` : "") : "as described");
+            show(value * factor, is_set ? (onTheWay ? word("now {value}", { value: shown(present * factor) }) : "") : word("as in the scene"));
         });
     }
 
@@ -312,5 +322,7 @@ class Live {
 
 addEventListener("error", (event) => trouble(event.message));
 addEventListener("unhandledrejection", (event) => trouble(String(event.reason)));
-globalThis.live = new Live(JSON.parse(byId("scene").textContent));
+const record = JSON.parse(byId("scene").textContent);
+speak(record.words);
+globalThis.live = new Live(record);
 globalThis.live.start();

@@ -1,4 +1,6 @@
 // Traces of outputs over time, one chart each: the value now, its limits, the last seconds.
+import { word } from "./words.mjs";
+
 const INK = "#111", GRID = "#c8c8c8", LIMIT = "#7a0019";
 
 /** A round step that divides a range into about `parts`. */
@@ -41,7 +43,7 @@ export class Trace {
     tell(values) {
         const value = values[0] * this.trace.factor, near = this.nearest(value), over = near && near.share > 1;
         this.place.querySelector("b").textContent = `${shown(value)} ${this.trace.unit}`;
-        this.place.querySelector("span").textContent = near ? `${over ? "OVER" : `${(100 * near.share).toFixed(0)} % of`} ${near.text}` : "";
+        this.place.querySelector("span").textContent = !near ? "" : over ? word("OVER {limit}", { limit: near.text }) : word("{share} % of {limit}", { share: (100 * near.share).toFixed(0), limit: near.text });
         this.place.classList.toggle("over", Boolean(over));
         this.canvas.setAttribute("aria-label", `${this.trace.title}: ${shown(value)} ${this.trace.unit}`);
     }

@@ -1,5 +1,7 @@
 // The string in its hole in three dimensions: WebGL where there is one, lines on a 2D canvas else. Distances across the axis of the hole
 // are drawn `exaggeration` times as large as those along it.
+import { word } from "./words.mjs";
+
 const SIDES = 14, RINGS = 48, LONGITUDINAL = 12;
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -42,7 +44,7 @@ export class View {
         this.gl = this.begin3();
         if (!this.gl) {
             this.pen = this.canvas.getContext("2d");
-            told("This browser has no WebGL: the string is drawn as lines.");
+            told(word("This browser has no WebGL: the string is drawn as lines."));
         }
         this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
         this.canvas.addEventListener("webglcontextrestored", () => this.setUp(this.gl));
@@ -78,11 +80,29 @@ export class View {
         return true;
     }
 
+    /** Rings of all strings, one string behind the other: first and last ring of its string and radius [m] of each, the ring before it that it
+     * continues (-1: none), and the ring at the bit. */
+    setStrings(strings, withBit) {
+        const rings = [];
+        this.lasts = [];
+        for (const { stations, length, radii, continues } of strings) {
+            const first = rings.length, last = first + stations - 1;
+            for (let i = first; i <= last; i++) {
+                const at = ((i - first) / (stations - 1)) * length, run = radii.find((one) => at <= one.end * (1 + 1e-9)) ?? radii[radii.length - 1];
+                rings.push({ first, last, radius: run.radius, before: i > first ? i - 1 : continues === null ? -1 : this.lasts[continues] });
+            }
+            this.lasts.push(last);
+        }
+        this.rings = rings;
+        this.bitRing = this.lasts[withBit];
+    }
+
     /** The axis of the hole of a scene that begins: points [m], radii [m] or null. */
     setLine({ points, radii }) {
         const every = Math.max(1, Math.floor(points.length / 3 / (radii ? 400 : 200)));
         this.line = [];
-        for (let i = 0; i < points.length / 3; i += every) this.line.push({ at: [...points.slice(3 * i, 3 * i + 3)], radius: radii?.[i] ?? 0 });
+        for (let i = 0; i < points.length / 3; i += every) // of a scene without hole the strings themselves, with gaps between them
+            this.line.push({ at: [...points.slice(3 * i, 3 * i + 3)], radius: radii?.[i] ?? 0, gap: !radii && i > 0 && this.rings[i].first > i - every && this.rings[this.rings[i].first].before < 0 });
         this.frames = this.line.map((one, i) => {
             const before = this.line[Math.max(i - 1, 0)].at, after = this.line[Math.min(i + 1, this.line.length - 1)].at;
             return across(unit(sub(after, before)));
@@ -117,7 +137,7 @@ export class View {
     /** The state of a moment. */
     setFrame({ base, offset, turn, force }) {
         Object.assign(this, { base, offset, turn, loads: force });
-        const last = base.length - 3;
+        const last = 3 * this.bitRing;
         this.tip = [base[last], base[last + 1], base[last + 2]];
         if (this.where === "bit" && this.followed) this.camera.centre = this.camera.centre.map((x, k) => x + this.tip[k] - this.followed[k]);
         this.followed = this.tip;
@@ -178,19 +198,20 @@ export class View {
 
     /** Triangles between neighbouring rings of the tube. */
     index() {
-        const { gl } = this, rings = this.base.length / 3, count = (rings - 1) * SIDES * 6;
+        const { gl } = this, ends = this.rings.map((one, i) => [one.before, i]).filter(([before]) => before >= 0), count = ends.length * SIDES * 6;
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffers.index);
-        if (this.indexed !== rings) {
+        if (this.indexed !== count) {
             const data = new Uint16Array(count);
-            for (let i = 0, n = 0; i < rings - 1; i++) {
+            let n = 0;
+            for (const [from, to] of ends) {
                 for (let k = 0; k < SIDES; k++) {
-                    const a = i * SIDES + k, b = i * SIDES + ((k + 1) % SIDES);
-                    data.set([a, b, a + SIDES, b, b + SIDES, a + SIDES], n);
+                    const next = (k + 1) % SIDES, a = from * SIDES, b = to * SIDES;
+                    data.set([a + k, a + next, b + k, a + next, b + next, b + k], n);
                     n += 6;
                 }
             }
             gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, data, gl.STATIC_DRAW);
-            this.indexed = rings;
+            this.indexed = count;
         }
         return count;
     }
@@ -199,8 +220,8 @@ export class View {
     tube(centre) {
         const rings = this.base.length / 3, data = new Float32Array(rings * SIDES * 9);
         for (let i = 0, n = 0; i < rings; i++) {
-            const here = this.point(i), on = (k) => this.base.subarray(3 * k, 3 * k + 3);
-            const [side, upward] = across(unit(sub(on(Math.min(i + 1, rings - 1)), on(Math.max(i - 1, 0))))), radius = this.exaggeration * this.stringRadius(i), colour = shade(this.loads[i] / this.force);
+            const { first, last, radius: thick } = this.rings[i], here = this.point(i), on = (k) => this.base.subarray(3 * k, 3 * k + 3);
+            const [side, upward] = across(unit(sub(on(Math.min(i + 1, last)), on(Math.max(i - 1, first))))), radius = this.exaggeration * thick, colour = shade(this.loads[i] / this.force);
             for (let k = 0; k < SIDES; k++, n += 9) {
                 const angle = (2 * Math.PI * k) / SIDES + this.turn[i], c = Math.cos(angle), s = Math.sin(angle), stripe = k % 7 < 2;
                 for (let x = 0; x < 3; x++) {
@@ -214,12 +235,6 @@ export class View {
         return data;
     }
 
-    stringRadius(i) {
-        const at = (i / Math.max(1, this.base.length / 3 - 1)) * this.pipeLength;
-        const run = this.radii.find((one) => at <= one.end) ?? this.radii[this.radii.length - 1];
-        return run.radius;
-    }
-
     /** The hole as rings and lines along it. */
     holeLines(centre) {
         const found = [], k = this.exaggeration, grey = [0.62, 0.66, 0.7];
@@ -229,7 +244,7 @@ export class View {
         };
         const put = (a, b) => found.push(...a, 0, 0, 0, ...grey, ...b, 0, 0, 0, ...grey);
         const lines = this.line[0].radius ? LONGITUDINAL : 1, last = this.line.length - 1;
-        for (let j = 0; j < lines; j++) for (let i = 0; i < last; i++) put(corner(i, (2 * Math.PI * j) / lines), corner(i + 1, (2 * Math.PI * j) / lines));
+        for (let j = 0; j < lines; j++) for (let i = 0; i < last; i++) if (!this.line[i + 1].gap) put(corner(i, (2 * Math.PI * j) / lines), corner(i + 1, (2 * Math.PI * j) / lines));
         const spacing = Math.max(1, Math.round((last * Math.min(1, this.camera.length / this.wholeLength)) / 12));
         if (lines > 1) for (let i = 0; i <= last; i += spacing) for (let j = 0; j < RINGS; j++) put(corner(i, (2 * Math.PI * j) / RINGS), corner(i, (2 * Math.PI * (j + 1)) / RINGS));
         return new Float32Array(found);
@@ -245,22 +260,23 @@ export class View {
         pen.fillStyle = "#fff";
         pen.fillRect(0, 0, wide, tall);
         pen.lineCap = "butt";
-        const path = (points, colour, width) => {
+        const path = (points, colour, width, gaps = []) => {
             pen.strokeStyle = colour;
             pen.lineWidth = width;
             pen.beginPath();
-            points.forEach((p, i) => (i ? pen.lineTo(...p) : pen.moveTo(...p)));
+            points.forEach((p, i) => (i && !gaps[i] ? pen.lineTo(...p) : pen.moveTo(...p)));
             pen.stroke();
         };
         for (let j = 0; j < LONGITUDINAL; j++) {
             const turn = (2 * Math.PI * j) / LONGITUDINAL;
-            path(line.map(({ at, radius }, i) => flat(at.map((x, n) => x + k * radius * (Math.cos(turn) * frames[i][0][n] + Math.sin(turn) * frames[i][1][n])))), "#aab", 1);
+            path(line.map(({ at, radius }, i) => flat(at.map((x, n) => x + k * radius * (Math.cos(turn) * frames[i][0][n] + Math.sin(turn) * frames[i][1][n])))), "#aab", 1, line.map((one) => one.gap));
         }
         const rings = this.base.length / 3, points = Array.from({ length: rings }, (_, i) => flat(this.point(i)));
-        for (let i = 0; i + 1 < rings; i++) {
-            const [r, g, b] = shade(this.loads[i] / this.force).map((x) => Math.round(255 * x));
-            path([points[i], points[i + 1].map((x, k) => x + 0.1 * (x - points[i][k]))], `rgb(${r},${g},${b})`, Math.max(2, 2 * scale * k * this.stringRadius(i)));
-        }
+        this.rings.forEach(({ before, radius }, i) => {
+            if (before < 0) return;
+            const [r, g, b] = shade(this.loads[before] / this.force).map((x) => Math.round(255 * x));
+            path([points[before], points[i].map((x, j) => x + 0.1 * (x - points[before][j]))], `rgb(${r},${g},${b})`, Math.max(2, 2 * scale * k * radius));
+        });
     }
 
     // ---- Words ------------------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // Runs the sim beside the page, in slices, so that neither ever waits for the other.
-import { constants as c, instantiate } from "../drillmbd.mjs";
+import { compiled, constants as c, instantiate } from "../drillmbd.mjs";
 import { begin } from "./replay.mjs";
+import { speak, word } from "./words.mjs";
 
 const SLICE = 12, FRAME = 33; // [ms] of work between two looks for messages; between two pictures
 const QUANTITIES = [c.PROFILE_X, c.PROFILE_Y, c.PROFILE_Z, c.PROFILE_DEPTH, c.PROFILE_ROTATION, c.PROFILE_NORMAL_FORCE];
@@ -15,8 +16,8 @@ function guarded(what, work) {
         return work();
     } catch (error) {
         state.running = false;
-        const advice = state.library?.broken ? "Press Reset." : "The last accepted state is kept: change an input, restore, or reset.";
-        postMessage({ type: "failed", what, text: error.text ?? error.message, advice, time: time() });
+        const advice = state.library?.broken ? word("Press Reset.") : word("The last accepted state is kept: change an input, restore, or reset.");
+        postMessage({ type: "failed", what, reason: error.text ?? error.message, advice, time: time() });
         return undefined;
     }
 }
@@ -24,9 +25,11 @@ function guarded(what, work) {
 const time = () => (state.run && !state.library.broken ? state.run.sim.time : 0);
 
 // ---- Beginning ----------------------------------------------------------------------------------------------------------------------
-async function load({ wasm, record, memory }) {
+/** sources: the library in bytes, with SIMD and without; the first that this browser can run is taken. */
+async function load({ sources, record, memory }) {
     state.record = record;
-    state.wasm = wasm;
+    state.sources = sources;
+    speak(record.words);
     state.memory = memory;
     await restart(null);
 }
@@ -37,6 +40,7 @@ async function restart(diameter) {
     try {
         if (!state.library || state.library.broken) {
             state.run = null;
+            state.wasm ??= await compiled(state.sources);
             state.library = await instantiate(state.wasm, { maximumMemory: state.memory });
         }
         const run = begin(state.library, state.record, diameter); // what there was goes only when this has succeeded
@@ -45,11 +49,11 @@ async function restart(diameter) {
         Object.assign(state, { run, diameter, log: [], calls: 0, kept: null, until: Infinity, nextSample: -Infinity, hundredth: 0 });
         run.places = state.record.traces.flatMap((trace) => trace.lines.map((line) => ({ quantity: line.quantity, place: run.place(line.place) })));
         run.line = referenceLine(run);
-        postMessage({ type: "ready", line: run.line, diameter: diameter ?? state.record.diameter, bytes: state.library.memory.buffer.byteLength });
+        postMessage({ type: "ready", line: run.line, diameter: diameter ?? state.record.diameter, bytes: state.library.memory.buffer.byteLength, lanes: state.library.lanes });
         frame(true);
     } catch (error) {
-        postMessage({ type: "failed", what: "start", text: error.text ?? error.message, time: time(),
-                      advice: state.run ? "The scene before it goes on." : "This scene cannot run here." });
+        postMessage({ type: "failed", what: "start", reason: error.text ?? error.message, time: time(),
+                      advice: state.run ? word("The scene before it continues.") : word("This scene cannot run in this browser.") });
         if (state.run) frame(true);
     }
 }
@@ -68,7 +72,7 @@ function referenceLine(run) {
     const { model } = run;
     const shape = along([c.PROFILE_X, c.PROFILE_Y, c.PROFILE_Z, c.PROFILE_DEPTH]), stations = shape.length / 4;
     if (!state.record.diameter) return { start: 0, spacing: 0, points: Float64Array.from({ length: 3 * stations }, (_, i) => shape[4 * Math.floor(i / 3) + (i % 3)]), radii: null };
-    const start = Math.max(0, shape[3]), length = 1.02 * (shape[4 * stations - 1] - start) + 0.5;
+    const start = Math.max(0, shape.reduce((least, value, i) => (i % 4 === 3 && value < least ? value : least), Infinity)), deepest = shape.reduce((most, value, i) => (i % 4 === 3 && value > most ? value : most), -Infinity), length = 1.02 * (deepest - start) + 0.5;
     const points = new Float64Array(3 * AXIS_POINTS), radii = new Float64Array(AXIS_POINTS), spacing = length / (AXIS_POINTS - 1);
     for (let i = 0; i < AXIS_POINTS; i++) {
         const at = model.queryHole(start + i * spacing);
@@ -201,7 +205,7 @@ const ANSWERS = {
         frame(!state.running);
     },
     restore() {
-        if (!state.kept) throw new Error("no state is kept yet; press Keep first");
+        if (!state.kept) throw new Error("no state is kept yet; press Keep state first");
         state.run.sim.restore(state.kept.bytes);
         Object.assign(state, { log: [...state.kept.log], calls: state.kept.calls, hundredth: state.kept.hundredth, samples: [], nextSample: -Infinity });
         postMessage({ type: "restored", time: state.kept.time });

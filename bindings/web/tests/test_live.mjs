@@ -45,6 +45,7 @@ async function quiet(page) {
 for (const [name, size, address] of [["a desktop", [1400, 900, 1, false], url], ["a phone", PHONE, url], ["a browser without WebGL", [1400, 900, 1, false], `${url}#2d`]]) {
     test(`the run of the command on ${name}: torque, thrust and hash`, async () => {
         const page = await ready({ size }, address);
+        assert.equal(await page.ask("live.lanes"), 2, "SIMD is used");
         const last = await runTo(page, expected.time);
         assert.ok(Math.abs(last.time - expected.time) < 1e-9);
         assert.equal(last.values[0], expected.torque);
@@ -56,6 +57,21 @@ for (const [name, size, address] of [["a desktop", [1400, 900, 1, false], url], 
         assert.ok((await page.ask("live.traces.every((one) => one.rows.length > 50)")), "traces have rows");
         assert.ok((await page.ask("document.documentElement.scrollWidth <= innerWidth")), "nothing is wider than the window");
         await quiet(page);
+    });
+}
+
+for (const [name, flags, before] of [["without SIMD", ["--js-flags=--no-enable-sse4-1"], ""], ["that cannot unpack", [], "delete globalThis.DecompressionStream"]]) {
+    test(`a browser ${name} computes the same run with the library for all browsers`, async () => {
+        const other = flags.length ? await Browser.start(flags) : browser;
+        try {
+            const page = await other.open(url, { before });
+            await page.until("window.live?.ready && live.frames > 0", 60);
+            assert.equal(await page.ask("live.lanes"), 1);
+            assert.equal((await runTo(page, expected.time)).hash, expected.hash);
+            await quiet(page);
+        } finally {
+            if (other !== browser) await other.stop();
+        }
     });
 }
 
@@ -120,7 +136,7 @@ test("another diameter of the hole begins the scene anew; one that the string do
     await page.until(`live.diameter > ${1.1 * diameter} && live.last.time === 0`);
     await page.ask("live.tell('rebuild', {diameter: 0.01})");
     await page.until("document.getElementById('message').hidden === false");
-    assert.match(await page.ask("document.getElementById('message').textContent"), /could not start.*\n.*goes on/s);
+    assert.match(await page.ask("document.getElementById('message').textContent"), /could not start.*\n.*continues/s);
     const last = await runTo(page, 0.1);
     assert.ok(Math.abs(last.time - 0.1) < 1e-9);
     await quiet(page);
@@ -152,7 +168,7 @@ test("without WebAssembly and without enough memory the page says so", async () 
     writeFileSync(longFile, long);
     const small = await browser.open(`${pathToFileURL(resolve(longFile)).href}#memory=16`);
     await small.until("document.getElementById('message')?.hidden === false", 60);
-    assert.match(await small.ask("document.getElementById('message').textContent"), /could not start: .*memory.*\n.*cannot run here/s);
+    assert.match(await small.ask("document.getElementById('message').textContent"), /could not start: .*memory.*\n.*cannot run in this browser/s);
     await quiet(page);
     await quiet(small);
 });

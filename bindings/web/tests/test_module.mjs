@@ -2,11 +2,13 @@
 // refusals are exceptions with their parts, a full memory and a trap leave nothing behind.
 // usage: node test_module.mjs HASH [FOLDER of the built package]
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 
 const [wanted, folder = "build/web"] = process.argv.slice(2);
-const { constants: c, DrillError, load, station } = await import(pathToFileURL(`${folder}/index.mjs`));
+const { compiled, constants: c, DrillError, instantiate, load, station } = await import(pathToFileURL(`${folder}/index.mjs`));
 const library = await load();
 
 /** tests/firmware/scene.h */
@@ -39,6 +41,36 @@ test("hash of the firmware scene after 100 steps is that of the native library",
     assert.equal(sim.hash(), wanted);
     sim.destroy();
     model.destroy();
+});
+
+/** Hash of a string of 101 pipes, an odd number, on its wall after 0.2 s: with contact, friction, impacts and several Newton iterations. */
+function onTheWall(own) {
+    const model = own.model();
+    model.addWall({ friction_law: c.FRICTION_STRIBECK });
+    model.addPipes({}, 101);
+    model.addBit({});
+    model.addDrive({ time_function: model.addTimeFunction([{ kind: c.SEGMENT_STEP, x1: 0.05, h1: 10 }]), component: c.RX });
+    model.compile({});
+    const sim = model.sim();
+    for (let i = 0; i < 200; i++) sim.step(1e-3);
+    return sim.hash();
+}
+
+test("with SIMD and without: the same bits", async () => {
+    const [wide, plain] = await Promise.all(["drillmbd_simd.wasm", "drillmbd.wasm"].map(async (name) => load(await readFile(`${folder}/${name}`))));
+    assert.equal(wide.lanes, 2);
+    assert.equal(plain.lanes, 1);
+    assert.equal(library.lanes, 2, "load() takes the file with SIMD");
+    assert.equal(onTheWall(wide), onTheWall(plain));
+});
+
+test("an engine without SIMD takes the other file", async () => {
+    const code = `import("${pathToFileURL(`${folder}/index.mjs`)}").then(async ({ load }) => console.log((await load()).lanes))`;
+    const { stdout, stderr } = spawnSync(process.execPath, ["--no-enable-sse4-1", "-e", code], { encoding: "utf8" });
+    assert.equal(stdout.trim(), "1", stderr);
+    await assert.rejects(compiled([new Uint8Array([1, 2, 3])]), WebAssembly.CompileError);
+    const spare = await instantiate(await compiled([new Uint8Array([1, 2, 3]), await readFile(`${folder}/drillmbd.wasm`)]));
+    assert.equal(spare.lanes, 1);
 });
 
 test("queries answer with named fields and typed arrays", () => {
