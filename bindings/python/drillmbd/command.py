@@ -139,6 +139,8 @@ def parser() -> argparse.ArgumentParser:
                                  "(default) or Chinese; summary.json stays English")
             command.add_argument("--probability", metavar="FOLDER", help="--output of a study of this scene by drillmbd probability: its "
                                  "estimates become part of the page")
+            command.add_argument("--live", action="store_true", help="the page runs the scene too, as that of drillmbd live does: with sliders and "
+                                 "traces; needs the library as WebAssembly, which bindings/web/build makes")
         if name == "speeds":
             command.add_argument("--check", nargs="?", type=int, const=12, default=0, metavar="N", help="runs N rotary speeds (12 where no number "
                                  "is given) in time too and marks those where torque or lateral acceleration swing")

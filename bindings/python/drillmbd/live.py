@@ -42,8 +42,9 @@ def find_package() -> pathlib.Path:
     for place in places:
         if all((place / name).is_file() for name in (*LIBRARIES, *WORKER, *PAGE)):
             return place
-    raise Usage(f"live page refused: {places[0]} does not hold the library as WebAssembly; make it by bindings/web/build FOLDER, and name FOLDER "
-                "by the environment variable DRILLMBD_WEB")
+    where = f"DRILLMBD_WEB = {own} does not hold" if own else "neither the folder of the library nor share/drillmbd/web holds"
+    raise Usage(f"live page refused: {where} the library as WebAssembly; install it by a CMake build with -DDMB_BUILD_WEB=ON, or run "
+                "bindings/web/build FOLDER in the source tree and set the environment variable DRILLMBD_WEB to FOLDER")
 
 
 def bundle(folder: pathlib.Path, names: tuple[str, ...]) -> str:
@@ -72,28 +73,34 @@ def about(file: str, scene: Scene) -> str:
     return " ".join(lines) if lines and not lines[-1].startswith("drillmbd ") else scene.title
 
 
-def page(scene: Scene, file: str, folder: pathlib.Path | None = None, to: Language = ENGLISH) -> str:
-    """The HTML of a scene that was read from a file."""
+def page(scene: Scene, file: str, folder: pathlib.Path | None = None, to: Language = ENGLISH, packed: bool = False) -> str:
+    """The HTML of a scene that was read from a file. packed: smaller, for browsers that can unpack."""
     folder = find_package() if folder is None else folder
+    record = {**to.all(record_of(scene, os.path.splitext(os.path.basename(file))[0])), "words": of_scripts(to)}
     with scene.new_sim() as sim:
         understood = words.describe(scene, sim.momentum().mass)
-    record = {**to.all(record_of(scene, os.path.splitext(os.path.basename(file))[0])), "words": of_scripts(to)}
     text = json.dumps(record, separators=(",", ":"), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
     details = "".join(f"<li>{html.escape(to(one))}</li>" for one in understood)
     local = phrase("Computed in this browser by libdrillmbd {version}; nothing is sent to a network.", version=__version__)
     parts = {"title": html.escape(scene.title or os.path.basename(file)), "about": html.escape(about(file, scene)),
              "style": (folder / "live/page.css").read_text(encoding="utf-8"),
              "details": f"<ul>{details}</ul><p>{html.escape(to(local))}</p>", "tag": to.tag,
-             "wasm": base64.b64encode((folder / "drillmbd.wasm").read_bytes()).decode(),
-             "simd": base64.b64encode(gzip.compress((folder / "drillmbd_simd.wasm").read_bytes(), 9, mtime=0)).decode(), "scene": text,
+             "wasm": _text_of(folder / "drillmbd.wasm", packed), "packed": "1" if packed else "", "simd": _text_of(folder / "drillmbd_simd.wasm", True),
+             "scene": text,
              "worker": bundle(folder, WORKER), "page": bundle(folder, PAGE)}
     template = filled((folder / "live/page.html").read_text(encoding="utf-8"), to)
     return re.sub(r"@(\w+)@", lambda match: parts[match.group(1)], template)
 
 
-def small_page(scene: Scene, file: str, to: Language = ENGLISH) -> bytes:
+def _text_of(path: pathlib.Path, packed: bool) -> str:
+    """The bytes of a file in base64, packed by gzip on request."""
+    content = path.read_bytes()
+    return base64.b64encode(gzip.compress(content, 9, mtime=0) if packed else content).decode()
+
+
+def small_page(scene: Scene, file: str, to: Language = ENGLISH, packed: bool = False) -> bytes:
     """The page, which is refused above LARGEST."""
-    text = page(scene, file, to=to).encode()
+    text = page(scene, file, to=to, packed=packed).encode()
     if len(text) > LARGEST:
         raise Usage(f"live page refused: it would have {len(text) / 1e6:.1f} MB, must be <= {LARGEST / 1e6:g} MB; describe a shorter survey or shorter tables")
     return text

@@ -24,6 +24,7 @@ from .report_figures import Figure, InSpace, in_space, line, picture_in_space, r
 from .report_hole import HoleView, hole_view
 from .report_linear import Speeds, buckling_tile, speeds, speeds_figure, speeds_tile
 from .report_frames import Frames
+from .report_live import packed_page
 from .report_page import page
 from .report_probability import Probability, read_probability
 from .rig_torque import balanced
@@ -60,6 +61,7 @@ class Study:
         self.space: InSpace | None = None            # as at the end of the run
         self.state: RunState | None = None           # of the complete run
         self.check, self.hash = "", ""
+        self.live = ""                               # packed page that runs the scene
         self.headline: str = headline(self.string, self.plan, self.units)
         self.understood: list[str] = []
         self.made: str = phrase("Made on {date} by drillmbd {version} from {file}", date=f"{datetime.date.today():%Y-%m-%d}", version=__version__,
@@ -432,6 +434,11 @@ def report(scene: Scene, out: CommandOutput, options: Any) -> int:
     need("plotly.offline")
     study = Study(scene, out, read_probability(options.probability, scene) if options.probability else None)
     study.ask()
+    if options.live:
+        study.live, refused = packed_page(scene, options.scene, out.language)
+        if refused:
+            study.tiles.append(refused)
+            out.summary["verdicts"].append(vars(refused))
     for tile in study.tiles:
         out.say(tile.line())
     out.path("report.html").write_text(page(study), encoding="utf-8")

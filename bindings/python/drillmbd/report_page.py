@@ -33,6 +33,7 @@ class Content(Protocol):
     space: InSpace | None
     figures: list[Figure]
     check: str  #: in SI
+    live: str  #: packed page that runs the scene; "": none
 
     def assumptions(self) -> list[tuple[str, str]]:
         """Pairs of a subject and its text."""
@@ -48,6 +49,7 @@ h1{font-size:1.5em;margin:.3em 0}h2{font-size:1.2em;margin:1.4em 0 .4em}.made{co
 .ok .verdict{background:#cfe8d5}.near .verdict{background:#ffe08a}.card.over{border:4px solid #000}.over .verdict{background:#b3261e;color:#fff}
 .card.open{border-style:dashed}.open .verdict{background:#ddd}
 .figure{min-height:420px;width:100%}.still{display:none}.wide svg,.narrow svg,.still svg{max-width:100%;height:auto;display:block}.narrow{display:none}
+#start{font:inherit;padding:.5em 1.2em;min-height:44px;font-weight:bold;background:#1d3557;color:#fff;border:1px solid #000}#live{width:100%;height:92vh;border:1px solid #555}
 .scroll{overflow-x:auto;max-width:100%}table{border-collapse:collapse}td,th{border:1px solid #999;padding:3px 8px;text-align:left;vertical-align:top}
 pre{overflow:auto;font-size:12px}.nogl .turning{display:none}.nogl .still{display:block}
 @media screen and (max-width:600px){body{padding:.6em}.figure{min-height:300px}.wide{display:none}.narrow{display:block}
@@ -55,7 +57,7 @@ pre{overflow:auto;font-size:12px}.nogl .turning{display:none}.nogl .still{displa
 .limits th:first-child{width:18%}.limits th:nth-child(2){width:28%}.limits th:nth-child(4){width:23%}}
 @page{size:A4;margin:15mm}
 @media print{body{max-width:none;padding:0;font-size:10pt;line-height:1.3}h2{margin:1em 0 .3em}.modebar-container{display:none}h1,h2,h2+p{break-after:avoid}section,.card,tr,.wide,.still{break-inside:avoid}
-.cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow:visible}
+.cards{grid-template-columns:repeat(3,1fr)}.figure{min-height:0}.turning,.screen{display:none}.still{display:block}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow:visible}
 .verdict{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"""
 
 SCRIPT = """const problems=document.getElementById("problems");let failed=0;
@@ -72,6 +74,8 @@ if(small&&l.scene){const eye=l.scene.camera.eye,box=l.scene.aspectratio,far=box.
 for(const name of ["xaxis","yaxis","zaxis"])out.scene[name]={...l.scene[name],nticks:Math.min(4,l.scene[name].nticks)};
 if(out.sliders)out.sliders=out.sliders.map(s=>({...s,font:{size:10},minorticklen:0}));
 out.updatemenus=out.updatemenus.map((m,i)=>({...m,font:{size:11},pad:{l:0,r:0},x:0,y:i?1.0:1.14}))}return out}
+const start=document.getElementById("start");
+if(start)start.onclick=async()=>{const frame=document.getElementById("live");start.disabled=true;frame.hidden=false;frame.srcdoc=await unpacked("livepage");frame.onload=()=>{start.hidden=true;frame.focus()}};
 (async()=>{const script=document.createElement("script");
 script.textContent=await unpacked("plotly");document.head.append(script);
 if(Object.keys(words).length)Plotly.register({moduleType:"locale",name:"page",dictionary:words,format:{}});
@@ -145,6 +149,16 @@ class Page:
                        "equilibrium at time 0 s, the largest of each pipe.")
         return f'{found}<section><h2>{self.text(phrase("Plan and section"))}</h2><p>{self.text(about)}</p>{drawn}</section>'
 
+    def live(self) -> str:
+        """The page that runs the scene, in a frame that is empty until the reader starts it; nothing on paper."""
+        if not self.study.live:
+            return ""
+        about = phrase("Change rotation, feed, load on the bit, friction and diameter of the hole, and see how torque, thrust, bit speed and contact "
+                       "respond. The values above do not change: they hold for the scene as it is described.")
+        return (f'<section class="screen">{self.heading(phrase("Run the scene"))}<p>{self.text(about)}</p>'
+                f'<p><button id="start">{self.text(phrase("Start"))}</button></p><iframe id="live" title="{self.text(phrase("Run the scene"))}" hidden></iframe>'
+                f'<script type="text/plain" id="livepage">{self.study.live}</script></section>')
+
     def figure(self, number: int, figure: Figure) -> str:
         """Heading, text and figure stay together; the view in space has a still picture for paper."""
         title, text, drawn = figure
@@ -177,7 +191,7 @@ def page(study: Content) -> str:
             f'<meta name="viewport" content="width=device-width,initial-scale=1"><style>{STYLE}</style></head><body><h1>{title}</h1>'
             f'<p class="made">{made.text(study.made)}</p><p>{made.text(study.headline)}</p>{made.verdicts()}{made.limits()}'
             f'{made.heading(phrase("Results against limits"))}<div class="cards">{"".join(made.tile(tile) for tile in study.tiles)}</div>'
-            f'{made.hole()}{made.heading(phrase("Notes"))}{made.items([*study.out.summary["warnings"], *study.out.summary["notes"]])}'
+            f'{made.hole()}{made.live()}{made.heading(phrase("Notes"))}{made.items([*study.out.summary["warnings"], *study.out.summary["notes"]])}'
             + "".join(made.figure(number, one) for number, one in enumerate(study.figures))
             + f'{made.heading(phrase("Assumptions"))}<div class="scroll"><table>{facts}</table></div>{made.heading(phrase("Model check"))}'
             f'<pre>{html.escape(study.out.units.sentence(made.to.lines(study.check)))}</pre>'

@@ -22,12 +22,12 @@ function say(text, isNote = false) {
 
 const bytesOf = (id) => Uint8Array.from(atob(byId(id).textContent), (c) => c.charCodeAt(0));
 
+const unpacked = (id) => new Response(new Blob([bytesOf(id)]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+
 /** The library with SIMD, which is packed because browsers that have SIMD can unpack it, and the library for all browsers. */
 async function sources() {
-    const plain = bytesOf("wasm");
-    if (typeof DecompressionStream !== "function") return [plain];
-    const wide = await new Response(new Blob([bytesOf("simd")]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    return [wide, plain];
+    const plain = byId("wasm").dataset.packed ? await unpacked("wasm") : bytesOf("wasm");
+    return typeof DecompressionStream === "function" ? [await unpacked("simd"), plain] : [plain];
 }
 
 class Live {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the figures that the live page must reach: torque and thrust at the rig by `drillmbd run`, and the hash of the page's model by the native library.
 
-usage: expected.py SCENE.toml TIME > expected.json"""
+usage: expected.py SCENE.toml TIME [--hash] > expected.json; --hash: the hash alone, without a run of the command"""
 import csv
 import json
 import pathlib
@@ -34,6 +34,9 @@ def native_hash(loaded, time):
 
 def main():
     file, time = sys.argv[1], float(sys.argv[2])
+    if "--hash" in sys.argv:
+        print(json.dumps({"time": time, "hash": native_hash(scene.load(file), time)}))
+        return
     reached, torque, thrust = last_row(file, time)
     print(json.dumps({"time": reached, "torque": torque, "thrust": thrust, "hash": native_hash(scene.load(file), time)}))
 
