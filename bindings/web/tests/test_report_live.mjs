@@ -17,7 +17,7 @@ const INSIDE = "document.getElementById('live').contentWindow.live";
 for (const [name, size] of [["a desktop", [1280, 900, 1, false]], ["a phone", [390, 844, 2, true]]]) {
     test(`the report runs its scene on ${name}`, async () => {
         const page = await browser.open(pathToFileURL(resolve(file)).href, { size });
-        await page.until("document.body.dataset.drawn", 60);
+        await page.until("document.body?.dataset.drawn", 60);
         assert.equal(await page.ask("document.getElementById('live').hidden"), true, "nothing runs before the reader asks for it");
         await page.ask("document.getElementById('start').click()");
         await page.until(`${INSIDE}?.ready && ${INSIDE}.frames > 0`, 60);
