@@ -203,7 +203,7 @@ typedef struct gap {
 typedef struct pool {
     gap *first;
     unsigned char *end; /* of the last block that can be allocated */
-    size_t used, peak;  /* [byte] */
+    size_t peak;        /* [byte] from the pool's first byte to the end of the highest block so far */
 } pool;
 
 enum { FIRST_RELEASE = offsetof(dmb_allocator, release) + sizeof(void (*)(void)) }; /* [byte] of a dmb_allocator */
@@ -233,8 +233,9 @@ static void *pool_allocate(void *context, size_t size, size_t alignment)
         rest->next = found->next;
         *link = rest;
     }
-    p->used += wanted;
-    if (p->used > p->peak) p->peak = p->used;
+    /* A pool that ends with the highest block suffices for the same calls: first fit takes the same gaps in it. */
+    const size_t high = (size_t)((unsigned char *)found - (unsigned char *)p) + wanted;
+    if (high > p->peak) p->peak = high;
     return found;
 }
 
@@ -273,7 +274,6 @@ static void pool_give(void *context, void *block, size_t size, size_t alignment)
     if (!is_out(p, before, after, block, rounded(size))) return;
     back->size = rounded(size);
     back->next = after;
-    p->used -= back->size;
     join(back);
     if (before == NULL) {
         p->first = back;
@@ -305,7 +305,7 @@ int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator)
     p->first->size = (size - start) / DMB_ALIGNMENT * DMB_ALIGNMENT - DMB_ALIGNMENT;
     p->first->next = NULL;
     p->end = (unsigned char *)p->first + p->first->size;
-    p->used = p->peak = DMB_ALIGNMENT;
+    p->peak = DMB_ALIGNMENT;
     describe(allocator, p);
     return DMB_OK;
 }

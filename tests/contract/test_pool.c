@@ -343,6 +343,43 @@ static void nothing_changes_where_there_is_no_room(void **state)
     is_whole(&pool, ROOM / LINE - 1);
 }
 
+/* Blocks in an order that leaves gaps: the same calls succeed in a pool of the peak, and not in one of a line less. */
+static void the_peak_suffices(void **state)
+{
+    (void)state;
+    size_t peak = 4096;
+    for (int round = 0; round < 3; round++) {
+        const dmb_allocator pool = pool_at(0, round < 2 ? peak : peak - LINE);
+        void *a = take(&pool, 128), *b = take(&pool, 64);
+        give(&pool, a, 128);
+        void *c = take(&pool, 192);
+        if (round == 2) {
+            assert_null(c);
+            break;
+        }
+        assert_non_null(c);
+        peak = dmb_pool_peak(&pool);
+        assert_int_equal(peak, LINE + 128 + 64 + 192);
+        give(&pool, b, 64);
+        give(&pool, c, 192);
+    }
+}
+
+/* Of a model and a sim, too. */
+static void the_peak_suffices_for_a_sim(void **state)
+{
+    (void)state;
+    twin t;
+    dmb_allocator pool = pool_at(0, ROOM);
+    assert_true(create(&pool, &t) >= 0);
+    const size_t peak = dmb_pool_peak(&pool);
+    destroy(&t);
+    pool = pool_at(0, peak);
+    assert_true(create(&pool, &t) >= 0);
+    assert_int_equal(dmb_pool_peak(&pool), peak);
+    destroy(&t);
+}
+
 static void a_thousand_lives_take_no_more_than_one(void **state)
 {
     (void)state;
@@ -370,6 +407,8 @@ int main(void)
         cmocka_unit_test(neighbours_join),
         cmocka_unit_test(what_is_not_out_cannot_come_back),
         cmocka_unit_test(the_peak_is_kept),
+        cmocka_unit_test(the_peak_suffices),
+        cmocka_unit_test(the_peak_suffices_for_a_sim),
         cmocka_unit_test(no_line_has_two_owners),
         cmocka_unit_test(two_models_share_a_pool),
         cmocka_unit_test(a_small_pool_refuses_and_loses_nothing),
