@@ -199,6 +199,7 @@ static int32_t correct(companion *of)
 static void take_modes(companion *of)
 {
     *of->sim->sites_bounce = *of->nominal->sim->sites_bounce;
+    *of->sim->laws_bounce = *of->nominal->sim->laws_bounce;
     memcpy(of->sim->site_coarse, of->nominal->sim->site_coarse, of->sim->scene->site_count * sizeof(uint8_t));
     memcpy(of->sim->site_mode, of->nominal->sim->site_mode, of->sim->scene->site_count * sizeof(uint8_t));
     memcpy(of->sim->bounce_mode, of->nominal->sim->bounce_mode, of->sim->scene->unilateral_count * sizeof(uint8_t));

@@ -227,7 +227,8 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
     dmb_step_motion_place(sim);
     status = dmb_newton(sim, c, trial_step);
     if (status >= 0 && trial_step->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
-    return status == DMB_OK ? release(sim, c, trial_step) : status;
+    if (status == DMB_OK) status = release(sim, c, trial_step);
+    return status == DMB_OK && dmb_bounces_overturn(sim, trial_step->end.step) ? DMB_ERR_NO_CONVERGENCE : status;
 }
 
 static int32_t run_stage(dmb_sim *sim, const dmb_generalized_alpha *c, int32_t stage, dmb_trial_step *trial_step)

@@ -77,7 +77,7 @@
     X(double, bounce_place, u, NUMBERS)           /* [m, rad] coordinate of the joint, elongation of the spring */    \
     X(double, bounce_force, u, NUMBERS)           /* [N, N m] force of the law there, against growing coordinates */  \
     X(double, bounce_speed, u, NUMBERS)           /* [m/s, rad/s] of the coordinate */                                \
-    X(double, law_speed, law, NUMBERS) /* [m/s, rad/s] of coordinates with a law: system/assemble/springs; at jumps   \
+    X(double, law_speed, law, NUMBERS) /* [m/s, rad/s] of coordinates with a law: system/assemble/joint_forces; at jumps \
                                           system/assemble/ledger_work */                                              \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
@@ -183,6 +183,8 @@
     X(double, site_history, s) /* > 0 [m/s]: a ring that opens in the step left the wall; < 0 [N]: less the mean force \
                                   in the history of the step; else 0: system/jump, system/assemble/bounces */         \
     X(int32_t, sites_bounce, 1) /* 1: some site is coarse or in a mode: system/assemble/bounces, integrator/companion */ \
+    X(int32_t, laws_bounce, 1) /* 1: a stop or spring has had a mean force in the step: system/assemble/bounces,        \
+                                  integrator/companion */                                                             \
     X(uint8_t, site_coarse, s) /* DMB_SITE_..., 0: the step resolves a touch of the site: system/assemble/bounces,    \
                                   integrator/companion */                                                             \
     X(uint8_t, site_mode, s) /* DMB_BOUNCE_..., DMB_SITE_STAYS: system/assemble/bounces, system/bounce_end,           \
@@ -223,7 +225,7 @@
     X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
     X(double, constraint_jacobian, jacobian)                                                                          \
     X(double, constraint_tangent, tangent) /* of joint forces, of springs and of B^T multiplier, by pose parameters:  \
-                                              system/assemble/springs, system/assemble/point_motion; cleared by       \
+                                              system/assemble/joint_forces, system/assemble/point_motion; cleared by  \
                                               system/assemble/evaluation; without stiffness: system/solve/solve */    \
     /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \

@@ -42,7 +42,7 @@ static double mobility(dmb_evaluation *evaluation, uint32_t u)
     dmb_sim *sim = evaluation->sim;
     double sum = 0.0;
     memset(sim->residual, 0, sim->scene->row_count * sizeof(double));
-    dmb_bounce_press(evaluation, u, -1.0);
+    dmb_bounce_press(evaluation, &sim->trial, u, -1.0);
     dmb_solve_for(sim, sim->residual, sim->correction);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) sum -= sim->residual[i] * sim->correction[i];
     return sum;
@@ -59,17 +59,14 @@ static uint8_t stays(const dmb_evaluation *evaluation, uint32_t u, double invers
     return (b->slope * h + dmb_bounce_damping(sim->scene, u)) * h * inverse_mass > DMB_BOUNCE_RESOLVED;
 }
 
-/* Removes the step's own force of law u, and adds the force of the law if it acts from here on. */
+/* Adds the force of law u if it acts from here on. */
 static void exchange(dmb_evaluation *evaluation, uint32_t u, const dmb_unilateral_end *a, const dmb_unilateral_end *b)
 {
     dmb_sim *sim = evaluation->sim;
     const double inverse_mass = mobility(evaluation, u);
     sim->bounce_stays[u] = stays(evaluation, u, inverse_mass, a, b);
-    const double own = sim->bounce_own[u], law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        taken_of(sim)[i] += own * sim->correction[i];
-        given_of(sim)[i] -= law * sim->correction[i];
-    }
+    const double law = sim->bounce_stays[u] ? 0.0 : sim->trial.bounce_force[u];
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) given_of(sim)[i] -= law * sim->correction[i];
 }
 
 static int32_t factor_mass(const dmb_evaluation *evaluation, dmb_evaluation *mass)
@@ -228,7 +225,20 @@ static int laws_bounce(const dmb_sim *sim)
 {
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
         if (law_bounces(sim, u)) return 1;
-    return 0;
+    return *sim->laws_bounce;
+}
+
+/* Removes the step's own forces; the residual serves as workspace. */
+static void take_own(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    memset(sim->residual, 0, sim->scene->row_count * sizeof(double));
+    for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
+        if (sim->bounce_own[u] != 0.0) dmb_bounce_press_mean(evaluation, u, -sim->bounce_own[u]);
+    evaluation->tangent = 0;
+    dmb_bounces_add_gyroscopic(evaluation, -1.0);
+    dmb_solve_for(sim, sim->residual, sim->correction);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) taken_of(sim)[i] += sim->correction[i];
 }
 
 /* Exchanges the forces of stops and springs; the residual serves as workspace and is restored. */
@@ -244,6 +254,7 @@ static void exchange_laws(dmb_evaluation *evaluation)
         dmb_bounce_ends(sim, u, &a, &b);
         exchange(evaluation, u, &a, &b);
     }
+    take_own(evaluation);
     memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));
 }
 

@@ -20,10 +20,13 @@ void dmb_inertia_of_change(const dmb_scene *scene, const double *change, double 
 
 /* ---- Springs and joints ------------------------------------------------------------------------------------------ */
 
-/* Adds the residual of one force in the trial: tension [N] of a spring; force [N, N m] against coordinate `component`
- * of joint j. */
-void dmb_spring_press(dmb_sim *sim, uint32_t spring, double tension);
-void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component, double force);
+/* Residual of a force alone, in a configuration, or along the mean gradient of both ends of the step: tension [N] of a
+ * spring; force [N, N m] against coordinate `component` of joint j. */
+void dmb_spring_press(dmb_sim *sim, const dmb_configuration *at, uint32_t spring, double tension);
+void dmb_joint_press(dmb_evaluation *evaluation, const dmb_configuration *at, uint32_t j, uint32_t component,
+                     double force);
+void dmb_spring_press_mean(dmb_sim *sim, uint32_t spring, double tension);
+void dmb_joint_press_mean(dmb_evaluation *evaluation, uint32_t j, uint32_t component, double force);
 
 /* ---- Nodes and loads --------------------------------------------------------------------------------------------- */
 

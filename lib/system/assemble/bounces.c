@@ -172,6 +172,7 @@ void dmb_bounces_add_carried(const dmb_evaluation *evaluation, double *rows)
 void dmb_bounces_begin(dmb_sim *sim, double step)
 {
     begin_sites(sim, step);
+    *sim->laws_bounce = 0;
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
         sim->bounce_mode[u] = sim->bounce_age[u] < 0.0 ? DMB_BOUNCE_OWN : DMB_BOUNCE_LAW;
 }

@@ -33,8 +33,23 @@ void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_uni
 double dmb_bounce_damping(const dmb_scene *scene, uint32_t u);
 /* State of law u at both ends of the step. */
 void dmb_bounce_ends(const dmb_sim *sim, uint32_t u, dmb_unilateral_end *a, dmb_unilateral_end *b);
-/* Adds the residual of a force [N, N m] against the coordinate of u to the nodes of the trial. */
-void dmb_bounce_press(dmb_evaluation *evaluation, uint32_t u, double force);
+/* Residual of a force [N, N m] against the coordinate of u, added at the nodes of a configuration; of a mean force,
+ * along the mean gradient of both ends of the step (eq:unilateral.turning). */
+void dmb_bounce_press(dmb_evaluation *evaluation, const dmb_configuration *at, uint32_t u, double force);
+void dmb_bounce_press_mean(dmb_evaluation *evaluation, uint32_t u, double force);
+/* 1: the node is integrated in axes that turn with it, in which mean forces have the mean gradient. */
+int dmb_bounce_turns(const dmb_sim *sim, uint32_t node);
+/* Adds couples about the rotation of the step to the mean gradients of both parts, so that their change of the
+ * coordinate by the increment of the step is the one that there is. */
+void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[6], uint32_t b, double Jb[6]);
+/* Adds `factor` times the force by which gyroscopic forces have no power in a step with mean forces
+ * (eq:unilateral.gyroscopic), and its tangent. */
+void dmb_bounces_add_gyroscopic(dmb_evaluation *evaluation, double factor);
+/* Adds it once if a mean force has acted in the step. */
+void dmb_bounces_turn(dmb_evaluation *evaluation);
+/* 1: a step with mean forces has turned a node much further than the speed at its start would: another solution of its
+ * equations, about a turn away. */
+int dmb_bounces_overturn(const dmb_sim *sim, double h);
 uint32_t dmb_bounce_of_spring(const dmb_scene *scene, uint32_t spring);
 /* Coordinate of a law in the trial, its speed, and its force against growing coordinates. */
 typedef struct dmb_bounce {

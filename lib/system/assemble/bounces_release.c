@@ -14,13 +14,22 @@ static uint32_t joint_of(const dmb_scene *scene, uint32_t u)
     return DMB_NONE;
 }
 
-void dmb_bounce_press(dmb_evaluation *evaluation, uint32_t u, double force)
+void dmb_bounce_press(dmb_evaluation *evaluation, const dmb_configuration *at, uint32_t u, double force)
 {
     dmb_sim *sim = evaluation->sim;
     if (u < sim->scene->law_count)
-        dmb_joint_press(evaluation, joint_of(sim->scene, u), u % 6, force);
+        dmb_joint_press(evaluation, at, joint_of(sim->scene, u), u % 6, force);
     else
-        dmb_spring_press(sim, u - sim->scene->law_count, force);
+        dmb_spring_press(sim, at, u - sim->scene->law_count, force);
+}
+
+void dmb_bounce_press_mean(dmb_evaluation *evaluation, uint32_t u, double force)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (u < sim->scene->law_count)
+        dmb_joint_press_mean(evaluation, joint_of(sim->scene, u), u % 6, force);
+    else
+        dmb_spring_press_mean(sim, u - sim->scene->law_count, force);
 }
 
 static void mark_nodes(dmb_sim *sim, double *part)
@@ -39,7 +48,8 @@ void dmb_bounces_release(dmb_evaluation *evaluation, double *rows, double *part)
     memcpy(sim->bounce_rows, sim->residual, n * sizeof(double));
     memset(sim->residual, 0, n * sizeof(double));
     for (uint32_t u = 0; u < sim->scene->unilateral_count; u++)
-        if (sim->bounce_mode[u] == DMB_BOUNCE_OPENS) dmb_bounce_press(evaluation, u, sim->now.bounce_force[u]);
+        if (sim->bounce_mode[u] == DMB_BOUNCE_OPENS)
+            dmb_bounce_press(evaluation, &sim->now, u, sim->now.bounce_force[u]);
     mark_nodes(sim, part);
     for (uint32_t i = 0; i < n; i++) rows[i] += sim->residual[i];
     memcpy(sim->residual, sim->bounce_rows, n * sizeof(double));

@@ -72,6 +72,7 @@ int dmb_bounce_at(dmb_evaluation *evaluation, uint32_t u, const dmb_bounce *law,
     own->by_place = evaluation->own_factor * mean.by_place;
     own->heat = -2.0 * mean.dissipated / evaluation->step;
     if (sim->bounce_mode[u] == DMB_BOUNCE_OPENS) own->heat -= dmb_bounce_heat(sim, &sim->now, u);
+    *sim->laws_bounce = 1;
     sim->bounce_own[u] = own->force;
     sim->bounce_warmth[u] = own->heat;
     return 1;

@@ -10,6 +10,7 @@
 #include "sim/node.h"
 #include "system/assemble/actuators.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/bounces.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
@@ -144,7 +145,10 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->spring_count) dmb_assemble_springs(evaluation);
     if (scene->stuck_count) dmb_assemble_stuck(evaluation);
     if (scene->force_count && dmb_assemble_caller_forces(evaluation) < 0) return evaluation->status = DMB_ERR_CALLBACK;
-    if (scene->cluster_count) evaluation->status = dmb_assemble_joints(evaluation);
+    if (scene->cluster_count)
+        evaluation->status = dmb_assemble_joints(evaluation);
+    else if (scene->unilateral_count)
+        dmb_bounces_turn(evaluation);
     if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
     return evaluation->status;
 }

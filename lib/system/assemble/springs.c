@@ -124,10 +124,9 @@ static void add_turn(const dmb_scene *scene, const dmb_point_motion *point, cons
 }
 
 static void add_point(const dmb_evaluation *evaluation, const dmb_spring_motion *m, const dmb_point_motion *point,
-                      double sign, spring_tangent *t)
+                      double sign, double tension, spring_tangent *t)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    const double tension = m->force.elastic + m->force.damper;
     double line[6], signed_line[6], A[144];
     line_at(point, m->n, line);
     for (int i = 0; i < 6; i++) signed_line[i] = sign * line[i];
@@ -138,11 +137,34 @@ static void add_point(const dmb_evaluation *evaluation, const dmb_spring_motion 
     if (evaluation->dynamic) add_rate(scene, point, line, sign, A, t);
 }
 
-static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
+static void add_gradient(const dmb_sim *sim, const dmb_spring_motion *m, const dmb_point_motion *point, double factor,
+                         const spring_tangent *t, double *row)
+{
+    double line[6];
+    if (point->nodes == 0) return;
+    line_at(point, m->n, line);
+    dmb_vec3_scale(factor, line, line);
+    dmb_force_tangent_row(sim->scene, &t->sum, point, line, row);
+}
+
+/* The mean gradient of both ends of the step (pull_mean). */
+static void mean_gradient(const dmb_sim *sim, const dmb_spring_motion *before, const dmb_spring_motion *end,
+                          const spring_tangent *t, double *row)
+{
+    const dmb_spring_motion *at_b = end->b.nodes > 0 && dmb_bounce_turns(sim, end->b.node[0]) ? before : end;
+    const dmb_spring_motion *at_a = end->a.nodes > 0 && dmb_bounce_turns(sim, end->a.node[0]) ? before : end;
+    for (uint32_t c = 0; c < t->sum.columns; c++) row[c] *= 0.5;
+    add_gradient(sim, at_b, &at_b->b, 0.5, t, row);
+    add_gradient(sim, at_a, &at_a->a, -0.5, t, row);
+}
+
+static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m,
+                        const dmb_spring_motion *before)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     const double by_elongation = m->force.by_elongation, by_speed = evaluation->dynamic ? m->force.by_speed : 0.0;
     double v[3];
+    wide_row rows;
     spring_tangent t;
     memset(t.gradient, 0, sizeof t - offsetof(spring_tangent, gradient));
     dmb_force_tangent_begin(&t.sum);
@@ -150,15 +172,20 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spri
     dmb_force_tangent_touch(scene, &m->b, &t.sum);
     dmb_force_tangent_clear(&t.sum);
     turn_of_line(scene, m, &t);
-    add_point(evaluation, m, &m->b, 1.0, &t);
-    add_point(evaluation, m, &m->a, -1.0, &t);
+    const double at_end =
+        before != NULL ? 0.5 * m->force.elastic + m->force.damper : m->force.elastic + m->force.damper;
+    add_point(evaluation, m, &m->b, 1.0, at_end, &t);
+    add_point(evaluation, m, &m->a, -1.0, at_end, &t);
     relative_velocity(m, v);
     const uint32_t n = t.sum.columns;
     for (uint32_t c = 0; c < n && evaluation->dynamic; c++)
         for (int i = 0; i < 3; i++) t.rate[c] += v[i] * t.turn[i][c];
+    memcpy(rows, t.gradient, sizeof rows);
+    if (before != NULL) mean_gradient(evaluation->sim, before, m, &t, rows);
     for (uint32_t r = 0; r < n; r++)
         for (uint32_t c = 0; c < n; c++)
-            t.sum.K[(size_t)r * n + c] += t.gradient[r] * (by_elongation * t.gradient[c] + by_speed * t.rate[c]);
+            t.sum.K[(size_t)r * n + c] +=
+                rows[r] * by_elongation * t.gradient[c] + t.gradient[r] * by_speed * t.rate[c];
     dmb_force_tangent_add(evaluation, spring->constraint, DMB_BY_DISPLACEMENT, &t.sum);
     if (by_speed == 0.0) return;
     for (uint32_t r = 0; r < n; r++)
@@ -177,6 +204,52 @@ static void pull(dmb_sim *sim, const dmb_point_motion *point, const double n[3],
     dmb_point_apply(sim, point, w);
 }
 
+/* J of one point, by half of a unit of tension; `sign` -1 at a. */
+static void add_unit(const dmb_spring_motion *m, const dmb_point_motion *point, double sign, double J[6])
+{
+    double line[6];
+    if (point->nodes == 0) return;
+    line_at(point, m->n, line);
+    for (int k = 0; k < 6; k++)
+        for (int i = 0; i < 6; i++) J[k] += 0.5 * sign * point->map[12 * i + k] * line[i];
+}
+
+/* Couples of bodies that turn (dmb_bounce_close_gap); points inside elements have none. */
+static void close_gap(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *before, const dmb_spring_motion *end,
+                      double tension)
+{
+    const dmb_point_motion *point[2] = {&end->a, &end->b}, *old[2] = {&before->a, &before->b};
+    double J[2][6] = {{0.0}}, couple[6] = {0.0}, ends[2][3];
+    uint32_t node[2];
+    if (end->a.nodes > 1 || end->b.nodes > 1) return;
+    for (int k = 0; k < 2; k++) {
+        node[k] = point[k]->nodes > 0 ? point[k]->node[0] : DMB_NONE;
+        add_unit(before, old[k], k == 0 ? -1.0 : 1.0, J[k]);
+        add_unit(end, point[k], k == 0 ? -1.0 : 1.0, J[k]);
+        dmb_vec3_copy(J[k] + 3, ends[k]);
+    }
+    dmb_bounce_close_gap(sim, dmb_bounce_of_spring(sim->scene, spring), node[0], J[0], node[1], J[1]);
+    for (int k = 0; k < 2; k++) {
+        if (node[k] == DMB_NONE) continue;
+        dmb_vec3_sub(J[k] + 3, ends[k], couple + 3);
+        dmb_vec3_scale(-tension, couple + 3, couple + 3);
+        dmb_apply_wrench(sim, node[k], couple);
+    }
+}
+
+/* A mean force: half along the gradient of the start of the step, in nodes that turn. */
+static void pull_mean(dmb_sim *sim, uint32_t spring, const dmb_spring_motion *before, const dmb_spring_motion *end,
+                      double tension)
+{
+    const dmb_spring_motion *at_b = end->b.nodes > 0 && dmb_bounce_turns(sim, end->b.node[0]) ? before : end;
+    const dmb_spring_motion *at_a = end->a.nodes > 0 && dmb_bounce_turns(sim, end->a.node[0]) ? before : end;
+    pull(sim, &end->b, end->n, -0.5 * tension);
+    pull(sim, &end->a, end->n, 0.5 * tension);
+    pull(sim, &at_b->b, at_b->n, -0.5 * tension);
+    pull(sim, &at_a->a, at_a->n, 0.5 * tension);
+    close_gap(sim, spring, before, end, tension);
+}
+
 /* Rounding of the length, a difference of large numbers, as for springs of joints (below). */
 static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
 {
@@ -187,7 +260,7 @@ static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *s
 
 /* Replaces the force of the law by the mean force in a step that has one; the damper of a two-sided spring stays.
  * Returns the dissipated power. */
-static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion *m)
+static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion *m, int *mean)
 {
     const dmb_scene_spring *spring = evaluation->sim->scene->springs + i;
     const int both = spring->law.acts == DMB_SPRING_BOTH;
@@ -196,6 +269,7 @@ static double take_own(dmb_evaluation *evaluation, uint32_t i, dmb_spring_motion
     dmb_bounce_force own;
     if (!dmb_bounce_at(evaluation, dmb_bounce_of_spring(evaluation->sim->scene, i), &law, &own))
         return -m->force.damper * m->rate;
+    *mean = 1;
     const dmb_spring_force force = {own.force, damper, own.by_place, by_speed};
     m->force = force;
     return own.heat - damper * m->rate;
@@ -205,23 +279,38 @@ static void assemble_spring(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_spring *spring = sim->scene->springs + i;
-    dmb_spring_motion m;
+    dmb_spring_motion m, before;
+    int mean = 0;
     dmb_spring_motion_of(sim->scene, &sim->trial, i, evaluation->dynamic, &m);
     double heat = -m.force.damper * m.rate;
-    if (sim->scene->unilateral_count > 0) heat = take_own(evaluation, i, &m);
-    const double tension = m.force.elastic + m.force.damper;
-    pull(sim, &m.b, m.n, -tension);
-    pull(sim, &m.a, m.n, tension);
+    if (sim->scene->unilateral_count > 0) heat = take_own(evaluation, i, &m, &mean);
+    const double tension = m.force.elastic + m.force.damper, at_end = mean ? m.force.damper : tension;
+    if (mean) {
+        dmb_spring_motion_of(sim->scene, &sim->now, i, 0, &before);
+        pull_mean(sim, i, &before, &m, m.force.elastic);
+    }
+    if (at_end != 0.0 || !mean) {
+        pull(sim, &m.b, m.n, -at_end);
+        pull(sim, &m.a, m.n, at_end);
+    }
     count_rounding(evaluation, spring, &m);
     evaluation->power[DMB_POWER_POTENTIAL] -= tension * m.rate + heat;
     evaluation->power[DMB_POWER_DAMPING] += heat;
-    if (evaluation->tangent) add_tangent(evaluation, spring, &m);
+    if (evaluation->tangent) add_tangent(evaluation, spring, &m, mean ? &before : NULL);
 }
 
-void dmb_spring_press(dmb_sim *sim, uint32_t spring, double tension)
+void dmb_spring_press_mean(dmb_sim *sim, uint32_t spring, double tension)
+{
+    dmb_spring_motion before, end;
+    dmb_spring_motion_of(sim->scene, &sim->now, spring, 0, &before);
+    dmb_spring_motion_of(sim->scene, &sim->trial, spring, 0, &end);
+    pull_mean(sim, spring, &before, &end, tension);
+}
+
+void dmb_spring_press(dmb_sim *sim, const dmb_configuration *at, uint32_t spring, double tension)
 {
     dmb_spring_motion m;
-    dmb_spring_motion_of(sim->scene, &sim->trial, spring, 0, &m);
+    dmb_spring_motion_of(sim->scene, at, spring, 0, &m);
     pull(sim, &m.b, m.n, -tension);
     pull(sim, &m.a, m.n, tension);
 }
@@ -241,252 +330,4 @@ double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *confi
         sum += dmb_spring_energy_at(&s->law, points_of(scene, s), m.length - s->free_length);
     }
     return sum;
-}
-
-/* ---- Joints: springs, dampers, stops, friction, drives, forces of constraint ------------------------------------- */
-
-/* Forces on the six coordinates, their derivatives, and their points of action. */
-typedef struct coordinate_forces {
-    dmb_relative relative;
-    dmb_joint_coordinates c;
-    double speed[6];
-    double force[6], by_position[6], by_speed[6];
-} coordinate_forces;
-
-static int has_forces(const dmb_sim *sim, const dmb_scene_joint *joint, uint32_t j)
-{
-    return (joint->law != DMB_NONE || joint->drive_count > 0) && sim->joint_state[j] != DMB_JOINT_OPEN;
-}
-
-static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
-{
-    memset(f, 0, sizeof *f);
-    dmb_joint_motion_of(evaluation->sim->scene, &evaluation->sim->trial, j, &f->relative, NULL);
-    dmb_joint_coordinates_in(evaluation, j, &f->relative, &f->c);
-    for (int i = 0; i < 6; i++) f->speed[i] = evaluation->dynamic ? dmb_vec6_dot(f->c.J[i], f->relative.V) : 0.0;
-}
-
-static double largest_place(const dmb_sim *sim, const dmb_scene_frame *frame)
-{
-    const double *u = sim->trial.displacement;
-    return frame->node == DMB_NONE ? dmb_vec3_norm(frame->x)
-                                   : dmb_vec3_norm(frame->x) + dmb_vec3_norm(u + 3 * (size_t)frame->node);
-}
-
-/* [N] Change of the force on coordinate i if the numbers whose difference is the coordinate change by their own size;
- * moments as forces at the length scale. */
-static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *joint, int i, double by_position)
-{
-    if (i >= 3) return by_position / sim->scene->length_scale;
-    return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
-}
-
-/* 1: rounding of stiff springs counts. Before the first correction of a step, a residual of the size of a stiff
- * spring's rounding may be that of a soft part, which would then move without its force; one correction places it
- * correctly. Without a step, as in linearisations, rounding always counts. */
-static int rounding_counts(const dmb_evaluation *evaluation)
-{
-    return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
-}
-
-/* Mean force of the stop of coordinate i. */
-static void take_own_stop(dmb_evaluation *evaluation, uint32_t u, const coordinate_forces *f, int i,
-                          dmb_joint_force *law)
-{
-    dmb_joint_law bare = evaluation->sim->scene->laws[u];
-    const dmb_bounce stop = {f->c.value[i], f->speed[i], -(law->stop + law->stop_damper)};
-    dmb_bounce_force own;
-    if (!dmb_bounce_at(evaluation, u, &stop, &own)) return;
-    bare.stop_stiffness = 0.0;
-    dmb_joint_force_at(&bare, f->c.value[i], f->speed[i], law);
-    law->stop = -own.force;
-    law->force -= own.force;
-    law->by_position -= own.by_place;
-    evaluation->power[DMB_POWER_POTENTIAL] -= own.heat;
-    evaluation->power[DMB_POWER_IMPACT] += own.heat;
-}
-
-/* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. */
-static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
-{
-    for (int i = 0; i < 6; i++) {
-        dmb_joint_force law;
-        if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
-        dmb_joint_force_at(evaluation->sim->scene->laws + joint->law + i, f->c.value[i], f->speed[i], &law);
-        if (evaluation->sim->scene->unilateral_count > 0)
-            take_own_stop(evaluation, joint->law + (uint32_t)i, f, i, &law);
-        f->force[i] += law.force;
-        f->by_position[i] += law.by_position;
-        f->by_speed[i] += law.by_speed;
-        const double k = stiffness_times_reach(evaluation->sim, joint, i, law.by_position);
-        if (rounding_counts(evaluation)) evaluation->rounding += k * k;
-        evaluation->power[DMB_POWER_POTENTIAL] += (law.spring + law.stop) * f->speed[i];
-        evaluation->power[DMB_POWER_DAMPING] += law.damper * f->speed[i];
-        evaluation->power[DMB_POWER_FRICTION] += law.friction * f->speed[i];
-        evaluation->power[DMB_POWER_IMPACT] += law.stop_damper * f->speed[i];
-        evaluation->sim->trial.law_speed[joint->law + (uint32_t)i] = f->speed[i];
-    }
-}
-
-/* Forces of drives in load or speed control; motion drives are equations (system/constrain). */
-static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene_joint *joint = sim->scene->joints + j;
-    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
-        const uint32_t d = sim->scene->joint_drives[i];
-        const dmb_scene_drive *drive = sim->scene->drives + d;
-        double slope;
-        dmb_drive_on_joint(sim, d, f->c.value[drive->component], f->speed[drive->component], 0);
-        if (drive->kind == DMB_DRIVE_MOTION) continue;
-        const double force = dmb_drive_force(evaluation, d, f->speed[drive->component], &slope);
-        f->force[drive->component] += force;
-        f->by_speed[drive->component] += evaluation->dynamic ? slope : 0.0;
-        evaluation->power[DMB_POWER_DRIVES] += force * f->speed[drive->component];
-    }
-}
-
-/* Drives of an open joint have no force, and track its coordinate. */
-static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene_joint *joint = sim->scene->joints + j;
-    coordinate_forces f;
-    if (joint->drive_count == 0) return;
-    begin(evaluation, j, &f);
-    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
-        const uint32_t d = sim->scene->joint_drives[i];
-        const dmb_scene_drive *drive = sim->scene->drives + d;
-        dmb_drive_on_joint(sim, d, f.c.value[drive->component], f.speed[drive->component], 1);
-    }
-}
-
-static void apply(dmb_evaluation *evaluation, const dmb_scene_joint *joint, const coordinate_forces *f)
-{
-    double w[6] = {0.0}, wa[6], wb[6];
-    for (int i = 0; i < 6; i++)
-        for (int k = 0; k < 6; k++) w[k] += f->force[i] * f->c.J[i][k];
-    dmb_relative_pull_back(&f->relative, w, wa, wb);
-    dmb_apply_wrench(evaluation->sim, joint->b.node, wb);
-    if (joint->a.node != DMB_NONE) dmb_apply_wrench(evaluation->sim, joint->a.node, wa);
-}
-
-/* -d(J^T f)/dq: W of the gradients and J^T f' J. */
-static void add_position_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
-                                 const coordinate_forces *f, double *K)
-{
-    double w[6] = {0.0}, W[36], minus[6];
-    for (int i = 0; i < 6; i++) minus[i] = -f->force[i];
-    dmb_joint_coordinates_tangent(f->relative.R, f->relative.p, minus, W);
-    for (int i = 0; i < 6; i++) {
-        for (int k = 0; k < 6; k++) w[k] += minus[i] * f->c.J[i][k];
-        dmb_mat6_add_outer(-f->by_position[i], f->c.J[i], f->c.J[i], W);
-    }
-    dmb_add_joint_tangent(scene, constraint, j, &f->relative, w, W, K);
-}
-
-static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
-                              const coordinate_forces *f, double *K)
-{
-    const uint32_t n = constraint->columns;
-    for (int i = 0; i < 6; i++) {
-        double row[DMB_CONSTRAINT_COLUMNS] = {0.0};
-        const double factor = -evaluation->velocity_factor * f->by_speed[i];
-        if (factor == 0.0) continue;
-        dmb_add_joint_row(evaluation->sim->scene, constraint, j, &f->relative, 1.0, f->c.J[i], row);
-        for (uint32_t r = 0; r < n; r++)
-            for (uint32_t s = 0; s < n; s++) K[(size_t)r * n + s] += factor * row[r] * row[s];
-    }
-}
-
-/* K <- K T6 in the columns of six-DOF nodes, as for the blocks of the nodes. */
-static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint *constraint, double *K)
-{
-    const dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    if (!evaluation->dynamic) return;
-    for (uint32_t i = 0; i < constraint->node_count; i++) {
-        const uint32_t node = constraint->node[i];
-        dmb_se3_tangent T;
-        if (scene->layout.size[node] != DMB_NODE_SIX_DOF) continue;
-        dmb_se3_tangent_at(sim->increment + scene->layout.row[node], NULL, &T);
-        for (uint32_t r = 0; r < constraint->columns; r++) {
-            double *row = K + (size_t)r * constraint->columns + constraint->column[i];
-            dmb_se3_tangent_apply_transpose(&T, row, row);
-        }
-    }
-}
-
-/* The tangent by speeds already is with respect to parameters. */
-static void add_joint_tangent(dmb_evaluation *evaluation, uint32_t j, const coordinate_forces *f)
-{
-    const dmb_scene *scene = evaluation->sim->scene;
-    const dmb_constraint *constraint = scene->constraints + scene->joints[j].constraint;
-    double *K = evaluation->sim->constraint_tangent + constraint->tangent;
-    add_position_tangent(scene, constraint, j, f, K);
-    to_parameters(evaluation, constraint, K);
-    if (evaluation->dynamic) add_speed_tangent(evaluation, constraint, j, f, K);
-}
-
-void dmb_joint_press(dmb_evaluation *evaluation, uint32_t j, uint32_t component, double force)
-{
-    coordinate_forces f;
-    begin(evaluation, j, &f);
-    f.force[component] = -force;
-    apply(evaluation, evaluation->sim->scene->joints + j, &f);
-}
-
-/* Laws of an open joint have no force and no speed: a speed kept from before the opening would belong to an earlier
- * step, and would differ after a restored state. */
-static void rest_laws(dmb_sim *sim, const dmb_scene_joint *joint)
-{
-    if (joint->law == DMB_NONE) return;
-    for (uint32_t i = 0; i < 6; i++) {
-        sim->trial.law_speed[joint->law + i] = 0.0;
-        if (sim->scene->unilateral_count > 0) dmb_bounce_rest(sim, joint->law + i);
-    }
-}
-
-static void assemble_forces(dmb_evaluation *evaluation)
-{
-    const dmb_scene *scene = evaluation->sim->scene;
-    for (uint32_t j = 0; j < scene->joint_count; j++) {
-        const dmb_scene_joint *joint = scene->joints + j;
-        coordinate_forces f;
-        if (evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) {
-            rest_drives(evaluation, j);
-            rest_laws(evaluation->sim, joint);
-        }
-        if (!has_forces(evaluation->sim, joint, j)) continue;
-        begin(evaluation, j, &f);
-        add_laws(evaluation, joint, &f);
-        add_drives(evaluation, j, &f);
-        apply(evaluation, joint, &f);
-        if (evaluation->tangent) add_joint_tangent(evaluation, j, &f);
-    }
-}
-
-/* Adds the curvature of the equations to the tangents of the forces. */
-static int32_t gather_curvatures(dmb_evaluation *evaluation)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++) {
-        const dmb_constraint *constraint = scene->constraints + i;
-        const size_t size = (size_t)constraint->columns * constraint->columns;
-        double K[DMB_CONSTRAINT_COLUMNS * DMB_CONSTRAINT_COLUMNS];
-        memset(K, 0, size * sizeof(double));
-        status = dmb_constraint_curvature(evaluation, i, K);
-        to_parameters(evaluation, constraint, K);
-        for (size_t k = 0; k < size; k++) sim->constraint_tangent[constraint->tangent + k] += K[k];
-    }
-    return status;
-}
-
-int32_t dmb_assemble_joints(dmb_evaluation *evaluation)
-{
-    assemble_forces(evaluation);
-    dmb_clusters_balance(evaluation);
-    return evaluation->tangent ? gather_curvatures(evaluation) : DMB_OK;
 }

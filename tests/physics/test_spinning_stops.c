@@ -1,0 +1,182 @@
+/* Energy of spinning bodies that are not of revolution between stops and one-sided springs: at most 1.01 of the initial
+ * energy for steps of h w from 0.01 to 100 (w of the body on its stop), every spectral radius, with and without
+ * damping, in fixed and in controlled steps, up to 0.3 rad of spin a step. Equations: eq:unilateral.turning,
+ * eq:unilateral.gyroscopic. */
+#include <math.h>
+#include <string.h>
+
+#include "drillmbd/scene.h"
+#include "mechanism.h"
+
+enum { IN_A_CAGE, TWO_BODIES, ON_A_BALL, ON_SPRINGS, ALONE, KINDS };
+static const char *const names[KINDS] = {"in a cage", "two bodies", "on a ball joint", "on one-sided springs",
+                                         "on one-sided springs, without joints"};
+
+typedef struct spinning {
+    int kind;
+    double per_step; /* [rad] of spin */
+    double hw;       /* of the mass on its stop */
+    double radius, damping;
+} spinning;
+
+static const double mass = 2.0, spin = 100.0, gap = 0.02, lever = 0.1;
+
+static double energy_now(const rig *s)
+{
+    const dmb_energy e = energy_of(s);
+    return e.kinetic + e.strain;
+}
+
+static dmb_id add_spinning(rig *s, double turned)
+{
+    dmb_body_def body = dmb_body_def_default();
+    const double start[6] = {0.0, 0.5, 0.31, turned * spin, 3.0, 0.0};
+    body.mass = mass;
+    body.inertia[0] = 0.004, body.inertia[1] = 0.006, body.inertia[2] = 0.005;
+    memcpy(body.velocity, start, sizeof start);
+    return add_body(s, &body);
+}
+
+static void add_cage(rig *s, dmb_place from, dmb_id body, double k, double c)
+{
+    dmb_joint_def play = joint_between(DMB_JOINT_FREE, from, dmb_station(body, 0, 0.0));
+    play.origin_a[0] = play.origin_b[0] = lever;
+    for (int i = 0; i < 3; i++) play.stop_low[i] = -gap, play.stop_high[i] = gap;
+    play.stop_stiffness = k;
+    play.stop_damping = c;
+    (void)add_joint(s, &play);
+}
+
+/* Four springs push the body back along y and z. */
+static void add_springs(rig *s, dmb_id body, double k, double c)
+{
+    for (int i = 0; i < 4; i++) {
+        dmb_spring_def def = dmb_spring_def_default();
+        dmb_id id = {0, 0};
+        def.place_a = dmb_station(ground_id, 0, 0.0);
+        def.place_b = dmb_station(body, 0, 0.0);
+        def.offset_a[0] = def.offset_b[0] = lever;
+        def.offset_a[1 + i % 2] = i < 2 ? 0.5 : -0.5;
+        def.acts = DMB_SPRING_COMPRESSION;
+        def.stiffness = k;
+        def.damping = c;
+        def.free_length = 0.5 - gap;
+        must_model(s, dmb_model_add_spring(s->model, &def, &id));
+    }
+}
+
+/* A body whose centre is `lever` from a ball joint, with stops of its rotation across. */
+static void add_ball(rig *s, double k, double c)
+{
+    dmb_body_def body = dmb_body_def_default();
+    const double start[3] = {spin, 3.0, 0.0};
+    body.mass = mass;
+    body.inertia[0] = 0.004, body.inertia[1] = 0.006, body.inertia[2] = 0.005;
+    memcpy(body.velocity + 3, start, sizeof start);
+    const dmb_id id = add_body(s, &body);
+    dmb_joint_def ball = joint_between(DMB_JOINT_SPHERICAL, dmb_station(ground_id, 0, 0.0), dmb_station(id, 0, 0.0));
+    ball.stop_low[DMB_RY] = ball.stop_low[DMB_RZ] = -gap / lever;
+    ball.stop_high[DMB_RY] = ball.stop_high[DMB_RZ] = gap / lever;
+    ball.stop_stiffness = k * body.inertia[1] / mass;
+    ball.stop_damping = c * body.inertia[1] / mass;
+    (void)add_joint(s, &ball);
+}
+
+static void open_scene(rig *s, const spinning *of)
+{
+    const dmb_sim_options options = sharp_options(of->radius, 1e-10);
+    const double w = of->hw * spin / of->per_step, k = mass * w * w, c = 2.0 * of->damping * mass * w;
+    rig_open(s, 0.0, 0.0, 0.0);
+    if (of->kind == ON_A_BALL) add_ball(s, k, c);
+    const dmb_id body = of->kind == ON_A_BALL ? ground_id : add_spinning(s, 1.0);
+    if (of->kind == IN_A_CAGE) add_cage(s, dmb_station(ground_id, 0, 0.0), body, k, c);
+    if (of->kind == TWO_BODIES) add_cage(s, dmb_station(body, 0, 0.0), add_spinning(s, -0.5), 0.5 * k, 0.5 * c);
+    if (of->kind == ON_SPRINGS || of->kind == ALONE) add_springs(s, body, k, c);
+    if (of->kind == ON_SPRINGS) add_cage(s, dmb_station(ground_id, 0, 0.0), body, 1e-3 * k, 0.0);
+    assert_int_equal(mechanism_start(s, &options), DMB_OK);
+}
+
+/* Largest energy over the initial one. */
+static double most_of(const spinning *of, uint32_t steps)
+{
+    rig s;
+    double most = 0.0;
+    open_scene(&s, of);
+    const double before = energy_now(&s);
+    for (uint32_t i = 0; i < steps; i++) {
+        const int32_t status = dmb_sim_step(s.sim, of->per_step / spin, NULL);
+        assert_true(status == DMB_OK || status == DMB_NOTE_STEP_CUT);
+        most = fmax(most, energy_now(&s) / before);
+    }
+    rig_close(&s);
+    return most;
+}
+
+static const double radii[] = {0.0, 0.5, 0.8, 0.95, 1.0};
+
+/* Steps of h w from 0.01 to 100, damped and not. */
+static double worst_of(int kind, double per_step)
+{
+    static const double steps_of[] = {0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0};
+    double worst = 0.0;
+    for (int i = 0; i < 7; i++)
+        for (int r = 0; r < 5; r++) {
+            const spinning of = {kind, per_step, steps_of[i], radii[r], (i + r) % 2 ? 0.0 : 0.3};
+            const spinning other = {kind, per_step, steps_of[i], radii[r], (i + r) % 2 ? 0.3 : 0.0};
+            worst = fmax(worst, fmax(most_of(&of, 400), most_of(&other, 150)));
+        }
+    return worst;
+}
+
+static void a_tenth_of_a_radian_a_step_gains_nothing(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < ALONE; kind++) check_below(names[kind], worst_of(kind, 0.1), 1.01);
+}
+
+/* The rotation itself is not resolved then. */
+static void a_radian_a_step_gains_little(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < ALONE; kind++) {
+        check_below(names[kind], worst_of(kind, 0.3), 1.01);
+        check_below(names[kind], worst_of(kind, 1.0), 1.05);
+    }
+}
+
+/* Free bodies in scenes without joints (lib/theory/limits.md). */
+static void without_joints_springs_give_a_bounded_gain(void **state)
+{
+    (void)state;
+    check_below(names[ALONE], worst_of(ALONE, 0.01), 1.01);
+    check_below(names[ALONE], worst_of(ALONE, 0.1), 1.06);
+}
+
+static void controlled_steps_gain_nothing(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        const spinning of = {kind, 0.1, 3.0, 0.8, 0.0};
+        rig s;
+        double most = 0.0;
+        open_scene(&s, &of);
+        const double before = energy_now(&s);
+        for (int i = 1; i <= 10; i++) {
+            must(&s, dmb_sim_advance(s.sim, 0.02 * i, NULL));
+            most = fmax(most, energy_now(&s) / before);
+        }
+        check_below(names[kind], most, 1.01);
+        rig_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tenth_of_a_radian_a_step_gains_nothing),
+        cmocka_unit_test(a_radian_a_step_gains_little),
+        cmocka_unit_test(without_joints_springs_give_a_bounded_gain),
+        cmocka_unit_test(controlled_steps_gain_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
