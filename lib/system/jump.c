@@ -79,8 +79,9 @@ static double release(dmb_sim *sim, uint32_t s, double *rows)
     return part;
 }
 
-/* Forces removed from the history (opening contacts), and mean forces added to it. */
-static void gather_released(dmb_evaluation *evaluation, double *rows, double *part)
+/* Forces removed from the history (opening contacts), and mean forces added to it. mass: evaluation of the mass matrix,
+ * which may have no velocity factor; the step's own one weights mean forces. */
+static void gather_released(const dmb_evaluation *evaluation, dmb_evaluation *mass, double *rows, double *part)
 {
     dmb_sim *sim = evaluation->sim;
     memset(rows, 0, sim->scene->row_count * sizeof(double));
@@ -93,7 +94,7 @@ static void gather_released(dmb_evaluation *evaluation, double *rows, double *pa
         *of_node = fmax(*of_node, released);
         if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], released);
     }
-    dmb_bounces_release(evaluation, rows, part);
+    dmb_bounces_release(mass, rows, part);
     dmb_rotors_carry_wrenches(sim, rows);
     dmb_bounces_add_carried(evaluation, rows);
 }
@@ -110,7 +111,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     mass.given = 0;
     const int32_t status = dmb_factor_mass_in_step(&mass);
     if (status < 0) return status;
-    gather_released(&mass, acceleration, part);
+    gather_released(evaluation, &mass, acceleration, part);
     dmb_solve_for(sim, acceleration, acceleration);
     return DMB_OK;
 }
@@ -141,7 +142,7 @@ int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, doub
     const int32_t status = minus_mass_times(evaluation, near, product);
     memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
     if (status < 0) return status;
-    gather_released(evaluation, acceleration, part);
+    gather_released(evaluation, evaluation, acceleration, part);
     for (uint32_t i = 0; i < n; i++) acceleration[i] -= product[i];
     dmb_solve_for(sim, acceleration, acceleration);
     for (uint32_t i = 0; i < n; i++) acceleration[i] += near[i];

@@ -142,10 +142,11 @@ static int32_t step(scene_plan *p, int which)
         p->screw.part = p->coupling.joint[0];
         p->screw.time_function = p->drive.time_function;
         return dmb_model_add_drive(p->model, &p->screw, NULL);
+    case 18: return dmb_model_add_ramp(p->model, 0.0, 1.0, 0.0, 1.0, NULL);
     default: return dmb_model_compile(p->model, NULL);
     }
 }
-enum { STEPS = 19 };
+enum { STEPS = 20 };
 
 /* Counts that must not change when a call fails. */
 typedef struct counts {

@@ -37,6 +37,7 @@ static void told_where_described(void **state)
     expect(dmb_model_message(model), "body 1: name = 24, must be characters, at most 23");
     strcpy(drive.name, "pump");
     drive.part = id;
+    drive.time_function = id; /* a body */
     assert_int_equal(dmb_model_add_drive(model, &drive, NULL), DMB_ERR_ID);
     expect(dmb_model_message(model), "drive 0 (pump): time_function");
     memset(drive.name, 'x', sizeof drive.name);

@@ -61,7 +61,7 @@ static double tip_of_cantilever(uint32_t elements, double step)
     leg.section_inertia[0] = 20.0;
     leg.section_inertia[1] = 10.0;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id near_leg = add_beam(&s, &leg, 0);
+    const dmb_id near_leg = add_beam(&s, &leg, DMB_FREE_NONE);
     def.position[0] = 10.0;
     def.rotation[2] = 0.5 * PI;
     def.start_free = def.end_free = DMB_FREE_ALL;
@@ -146,7 +146,7 @@ static dmb_id open_arc(rig *s, double bend, uint32_t elements)
     dmb_pipe_def pipe = beam_pipe(arc_length, elements, K[0], K[1], K[2], K[3]);
     pipe.curvature[1] = bend / arc_length;
     rig_open(s, 0.0, 0.0, 0.0);
-    return add_beam(s, &pipe, 0);
+    return add_beam(s, &pipe, DMB_FREE_NONE);
 }
 
 /* Deflection of the tip by a force there, in the plane along the radius or across it, by both signs of the force. */

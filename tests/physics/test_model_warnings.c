@@ -207,7 +207,7 @@ static void bent_elements_are_told(void **state)
         dmb_load_def load = dmb_load_def_default();
         rig_open(&s, 0.0, 0.0, 0.0);
         if (curved) pipe.curvature[1] = 0.01;
-        const dmb_id string = add_beam(&s, &pipe, 0);
+        const dmb_id string = add_beam(&s, &pipe, DMB_FREE_NONE);
         load.place = dmb_station(string, 0, 1.0);
         load.force[2] = 2e4;
         (void)add_load(&s, &load);

@@ -89,7 +89,7 @@
     X(stuck_state, 88)          \
     X(sub, 64)                  \
     X(sub_def, 56)              \
-    X(segment, 96)              \
+    X(segment, 120)             \
     X(torque_drag_options, 40)  \
     X(torque_drag_row, 128)     \
     X(wall_def, 184)            \
