@@ -290,6 +290,17 @@ class Page(FolderTest):
             return {"scene": loaded.title, "checksum": live_scene.record_of(loaded, "")["checksum"], "step": loaded.run["step"], "diameter": 0.11,
                     "time": sim.time, "hash": f"{sim.hash():016x}", "inputs": inputs}
 
+    def test_a_package_of_another_version_is_refused(self):
+        path = self.package / "interface.mjs"
+        text = path.read_text(encoding="utf-8")
+        changed = re.sub(r'"SEGMENT_STEP":\d+', '"SEGMENT_STEP":99', text)
+        self.assertNotEqual(changed, text)
+        path.write_text(changed, encoding="utf-8")
+        done = subprocess.run([*COMMAND, "live", str(SCENARIOS[0]), "-o", str(pathlib.Path(self.folder) / "page.html")], capture_output=True, text=True,
+                              env={**ENVIRONMENT, "DRILLMBD_WEB": str(self.package)})
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, "another version of the library.*SEGMENT_STEP.*bindings/web/build")
+
     def test_a_missing_package_is_named(self):
         environment = {**ENVIRONMENT, "DRILLMBD_WEB": "/nowhere"}
         done = subprocess.run([*COMMAND, "live", str(SCENARIOS[0])], capture_output=True, text=True, env=environment)

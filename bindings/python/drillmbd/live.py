@@ -17,7 +17,7 @@ import re
 import sys
 from typing import Any
 
-from . import __version__, _library
+from . import __version__, _library, enums
 from ._structs import InputRecord
 from .errors import Usage
 from .language import ENGLISH, Language, phrase
@@ -41,10 +41,22 @@ def find_package() -> pathlib.Path:
         *(pathlib.Path(prefix) / "share/drillmbd/web" for prefix in (str(library.parent), str(library.parents[1]), sys.prefix, "/usr/local", "/usr"))]
     for place in places:
         if all((place / name).is_file() for name in (*LIBRARIES, *WORKER, *PAGE)):
+            _same_interface(place)
             return place
     where = f"DRILLMBD_WEB = {own} does not hold" if own else "neither the folder of the library nor share/drillmbd/web holds"
     raise Usage(f"live page refused: {where} the library as WebAssembly; install it by a CMake build with -DDMB_BUILD_WEB=ON, or run "
                 "bindings/web/build FOLDER in the source tree and set the environment variable DRILLMBD_WEB to FOLDER")
+
+
+def _same_interface(folder: pathlib.Path) -> None:
+    """Refuses a package that was built of other headers: numbers of a scene have another meaning there."""
+    found = re.search(r"^export const CONSTANTS = (\{.*\});$", (folder / "interface.mjs").read_text(encoding="utf-8"), re.M)
+    known = json.loads(found[1]) if found else {}
+    ours = {name: int(value) for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)}
+    other = sorted(name for name, value in ours.items() if known.get(name, value) != value) if known else ["all"]
+    if other:
+        raise Usage(f"live page refused: {folder} was built of another version of the library ({len(other)} constants differ, as {other[0]}); run bindings/web/build "
+                    "of this version again")
 
 
 def bundle(folder: pathlib.Path, names: tuple[str, ...]) -> str:
