@@ -58,7 +58,7 @@ def probability(options: argparse.Namespace) -> int:
     known = load(path)  # SceneError tells what is wrong
     if known.variability is None or not known.failures:
         missing = " and ".join(name for name, there in (("[variability]", known.variability), ("[[failure]]", known.failures)) if not there)
-        raise Usage(f"{path} has no {missing}. A scene of `drillmbd new` has them as commented lines at its end: take the # away. For example:\n\n" + LEAST)
+        raise Usage(f"{path} has no {missing}. A scene of `drillmbd new` has them as commented lines at its end: take the # away there, or add lines, for example:\n\n" + LEAST)
     question = options.question or known.variability.question
     sample = SceneSample(path.read_text(encoding="utf-8-sig"), str(path), str(path.parent.resolve()), _own(options.own),
                          asked="run" if question == "auto" else question)
