@@ -405,7 +405,7 @@ FUNCTION_DOCS = {
     "dmb_pool_allocator":
         "An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release; *allocator may be uninitialised. Calling it again on the same memory forgets all that was given out. Errors: ERR_NULL, ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool has no room left, calls that need memory fail with ERR_NO_MEMORY and change nothing.",
     "dmb_pool_peak":
-        "[byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail.",
+        "[byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same calls. 0 for any other allocator. Cannot fail.",
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
     "dmb_profile_recorder_take":

@@ -27,9 +27,9 @@ enum { DMB_SITE_STAYS = 4, DMB_SITE_CARRIED = 8, DMB_SITE_MODE = 3, DMB_SITE_OWN
 
 /* 1: the law may open. */
 int dmb_bounce_can_open(const dmb_scene *scene, uint32_t u);
-/* [N s/m, N m s/rad] Damping while the law acts. */
 /* State of law u at one end of a step, with displacement `place`. */
 void dmb_bounce_end_at(const dmb_scene *scene, uint32_t u, double place, dmb_unilateral_end *end);
+/* [N s/m, N m s/rad] Damping while the law acts. */
 double dmb_bounce_damping(const dmb_scene *scene, uint32_t u);
 /* State of law u at both ends of the step. */
 void dmb_bounce_ends(const dmb_sim *sim, uint32_t u, dmb_unilateral_end *a, dmb_unilateral_end *b);
