@@ -157,8 +157,8 @@ DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
  * DMB_ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool
  * has no room left, calls that need memory fail with DMB_ERR_NO_MEMORY and change nothing. */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
-/* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the same
- * calls. 0 for any other allocator. Cannot fail. */
+/* [byte] from the start of such a pool to the end of its highest block so far: a pool of that size suffices for the
+ * same calls. 0 for any other allocator. Cannot fail. */
 DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
 
 /* ---- Errors as data ---------------------------------------------------------------------------------------------- */
