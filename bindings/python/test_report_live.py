@@ -11,7 +11,7 @@ import unittest.mock
 
 from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
-needs("numpy", "plotly")
+needs("numpy")
 
 from drillmbd import enums, live, report_live, scene  # noqa: E402
 from drillmbd.language import Language  # noqa: E402
@@ -34,6 +34,7 @@ step = "1 ms"
 class ReportLive(FolderTest):
     def setUp(self):
         super().setUp()
+        needs("plotly")
         self.package = pathlib.Path(self.folder) / "web"
         shutil.copytree(ROOT / "bindings/web/live", self.package / "live")
         subprocess.run(["python3", ROOT / "bindings/web/generate.py", self.package], check=True)

@@ -59,7 +59,7 @@ DMB_DESCRIBED(DMB_DEFAULTS)
     DMB_ROW(T, number, name, offsetof(T, counted), width, DMB_MUST_##bound)
 #define DMB_TABLE(number, T, word, kind, oldest, FIELDS) \
     static const dmb_def_field T##_fields[] = {FIELDS(DMB_FIELD_ROW, DMB_ARRAY_ROW, T)};
-DMB_DESCRIBED(DMB_TABLE)
+DMB_DESCRIBED(DMB_TABLE) /* NOLINT(bugprone-sizeof-expression): pointers are fields, too */
 
 #define DMB_LIST(number, T, word, kind, oldest, FIELDS)                           \
     {word,   T##_fields, &T##_defaults, sizeof T##_fields / sizeof T##_fields[0], \

@@ -183,7 +183,7 @@ static int32_t sine_integral(const dmb_segment *segment, double t0, double t1, d
         const double parts = swing_parts(segment, t0, end);
         used += parts;
         if (!(used <= DMB_SWING_PARTS_MAX)) return DMB_ERR_TOO_LARGE;
-        for (double i = 0.0; i < parts; i += 1.0)
+        for (uint32_t i = 0; i < (uint32_t)parts; i++)
             sum += swing_part(segment, t0 + (end - t0) * (i / parts), t0 + (end - t0) * ((i + 1.0) / parts), &angle);
         t0 = end;
     }

@@ -19,10 +19,7 @@ int32_t dmb_describe_check(dmb_model *model, const dmb_field_list *list, const v
 
 static dmb_list *list_of(dmb_model *model, uint32_t kind)
 {
-    dmb_list *own;
-    const dmb_list *read = dmb_model_list(model, kind);
-    memcpy(&own, &read, sizeof own); /* the model is the caller's to change */
-    return own;
+    return (dmb_list *)(uintptr_t)dmb_model_list(model, kind); /* the model is the caller's to change */
 }
 
 int32_t dmb_describe_add(dmb_model *model, const dmb_field_list *list, const void *def, void *read,
