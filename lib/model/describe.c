@@ -1,7 +1,5 @@
 #include "model/describe.h"
 
-#include <string.h>
-
 #include "model/field_check.h"
 
 int32_t dmb_describe_check(dmb_model *model, const dmb_field_list *list, const void *def, dmb_relations_fn relations)
