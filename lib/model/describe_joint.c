@@ -112,7 +112,7 @@ static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
     dmb_message bound;
     if (def->state == DMB_JOINT_OPEN) rows = 0;
     if (def->state == DMB_JOINT_LOCKED) rows = DMB_ROWS_MAX;
-    for (uint32_t k = 0; k < 6; ++k) given += dmb_free_set(def->initial_mask) >> k & 1U;
+    for (uint32_t k = 0; k < 6; ++k) given += (uint32_t)dmb_free_set(def->initial_mask) >> k & 1U;
     if (rows + given <= DMB_ROWS_MAX) return;
     dmb_message_set(&bound, "of %u bits at most: with its %u equations no more than %d", DMB_ROWS_MAX - rows, rows,
                     DMB_ROWS_MAX);
