@@ -859,6 +859,7 @@ DMB_API int32_t dmb_model_find_event(const dmb_model *model, const char *name, d
 /* ---- Scene record ------------------------------------------------------------------------------------------------ */
 /* The description of a model as bytes that are the same for all machines and for later versions: for files, firmware
  * and other programs. Writes at most `room` bytes; *size is the length of the record, also with bytes NULL and room 0.
+ * A call that fails writes neither.
  * Of a compiled model too; compile options are not part of it. Errors: DMB_ERR_NULL, _HANDLE, _TOO_LARGE (room),
  * _UNSUPPORTED (functions of the caller, which no record holds), that of a refused part. */
 DMB_API int32_t dmb_model_write(const dmb_model *model, void *bytes, size_t room, size_t *size);

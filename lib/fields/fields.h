@@ -1,6 +1,6 @@
 /* The fields of the structs that describe a scene, as constant tables: where each is, which values it may have. The
  * tables are made from the lists of fields/lists.h. The checks (model/field_check.h), the memory of refused parts
- * (model/refused.c) and the scene record (model/record.h) work on the tables, for all structs alike. */
+ * (model/refused.c) and the scene record (model/record) work on the tables, for all structs alike. */
 #ifndef DMB_FIELDS_FIELDS_H
 #define DMB_FIELDS_FIELDS_H
 

@@ -173,9 +173,9 @@ uint32_t dmb_model_input_count(const dmb_model *model)
 int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_input_info *info)
 {
     dmb_input_info answer = dmb_input_info_default();
-    if (model == NULL || info == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
-    if (index >= model->inputs.count) return dmb_model_told(model, "model", DMB_ERR_ID);
+    if (model == NULL || info == NULL) return dmb_model_failed(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "model", DMB_ERR_HANDLE);
+    if (index >= model->inputs.count) return dmb_model_failed(model, "model", DMB_ERR_ID);
     const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, model->inputs, index);
     const char *unit = unit_of(model, def);
     answer.target = def->target;
@@ -187,13 +187,13 @@ int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_input_in
     answer.high = dmb_input_high(def);
     answer.rate_limit = def->rate_limit;
     answer.slope_limit = def->slope_limit;
-    return dmb_model_told(model, "model", dmb_input_info_write(info, &answer));
+    return dmb_model_failed(model, "model", dmb_input_info_write(info, &answer));
 }
 
 int32_t dmb_model_find_input(const dmb_model *model, const char *name, dmb_id *input)
 {
-    if (model == NULL || name == NULL || input == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
+    if (model == NULL || name == NULL || input == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "find", DMB_ERR_HANDLE);
     for (uint32_t i = 0; i < model->inputs.count; i++) {
         if (strcmp(DMB_LIST_AT(const dmb_input_def, model->inputs, i)->name, name) != 0) continue;
         *input = dmb_model_id(model, DMB_PART_INPUT, i);
@@ -233,17 +233,17 @@ uint32_t dmb_model_event_count(const dmb_model *model)
 
 int32_t dmb_model_get_event(const dmb_model *model, uint32_t index, dmb_event_def *event)
 {
-    if (model == NULL || event == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
-    if (index >= model->events.count) return dmb_model_told(model, "model", DMB_ERR_ID);
-    return dmb_model_told(model, "model",
-                          dmb_event_def_write(event, DMB_LIST_AT(const dmb_event_def, model->events, index)));
+    if (model == NULL || event == NULL) return dmb_model_failed(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "model", DMB_ERR_HANDLE);
+    if (index >= model->events.count) return dmb_model_failed(model, "model", DMB_ERR_ID);
+    return dmb_model_failed(model, "model",
+                            dmb_event_def_write(event, DMB_LIST_AT(const dmb_event_def, model->events, index)));
 }
 
 int32_t dmb_model_find_event(const dmb_model *model, const char *name, dmb_id *event)
 {
-    if (model == NULL || name == NULL || event == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
+    if (model == NULL || name == NULL || event == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "find", DMB_ERR_HANDLE);
     for (uint32_t i = 0; i < model->events.count; i++) {
         if (strcmp(DMB_LIST_AT(const dmb_event_def, model->events, i)->name, name) != 0) continue;
         *event = dmb_model_id(model, DMB_PART_EVENT, i);

@@ -187,7 +187,7 @@ dmb_failed_object dmb_failed_model(const dmb_model *model);
 /* Failure of a call with that text, or NULL for that of the status; the model may be NULL. Returns status. */
 int32_t dmb_model_fail(const dmb_model *model, int32_t status, const char *call, const char *text);
 /* The same for a query; a status that is no failure is returned unchanged. */
-static inline int32_t dmb_model_told(const dmb_model *model, const char *call, int32_t status)
+static inline int32_t dmb_model_failed(const dmb_model *model, const char *call, int32_t status)
 {
     return status >= 0 ? status : dmb_model_fail(model, status, call, NULL);
 }

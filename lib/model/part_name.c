@@ -208,11 +208,11 @@ int32_t dmb_model_set_name(dmb_model *model, dmb_id part, const char *name)
 int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *name, uint32_t size)
 {
     uint32_t kind, index;
-    if (model == NULL || name == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
-    if (size < DMB_NAME_SIZE) return dmb_model_told(model, "model", DMB_ERR_VALUE);
+    if (model == NULL || name == NULL) return dmb_model_failed(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "model", DMB_ERR_HANDLE);
+    if (size < DMB_NAME_SIZE) return dmb_model_failed(model, "model", DMB_ERR_VALUE);
     const int32_t status = read_id(model, part, &kind, &index);
-    if (status < 0) return dmb_model_told(model, "model", status);
+    if (status < 0) return dmb_model_failed(model, "model", status);
     const char *own = name_of(model, kind, index);
     memcpy(name, own, strlen(own) + 1);
     return DMB_OK;
@@ -229,10 +229,10 @@ int32_t dmb_model_refuse_name(const dmb_model *model, const char *word, const ch
 int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, dmb_id *part)
 {
     uint32_t found = DMB_NONE, found_kind = 0;
-    if (model == NULL || name == NULL || part == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
+    if (model == NULL || name == NULL || part == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "find", DMB_ERR_HANDLE);
     if (kind < 0 || kind >= KINDS || (kind > 0 && places[kind].word == NULL))
-        return dmb_model_told(model, "find", DMB_ERR_VALUE);
+        return dmb_model_failed(model, "find", DMB_ERR_VALUE);
     for (uint32_t k = 1; k < KINDS; ++k) {
         if (places[k].word == NULL || (kind != DMB_PART_ANY && k != (uint32_t)kind)) continue;
         const uint32_t index = find_in(model, k, name);
@@ -250,8 +250,8 @@ int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, d
 
 int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first, uint32_t *count)
 {
-    if (model == NULL || name == NULL) return dmb_model_told(model, "find", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "find", DMB_ERR_HANDLE);
+    if (model == NULL || name == NULL) return dmb_model_failed(model, "find", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "find", DMB_ERR_HANDLE);
     const uint32_t found = find_run(model, name);
     if (found == DMB_NONE) return dmb_model_refuse_name(model, "run of pipes", name);
     const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, found);

@@ -108,7 +108,7 @@ int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
     dmb_message why;
     dmb_message_clear(&why);
     const int32_t status = write_recorder(recorder, path, &why);
-    return dmb_file_told("recorder", path, status, &why);
+    return dmb_file_failed("recorder", path, status, &why);
 }
 
 /* A frequency response as comma-separated values: frequency, then amplitude and phase of each transfer function and of
@@ -174,5 +174,5 @@ static int32_t write_response(const dmb_response *response, const char *path)
 
 int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
 {
-    return dmb_file_told("response", path, write_response(response, path), NULL);
+    return dmb_file_failed("response", path, write_response(response, path), NULL);
 }

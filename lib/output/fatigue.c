@@ -158,9 +158,9 @@ static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_
 int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                            uint32_t place_count, dmb_fatigue **fatigue)
 {
-    if (fatigue == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
+    if (fatigue == NULL) return dmb_sim_failed(sim, "fatigue", DMB_ERR_NULL);
     *fatigue = NULL;
-    if (sim == NULL || options == NULL || places == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
+    if (sim == NULL || options == NULL || places == NULL) return dmb_sim_failed(sim, "fatigue", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, create(sim, options, places, place_count, fatigue));
 }
@@ -254,11 +254,11 @@ static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
 int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
 {
     int32_t status = dmb_sim_check(sim);
-    if (status < 0) return dmb_sim_told(sim, "fatigue", status);
-    if (fatigue == NULL) return dmb_sim_told(sim, "fatigue", DMB_ERR_NULL);
-    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return dmb_sim_told(sim, "fatigue", DMB_ERR_HANDLE);
+    if (status < 0) return dmb_sim_failed(sim, "fatigue", status);
+    if (fatigue == NULL) return dmb_sim_failed(sim, "fatigue", DMB_ERR_NULL);
+    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return dmb_sim_failed(sim, "fatigue", DMB_ERR_HANDLE);
     status = ask_all(fatigue, sim);
-    if (status < 0) return dmb_sim_told(sim, "fatigue", status);
+    if (status < 0) return dmb_sim_failed(sim, "fatigue", status);
     for (uint32_t i = 0; i < fatigue->place_count; i++) {
         dmb_section loads = dmb_section_default();
         (void)dmb_answer_section(sim, fatigue->sections[i].place, &loads);

@@ -229,5 +229,5 @@ int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, con
     dmb_message why;
     dmb_message_clear(&why);
     const int32_t status = write_profiles(recorder, path, &why);
-    return dmb_file_told("profile recorder", path, status, &why);
+    return dmb_file_failed("profile recorder", path, status, &why);
 }

@@ -176,7 +176,7 @@ void dmb_text_end_base64(dmb_text_file *file)
 
 /* ---- Failures ---------------------------------------------------------------------------------------------------- */
 
-int32_t dmb_file_told(const char *call, const char *path, int32_t status, const dmb_message *why)
+int32_t dmb_file_failed(const char *call, const char *path, int32_t status, const dmb_message *why)
 {
     enum { SHOWN = 200 }; /* [byte] of the end of a path: a message has room for them */
     dmb_message text;

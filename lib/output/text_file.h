@@ -43,7 +43,7 @@ void dmb_text_put_word(dmb_text_file *file, uint64_t word);
 void dmb_text_end_base64(dmb_text_file *file);
 /* Ends a public call that writes the file: a failure is the thread's last error, `why` its message unless that is empty
  * (NULL: empty). Returns status. */
-int32_t dmb_file_told(const char *call, const char *path, int32_t status, const dmb_message *why);
+int32_t dmb_file_failed(const char *call, const char *path, int32_t status, const dmb_message *why);
 /* DMB_OK if all data have reached the file, else DMB_ERR_IO. */
 int32_t dmb_text_close(dmb_text_file *file);
 

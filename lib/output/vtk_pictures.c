@@ -117,7 +117,7 @@ static int32_t write_strings(const dmb_sim *sim, uint32_t per_element, const cha
 
 int32_t dmb_write_vtk_strings(const dmb_sim *sim, uint32_t per_element, const char *path)
 {
-    return dmb_file_told("picture of strings", path, write_strings(sim, per_element, path), NULL);
+    return dmb_file_failed("picture of strings", path, write_strings(sim, per_element, path), NULL);
 }
 
 /* The hole as a tube of quadrilaterals, for ParaView. */
@@ -270,7 +270,7 @@ static int32_t write_hole(const dmb_model *model, double depth0, double depth1, 
 int32_t dmb_write_vtk_hole(const dmb_model *model, double depth0, double depth1, double spacing, uint32_t around,
                            const char *path)
 {
-    return dmb_file_told("picture of hole", path, write_hole(model, depth0, depth1, spacing, around, path), NULL);
+    return dmb_file_failed("picture of hole", path, write_hole(model, depth0, depth1, spacing, around, path), NULL);
 }
 
 /* A frame of a mode's animation: the strings displaced by its shape. */
@@ -331,5 +331,5 @@ static int32_t write_mode(const dmb_modes *modes, uint32_t index, double scale, 
 int32_t dmb_write_vtk_mode(const dmb_modes *modes, uint32_t index, double scale, double phase, uint32_t per_element,
                            const char *path)
 {
-    return dmb_file_told("picture of mode", path, write_mode(modes, index, scale, phase, per_element, path), NULL);
+    return dmb_file_failed("picture of mode", path, write_mode(modes, index, scale, phase, per_element, path), NULL);
 }

@@ -114,9 +114,9 @@ int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const d
                           uint32_t output_count, dmb_window **window)
 {
     dmb_window_options options = dmb_window_options_defaults;
-    if (window == NULL) return dmb_sim_told(sim, "window", DMB_ERR_NULL);
+    if (window == NULL) return dmb_sim_failed(sim, "window", DMB_ERR_NULL);
     *window = NULL;
-    if (sim == NULL || outputs == NULL) return dmb_sim_told(sim, "window", DMB_ERR_NULL);
+    if (sim == NULL || outputs == NULL) return dmb_sim_failed(sim, "window", DMB_ERR_NULL);
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     if (given != NULL) status = dmb_window_options_read(&options, given);

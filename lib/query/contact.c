@@ -183,8 +183,8 @@ int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *poi
 {
     const dmb_hole *hole;
     const int32_t status = hole_of(model, &hole);
-    if (status < 0) return dmb_model_told(model, "hole", status);
-    return dmb_model_told(model, "hole", point == NULL ? DMB_ERR_NULL : report_hole(model, hole, depth, point));
+    if (status < 0) return dmb_model_failed(model, "hole", status);
+    return dmb_model_failed(model, "hole", point == NULL ? DMB_ERR_NULL : report_hole(model, hole, depth, point));
 }
 
 int32_t dmb_answer_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)

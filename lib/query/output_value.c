@@ -337,7 +337,7 @@ double dmb_sim_value(const dmb_sim *sim, int32_t quantity, dmb_place place)
 
 int32_t dmb_output_check(dmb_sim *sim, const dmb_output *outputs, uint32_t output_count)
 {
-    if (sim == NULL || outputs == NULL) return dmb_sim_told(sim, "outputs", DMB_ERR_NULL);
+    if (sim == NULL || outputs == NULL) return dmb_sim_failed(sim, "outputs", DMB_ERR_NULL);
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     for (uint32_t i = 0; i < output_count && status >= 0; i++) {

@@ -96,7 +96,7 @@ int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *optio
 {
     creation c;
     int32_t status;
-    if (size == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
+    if (size == NULL) return dmb_model_failed(model, "sim", DMB_ERR_NULL);
     status = prepare(&c, model, options);
     if (status == DMB_OK) *size = c.bytes;
     return status;
@@ -168,7 +168,7 @@ int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim
     creation c;
     void *block;
     int32_t status;
-    if (sim == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
+    if (sim == NULL) return dmb_model_failed(model, "sim", DMB_ERR_NULL);
     *sim = NULL;
     status = prepare(&c, model, options);
     if (status < 0) return status;
@@ -187,9 +187,9 @@ int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void
 {
     creation c;
     int32_t status;
-    if (sim == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
+    if (sim == NULL) return dmb_model_failed(model, "sim", DMB_ERR_NULL);
     *sim = NULL;
-    if (block == NULL) return dmb_model_told(model, "sim", DMB_ERR_NULL);
+    if (block == NULL) return dmb_model_failed(model, "sim", DMB_ERR_NULL);
     status = prepare(&c, model, options);
     if (status < 0) return status;
     if (size < c.bytes) {
@@ -286,11 +286,11 @@ static void fill_info(const dmb_scene *scene, dmb_model_info *info)
 int32_t dmb_model_get_info(const dmb_model *model, dmb_model_info *info)
 {
     dmb_model_info answer = dmb_model_info_default();
-    if (model == NULL || info == NULL) return dmb_model_told(model, "model", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "model", DMB_ERR_HANDLE);
-    if (model->scene == NULL) return dmb_model_told(model, "model", DMB_ERR_ORDER);
+    if (model == NULL || info == NULL) return dmb_model_failed(model, "model", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "model", DMB_ERR_HANDLE);
+    if (model->scene == NULL) return dmb_model_failed(model, "model", DMB_ERR_ORDER);
     fill_info(model->scene, &answer);
-    return dmb_model_told(model, "model", dmb_model_info_write(info, &answer));
+    return dmb_model_failed(model, "model", dmb_model_info_write(info, &answer));
 }
 
 /* The abilities of this build. */

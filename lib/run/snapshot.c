@@ -320,8 +320,8 @@ static uint64_t content_hash(const unsigned char *block, size_t size)
 int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size)
 {
     const int32_t status = dmb_sim_check(sim);
-    if (status < 0) return dmb_sim_told(sim, "snapshot", status);
-    if (size == NULL) return dmb_sim_told(sim, "snapshot", DMB_ERR_NULL);
+    if (status < 0) return dmb_sim_failed(sim, "snapshot", status);
+    if (size == NULL) return dmb_sim_failed(sim, "snapshot", DMB_ERR_NULL);
     *size = snapshot_bytes(sim);
     return DMB_OK;
 }
@@ -333,10 +333,10 @@ int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size)
     unsigned char *to = block;
     snapshot_header header;
     size_t count;
-    if (status < 0) return dmb_sim_told(sim, "snapshot", status);
-    if (block == NULL) return dmb_sim_told(sim, "snapshot", DMB_ERR_NULL);
+    if (status < 0) return dmb_sim_failed(sim, "snapshot", status);
+    if (block == NULL) return dmb_sim_failed(sim, "snapshot", DMB_ERR_NULL);
     header = header_of(sim);
-    if (size < header.size) return dmb_sim_told(sim, "snapshot", DMB_ERR_VALUE);
+    if (size < header.size) return dmb_sim_failed(sim, "snapshot", DMB_ERR_VALUE);
     count = saved_fields(sim, fields);
     to += sizeof header;
     for (size_t i = 0; i < count; ++i) {
@@ -437,8 +437,8 @@ int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash)
     dmb_field fields[DMB_FIELD_MAX];
     size_t count;
     uint64_t found = DMB_FNV_START;
-    if (status < 0) return dmb_sim_told(sim, "hash", status);
-    if (hash == NULL) return dmb_sim_told(sim, "hash", DMB_ERR_NULL);
+    if (status < 0) return dmb_sim_failed(sim, "hash", status);
+    if (hash == NULL) return dmb_sim_failed(sim, "hash", DMB_ERR_NULL);
     count = saved_fields(sim, fields);
     for (size_t i = 0; i < count; ++i) found = dmb_fnv_bytes(found, fields[i].data, fields[i].bytes);
     *hash = found;

@@ -30,7 +30,7 @@ static inline int32_t dmb_ask(const dmb_sim *sim, const void *answer)
  * Returns status. */
 int32_t dmb_sim_fail(const dmb_sim *sim, int32_t status, const char *call, const char *text);
 /* The same for a query; a status that is no failure is returned unchanged. */
-static inline int32_t dmb_sim_told(const dmb_sim *sim, const char *call, int32_t status)
+static inline int32_t dmb_sim_failed(const dmb_sim *sim, const char *call, int32_t status)
 {
     return status >= 0 ? status : dmb_sim_fail(sim, status, call, NULL);
 }

@@ -290,13 +290,13 @@ int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *sta
 {
     dmb_input_state answer = dmb_input_state_default();
     int32_t status = dmb_ask(sim, state);
-    if (status < 0) return dmb_sim_told(sim, "input", status);
+    if (status < 0) return dmb_sim_failed(sim, "input", status);
     const uint32_t i = dmb_model_part_index(sim->model, input, DMB_PART_INPUT);
-    if (i >= sim->scene->input_count) return dmb_sim_told(sim, "input", DMB_ERR_ID);
+    if (i >= sim->scene->input_count) return dmb_sim_failed(sim, "input", DMB_ERR_ID);
     status = dmb_input_present(sim, i, &answer.present, &answer.rate);
-    if (status < 0) return dmb_sim_told(sim, "input", status);
+    if (status < 0) return dmb_sim_failed(sim, "input", status);
     answer.is_set = !isnan(sim->input_value[i]);
     answer.value = answer.is_set ? sim->input_value[i] : answer.present;
     if (answer.is_set) answer.arrives = dmb_reference_arrival(&sim->own->references[i]);
-    return dmb_sim_told(sim, "input", dmb_input_state_write(state, &answer));
+    return dmb_sim_failed(sim, "input", dmb_input_state_write(state, &answer));
 }

@@ -255,10 +255,11 @@ static void refused_models(void **state)
     dmb_segment segment = dmb_segment_default();
     dmb_body_def body = dmb_body_def_default();
     size_t size = 7;
-    unsigned char byte = 5;
+    unsigned char bytes[100] = {5, 5};
     (void)state;
-    assert_int_equal(dmb_model_write(model, &byte, 1, &size), DMB_ERR_TOO_LARGE);
-    assert_non_null(strstr(dmb_model_message(model), "1 bytes of room, must be >= "));
+    assert_int_equal(dmb_model_write(model, bytes, sizeof bytes, &size), DMB_ERR_TOO_LARGE);
+    assert_non_null(strstr(dmb_model_message(model), "room = 100 bytes, must be >= "));
+    assert_true(size == 7 && bytes[0] == 5 && bytes[1] == 5 && bytes[99] == 0); /* a failing call changes nothing */
     body.mass = -1.0;
     assert_int_equal(dmb_model_add_body(model, &body, NULL), DMB_ERR_VALUE);
     assert_int_equal(dmb_model_write(model, NULL, 0, &size), DMB_ERR_VALUE);
@@ -267,7 +268,8 @@ static void refused_models(void **state)
     segment.kind = DMB_SEGMENT_CALLBACK;
     segment.callback = plain;
     must(dmb_model_add_time_function(model, &segment, 1, NULL));
-    assert_int_equal(dmb_model_write(model, NULL, 0, &size), DMB_ERR_UNSUPPORTED);
+    assert_int_equal(dmb_model_write(model, bytes, sizeof bytes, &size), DMB_ERR_UNSUPPORTED);
+    assert_true(size == 7 && bytes[50] == 0);
     assert_non_null(strstr(dmb_model_message(model), "segment 0 of time function 1 is a function of the caller"));
     assert_int_equal(dmb_model_write(NULL, NULL, 0, &size), DMB_ERR_NULL);
     assert_int_equal(dmb_model_write(model, NULL, 0, NULL), DMB_ERR_NULL);

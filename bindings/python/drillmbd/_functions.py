@@ -379,7 +379,7 @@ FUNCTION_DOCS = {
     "dmb_model_set_name":
         "Gives a part another name, or none by \"\"; an input or an event needs one. Before dmb_model_compile. Errors: ERR_ID, ERR_VALUE (too long, no UTF-8, another part of the kind has it), ERR_ORDER.",
     "dmb_model_write":
-        "The description of a model as bytes that are the same for all machines and for later versions: for files, firmware and other programs. Writes at most `room` bytes; *size is the length of the record, also with bytes NULL and room 0. Of a compiled model too; compile options are not part of it. Errors: ERR_NULL, _HANDLE, _TOO_LARGE (room), _UNSUPPORTED (functions of the caller, which no record holds), that of a refused part.",
+        "The description of a model as bytes that are the same for all machines and for later versions: for files, firmware and other programs. Writes at most `room` bytes; *size is the length of the record, also with bytes NULL and room 0. A call that fails writes neither. Of a compiled model too; compile options are not part of it. Errors: ERR_NULL, _HANDLE, _TOO_LARGE (room), _UNSUPPORTED (functions of the caller, which no record holds), that of a refused part.",
     "dmb_modes_destroy":
         "Gives the memory back and sets *modes to NULL. NULL-safe.",
     "dmb_modes_get":

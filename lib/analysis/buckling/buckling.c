@@ -199,7 +199,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
 
 int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
 {
-    if (sim == NULL || buckling == NULL) return dmb_sim_told(sim, "buckling", DMB_ERR_NULL);
+    if (sim == NULL || buckling == NULL) return dmb_sim_failed(sim, "buckling", DMB_ERR_NULL);
     *buckling = NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, buckling));

@@ -94,13 +94,13 @@ static void store(void *context, const dmb_pipe_run *run, uint32_t pipe, double 
 
 int32_t dmb_analysis_mesh(const dmb_model *model, dmb_id string, double *error, uint32_t capacity)
 {
-    if (model == NULL || error == NULL) return dmb_model_told(model, "mesh error", DMB_ERR_NULL);
-    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_told(model, "mesh error", DMB_ERR_HANDLE);
-    if (model->scene == NULL) return dmb_model_told(model, "mesh error", DMB_ERR_ORDER);
+    if (model == NULL || error == NULL) return dmb_model_failed(model, "mesh error", DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_model_failed(model, "mesh error", DMB_ERR_HANDLE);
+    if (model->scene == NULL) return dmb_model_failed(model, "mesh error", DMB_ERR_ORDER);
     const uint32_t index = dmb_model_part_index(model, string, DMB_PART_STRING);
-    if (index == DMB_NONE) return dmb_model_told(model, "mesh error", DMB_ERR_ID);
+    if (index == DMB_NONE) return dmb_model_failed(model, "mesh error", DMB_ERR_ID);
     const uint32_t pipes = model->scene->strings[index].pipe_count;
-    if (capacity < pipes) return dmb_model_told(model, "mesh error", DMB_ERR_VALUE);
+    if (capacity < pipes) return dmb_model_failed(model, "mesh error", DMB_ERR_VALUE);
     for (uint32_t i = 0; i < pipes; i++) error[i] = 0.0;
     if (wall_is_met(model->scene)) visit_pipes(model, index, store, error);
     return DMB_OK;

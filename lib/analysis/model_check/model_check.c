@@ -124,7 +124,7 @@ void dmb_model_check_close(dmb_model_check *findings)
 int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
 {
     dmb_model_check findings;
-    if (sim == NULL || report == NULL) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
+    if (sim == NULL || report == NULL) return dmb_sim_failed(sim, "model check", DMB_ERR_NULL);
     int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
     status = dmb_check_report_write(report, &findings.report);

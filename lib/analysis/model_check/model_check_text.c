@@ -223,14 +223,14 @@ int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, siz
 {
     dmb_model_check findings;
     sheet s = {text, size, 0};
-    if (sim == NULL) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_sim_told(sim, "model check", DMB_ERR_HANDLE);
-    if (text == NULL && (size > 0 || needed == NULL)) return dmb_sim_told(sim, "model check", DMB_ERR_NULL);
+    if (sim == NULL) return dmb_sim_failed(sim, "model check", DMB_ERR_NULL);
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return dmb_sim_failed(sim, "model check", DMB_ERR_HANDLE);
+    if (text == NULL && (size > 0 || needed == NULL)) return dmb_sim_failed(sim, "model check", DMB_ERR_NULL);
     const int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
     put_all(&s, &findings);
     dmb_model_check_close(&findings);
     if (size > 0) text[s.used < size ? s.used : size - 1] = '\0';
     if (needed != NULL) *needed = s.used + 1;
-    return dmb_sim_told(sim, "model check", s.used < size ? DMB_OK : DMB_NOTE_FULL);
+    return dmb_sim_failed(sim, "model check", s.used < size ? DMB_OK : DMB_NOTE_FULL);
 }

@@ -208,7 +208,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
 int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_modes **modes)
 {
     dmb_modes_options taken;
-    if (modes == NULL) return dmb_sim_told(sim, "modes", DMB_ERR_NULL);
+    if (modes == NULL) return dmb_sim_failed(sim, "modes", DMB_ERR_NULL);
     *modes = NULL;
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;

@@ -152,7 +152,7 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
  * energy, s^2 + s d^H C d + e = 0, unless most of the stiffness is not of strain. */
 #define DMB_ENERGY_TELLS 0.5
 
-static int energy_tells(const dmb_mode_search *search, uint32_t k)
+static int energy_decides(const dmb_mode_search *search, uint32_t k)
 {
     const dmb_linear *linear = search->linear;
     const dmb_modes *modes = search->modes;
@@ -191,7 +191,7 @@ static int is_mode(const dmb_mode_search *search, uint32_t k)
             k, frequency, defect.value, defect.bound);
         return 0;
     }
-    if (defect.bound < 1.0 || energy_tells(search, k)) return 1;
+    if (defect.bound < 1.0 || energy_decides(search, k)) return 1;
     dmb_message_set(
         search->message,
         "modes: mode %u of %g Hz cannot be distinguished from a rigid-body motion: rounding is %g of its forces, must "

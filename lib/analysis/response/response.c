@@ -212,9 +212,9 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
                               uint32_t excitation_count, const dmb_response_output *outputs, uint32_t output_count,
                               dmb_response **response)
 {
-    if (response == NULL) return dmb_sim_told(sim, "response", DMB_ERR_NULL);
+    if (response == NULL) return dmb_sim_failed(sim, "response", DMB_ERR_NULL);
     *response = NULL;
-    if (sim == NULL || excitations == NULL || outputs == NULL) return dmb_sim_told(sim, "response", DMB_ERR_NULL);
+    if (sim == NULL || excitations == NULL || outputs == NULL) return dmb_sim_failed(sim, "response", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     dmb_response_work w;

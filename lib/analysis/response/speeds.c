@@ -332,7 +332,7 @@ int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, con
                             uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
 {
     if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)
-        return dmb_sim_told(sim, "speeds", DMB_ERR_NULL);
+        return dmb_sim_failed(sim, "speeds", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     speeds_run r = {.report = dmb_speeds_report_default(),

@@ -298,7 +298,7 @@ int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_step
                                   const dmb_response_output *outputs, uint32_t output_count, double *amplitudes,
                                   dmb_stepped_sine_report *report)
 {
-    if (sim == NULL || outputs == NULL || amplitudes == NULL) return dmb_sim_told(sim, "stepped sine", DMB_ERR_NULL);
+    if (sim == NULL || outputs == NULL || amplitudes == NULL) return dmb_sim_failed(sim, "stepped sine", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     sine_run r;

@@ -328,9 +328,9 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
 int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                dmb_sensitivity **sensitivity)
 {
-    if (sensitivity == NULL) return dmb_sim_told(sim, "sensitivity", DMB_ERR_NULL);
+    if (sensitivity == NULL) return dmb_sim_failed(sim, "sensitivity", DMB_ERR_NULL);
     *sensitivity = NULL;
-    if (sim == NULL || parameters == NULL) return dmb_sim_told(sim, "sensitivity", DMB_ERR_NULL);
+    if (sim == NULL || parameters == NULL) return dmb_sim_failed(sim, "sensitivity", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, create(sim, parameters, count, sensitivity));
 }

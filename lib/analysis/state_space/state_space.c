@@ -290,10 +290,10 @@ int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *op
                                  uint32_t input_count, const dmb_response_output *outputs, uint32_t output_count,
                                  dmb_state_space **space)
 {
-    if (space == NULL) return dmb_sim_told(sim, "state space", DMB_ERR_NULL);
+    if (space == NULL) return dmb_sim_failed(sim, "state space", DMB_ERR_NULL);
     *space = NULL;
     if (sim == NULL || (inputs == NULL && input_count > 0) || (outputs == NULL && output_count > 0))
-        return dmb_sim_told(sim, "state space", DMB_ERR_NULL);
+        return dmb_sim_failed(sim, "state space", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     dmb_space_work w = {.sim = sim, .input_count = input_count, .output_count = output_count};

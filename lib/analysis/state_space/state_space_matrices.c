@@ -306,7 +306,7 @@ static int32_t answer_array(dmb_sim *sim, int32_t array, double *values, uint64_
 
 int32_t dmb_analysis_array(dmb_sim *sim, int32_t array, double *values, uint64_t *count)
 {
-    if (sim == NULL || count == NULL) return dmb_sim_told(sim, "array", DMB_ERR_NULL);
+    if (sim == NULL || count == NULL) return dmb_sim_failed(sim, "array", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, answer_array(sim, array, values, count));
 }
@@ -340,7 +340,7 @@ int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t frame, in
                                 double values[24], uint32_t *count)
 {
     if (sim == NULL || rows == NULL || values == NULL || count == NULL)
-        return dmb_sim_told(sim, "place rows", DMB_ERR_NULL);
+        return dmb_sim_failed(sim, "place rows", DMB_ERR_NULL);
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     status = dmb_state_copy_check(sim, "place");

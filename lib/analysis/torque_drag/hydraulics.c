@@ -174,7 +174,7 @@ static int32_t find(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulic
 
 int32_t dmb_analysis_hydraulics(dmb_sim *sim, double depth, double trip_speed, dmb_hydraulics *answer)
 {
-    if (sim == NULL || answer == NULL) return dmb_sim_told(sim, "hydraulics", DMB_ERR_NULL);
+    if (sim == NULL || answer == NULL) return dmb_sim_failed(sim, "hydraulics", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, find(sim, depth, trip_speed, answer));
 }

@@ -265,7 +265,7 @@ int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *op
                                  uint32_t operation_count, dmb_torque_drag_row *rows)
 {
     request r = {.sim = sim};
-    if (sim == NULL || operations == NULL || rows == NULL) return dmb_sim_told(sim, "torque drag", DMB_ERR_NULL);
+    if (sim == NULL || operations == NULL || rows == NULL) return dmb_sim_failed(sim, "torque drag", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, analyse(&r, options, operations, operation_count, rows));
 }
@@ -328,7 +328,7 @@ int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_drag_opt
 {
     request r = {.sim = sim};
     sampling s = {.depth = depth, .axial_force = axial_force, .torque = torque, .wall_force = wall_force};
-    if (sim == NULL || operation == NULL) return dmb_sim_told(sim, "torque drag profile", DMB_ERR_NULL);
+    if (sim == NULL || operation == NULL) return dmb_sim_failed(sim, "torque drag profile", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, sample(&r, options, operation, station_count, &s));
 }
@@ -393,7 +393,8 @@ int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options
 {
     request r = {.sim = sim};
     fitting f = {.r = &r, .measured = measured, .value = value};
-    if (sim == NULL || operation == NULL || friction == NULL) return dmb_sim_told(sim, "friction factor", DMB_ERR_NULL);
+    if (sim == NULL || operation == NULL || friction == NULL)
+        return dmb_sim_failed(sim, "friction factor", DMB_ERR_NULL);
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, fit(&f, options, operation, friction));
 }
