@@ -34,8 +34,14 @@ class AssessedTest(FolderTest):
     def test_a_string_that_does_not_turn(self):
         for kind, more in (("stick-slip", {}), ("bit-stuck", {"limit": "1 s"})):
             told = self.told(self.still(TURNING) + failure(kind, **more), 2)
-            self.assertIn("not assessed, because the drive of rotation does not turn", told)
+            self.assertIn("not assessed, because no drive of rotation turns", told)
             self.told(TURNING + failure(kind, **more), 0)
+
+    def test_a_string_without_a_drive_of_rotation(self):
+        """Its bit does not turn at all, which is no smooth rotation."""
+        text = TURNING[:TURNING.index('[[drive]]\nname = "head"')] + TURNING[TURNING.index("[run]"):]
+        text = text.replace('name = "turning"', 'name = "turning"\nunit = "rad/s"')
+        self.assertIn("not assessed, because no drive of rotation turns", self.told(text + failure("stick-slip"), 2))
 
     def test_torque_of_rotation(self):
         text = failure("rig-torque", limit="1 kN m")
@@ -91,6 +97,17 @@ class AssessedTest(FolderTest):
         self.assertNotEqual(mud, text)
         self.assertIn("nothing that varies acts on it", self.told(mud, 0))
         self.assertNotIn("nothing that varies acts on it", self.told(text, 0))
+        limits = mud + """[[variability.scatter]]
+name = "push of the rig"
+key = "failure[0].limit"
+distribution = "normal"
+mean = "9.5 kN"
+deviation = "0.1 kN"
+"""
+        said = self.told(limits, 0)
+        self.assertIn("its probability is that of its limit", said)
+        self.assertNotIn("scene as it is written", said)
+        self.assertNotIn("changes no percentile", self.told(limits, 0, "--vary", "variability.scatter[1].mean=9 kN,9.5 kN"))
 
     def test_nonsense(self):
         text = LEVEL + failure("rig-push", limit="9 kN")

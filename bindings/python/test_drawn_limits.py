@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import unittest
+import unittest.mock
 
 from shared_tests import FolderTest, needs
 
@@ -13,7 +14,7 @@ from scipy import stats
 from test_questions import LEVEL, WEIGHT, failure
 
 from drillmbd import scene
-from drillmbd.probability.cells import Cell, paired
+from drillmbd.probability.cells import Cell, Map, paired
 from drillmbd.probability.sample import FAILED, SceneSample
 from drillmbd.scene.failure import KINDS
 from drillmbd.sweep import settings_of, varied
@@ -134,6 +135,18 @@ class TogetherTest(FolderTest):
         told = self.ask("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
         self.assertIn("each key once", told)
 
+    def test_a_map_of_the_question_auto(self):
+        """The runs of a cell are those of samples near its limits, others in each cell: pairs of them would be no test."""
+        cells = [Cell({"a": value}, failing={0: value > 1}, dimension=2, estimates={"any failure": None}) for value in (1, 2)]
+        made = Map.__new__(Map)
+        made.vary, made.cells, made.output = [("a", [1, 2])], cells, unittest.mock.Mock(summary={})
+        for question, tables in (("run", 1), ("auto", 0)):
+            made.question = question
+            made.output.reset_mock()
+            made._pairs()
+            self.assertEqual((made.output.table.call_count, made.output.note_text.call_count), (tables, 1 - tables))
+            self.assertEqual(made._against(*cells)[:2], [1, 0] if tables else ["", ""])
+
     def test_pairs(self):
         """Exact McNemar test of the samples that decide differently; lost samples do not count."""
         def cell(failing, **more):
@@ -146,6 +159,8 @@ class TogetherTest(FolderTest):
         self.assertEqual(paired(a, cell([True] * 5 + [False] * 15)).word, "a difference is not shown")
         self.assertEqual(paired(a, a).word, "no sample differs")
         self.assertEqual(paired(a, cell([])).word, "not assessed, because no sample has all margins in both")
+        self.assertEqual(paired(a, cell([])).words, paired(a, cell([])).word)
+        self.assertEqual(paired(a, b).words, "+0.4: the probability rises (exact McNemar test, p = 0.0078)")
         self.assertEqual(paired(a, cell([True] * 8)).samples, 8)
         self.assertIsNone(paired(a, cell([True], message="failed")))
         self.assertIsNone(paired(a, Cell({}, failing={0: True}, dimension=3)))

@@ -24,7 +24,7 @@ from drillmbd.probability import auto, demands, engines, limits, soft, until
 from drillmbd.probability.draw import CannotDraw
 from drillmbd.probability.estimates import Estimate, clopper_pearson, counted
 from drillmbd.probability.sampling import Points, drawn
-from drillmbd.probability.sample import SceneSample
+from drillmbd.probability.sample import SceneSample, worst
 from drillmbd.probability.study import Study, read_rows
 from drillmbd.scene.failure import KINDS
 from test_engines import MPIRUN, there
@@ -312,6 +312,16 @@ class DemandTest(unittest.TestCase):
         self.assertLess(abs(found[0].rank - known), 0.01)
         self.assertLess(abs(found[2].rank), 2.0 * found[2].least)
 
+    def test_signals_without_a_value(self):
+        """A signal or a state without a value is no demand of 0, and no margin."""
+        signals = {key: np.array([1.0, math.nan]) for key in ("most", "least")}
+        for demand in (limits._tightening, limits._loosening):
+            self.assertTrue(math.isnan(demand(np.array([0.0, 1.0]), signals, {})))
+            self.assertEqual(demand(np.zeros(1), {"most": np.array([-1.0]), "least": np.array([1.0])}, {}), 0.0)
+        self.assertEqual(worst([(2.0, 5.0), (1.0, 7.0)]), (1.0, 7.0))
+        for found in ([(math.nan, 0.0), (1.0, 7.0)], [(1.0, 7.0), (math.nan, 0.0)]):
+            self.assertTrue(math.isnan(worst(found)[0]))
+
     def test_strings_that_lock_up(self):
         one = scene.loads(LEVEL + failure("rig-push", limit="12 kN")).failures[0]
         values = np.array([1.0, 2.0, math.nan] + [math.inf] * 10)
@@ -333,6 +343,11 @@ class UntilTest(FolderTest):
         self.assertIn("is above 0.05", until.rule("below 0.05").verdict(one))
         self.assertFalse(until.rule("below 0.1").met(one))
         self.assertFalse(until.rule("30%").met(Estimate(0.0, 0.0, 0.1, 0.95, "", 1, 0, 0)))
+        self.assertIn("no sample with a margin failed", until.rule("30%").verdict(Estimate(0.0, 0.0, 0.1, 0.95, "", 2, 0, 1)))
+        lost = counted([math.nan] * 5)
+        for text in ("30%", "below 0.5"):
+            self.assertFalse(until.rule(text).met(lost))
+            self.assertEqual(until.rule(text).verdict(lost), "not assessed, because no sample has a margin")
         for text in ("", "many", "0 %", "200%", "below 2", "below", "1e-12"):
             with self.assertRaisesRegex(Exception, "write a share of the probability"):
                 until.rule(text)

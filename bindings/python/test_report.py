@@ -18,7 +18,7 @@ needs("numpy", "tomllib")
 import tomllib  # noqa: E402
 
 from drillmbd import results, enums, language, report, report_figures, report_hole, report_linear, report_page, scene, unit_systems, verdict  # noqa: E402
-from drillmbd._structs import SpeedBand  # noqa: E402
+from drillmbd._structs import Id, SpeedBand  # noqa: E402
 from drillmbd.analysis import OPERATIONS, operation_name  # noqa: E402
 from drillmbd.errors import status_text  # noqa: E402
 from drillmbd.scene import words  # noqa: E402
@@ -449,6 +449,9 @@ class OperatingTest(unittest.TestCase):
         self.assertEqual(largest_of([{"table": [(0.0, 5.0), (10.0, 0.0)]}, {**down, "x0": 2.0, "x1": 9.0, "h1": -5.0}]), 5.0)
         self.assertEqual(largest_of([]), 0.0)
         self.assertIsNone(largest_of([up, {"kind": enums.SEGMENT_CALLBACK}]))
+        worn = {"kind": enums.SEGMENT_PER_REVOLUTION, "of": Id(1 << 24 | 1, 1), "h0": -3.0, "h1": -2.0, "share": 0.1}
+        self.assertEqual(largest_of([worn], [[worn], [up]]), 7.0)
+        self.assertIsNone(largest_of([worn]))
 
     def test_shipped_rig(self):
         """It turns by 200 rpm forward, then backward."""

@@ -15,7 +15,12 @@ needs("numpy")
 import numpy  # noqa: E402
 
 import drillmbd as mbd  # noqa: E402
-from drillmbd import critical_speeds, no_response, rig_torque, rotating, scene as scenes, speed_check, speed_range, station  # noqa: E402
+from drillmbd import critical_speeds, live_scene, no_response, report_basis, report_linear, rig_torque, rotating, scene as scenes, speed_check, speed_range  # noqa: E402
+from drillmbd import station  # noqa: E402
+from drillmbd.operating import operating  # noqa: E402
+from drillmbd.scene import words  # noqa: E402
+from drillmbd.unit_systems import SI  # noqa: E402
+from drillmbd.verdict import Demand, Tile  # noqa: E402
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 SCENE = """title = "level hole"
@@ -82,7 +87,16 @@ high = "104 mm"
 """
 
 
-class LinearStateTest(FolderTest):
+class SpeedsTest(FolderTest):
+    """The report of the scene of a test."""
+
+    def assert_no_verdict(self):
+        """The tile of the report gives no all-clear."""
+        scene = scenes.load(self.scene)
+        self.assertEqual(report_linear.speeds_tile(report_linear.speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+
+
+class LinearStateTest(SpeedsTest):
     """One linear state for response and speeds."""
     SCENE = SCENE
 
@@ -178,10 +192,39 @@ class LinearStateTest(FolderTest):
             self.assertIn("(4 cases, all combinations): not assessed", out)
             self.assertNotIn("no critical speed", out)
             self.assertFalse(summary["speeds_assessed"])
-            from drillmbd.operating import operating
-            from drillmbd.report_linear import speeds, speeds_tile
-            scene = scenes.load(self.scene)
-            self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+            self.assert_no_verdict()
+
+
+class PerRevolutionTest(FolderTest):
+    """A head whose own time function oscillates with its revolutions: 100 rpm and 5 % of it."""
+    SCENE = SCENE.replace('segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}', """segment = {kind = "step5", x1 = "1 s", h1 = "100 rpm"}
+[[time_function]]
+name = "worn"
+segment = [{kind = "step5", x1 = "1 s", h1 = "100 rpm"}, {kind = "per-revolution", of = "turning", h1 = "2 rpm", share = "-5 %"}]""").replace(
+        'time_function = "turning"', 'time_function = "worn"')
+
+    def test_operation(self):
+        """The rotation counts with its amplitude, as that of a harmonic does, in every place that reads it."""
+        scene, most = scenes.load(self.scene), 107.0 * rotating.RPM
+        self.assertAlmostEqual(operating(scene).rotation, most, 12)
+        self.assertAlmostEqual(rotating.options_of(scene, "speeds")["spin"], most, 12)
+        self.assertEqual(str(words.describe(scene, 0.0)[-2]), "feed 0 mm/s, rotation 107 rpm")
+        live = live_scene.with_inputs(scene)
+        slider = next(arguments[0] for name, arguments in live if name == "add_input" and arguments[0]["name"] == "rotation")
+        self.assertAlmostEqual(slider["high"], 2.0 * most, 12)
+
+    def test_a_share_of_no_rotation(self):
+        text = self.SCENE.replace("100 rpm", "0 rpm").replace('h1 = "2 rpm"', 'h1 = "0 rpm"')
+        scene = scenes.load(self.write("still.toml", text))
+        self.assertEqual(operating(scene).rotation, 0.0)
+        self.assertIn("no rotation", str(words.trivial(scene)[0]))
+        self.assertFalse(any("no rotation" in str(one) for one in words.trivial(scenes.load(self.scene))))
+
+    def test_check_names_the_oscillation_that_it_leaves_out(self):
+        scene = scenes.load(self.scene)
+        self.assertTrue(speed_check.oscillation_left_out(scene, 1))
+        excited = self.SCENE.replace('time_function = "worn"', 'time_function = "turning"\nexcitation = "worn"')
+        self.assertFalse(speed_check.oscillation_left_out(scenes.load(self.write("excited.toml", excited)), 0))
 
 
 class RigTorqueTest(FolderTest):
@@ -234,7 +277,7 @@ class RigTorqueTest(FolderTest):
             self.assertEqual(rig_torque.balanced(torque, slip), (torque, None))
 
 
-class NoResponseTest(FolderTest):
+class NoResponseTest(SpeedsTest):
     """An output that only rounding moves has no response, and no all-clear."""
     SCENE = SCENE.replace("100 rpm", "0 rpm").replace("[[time_function]]", 'inclination = "0 deg"\n[[time_function]]', 1).replace(
         'eccentricity = "0.5 mm"', "").replace('[[response.excitation]]\nkind = "eccentricity"', '[[response.excitation]]\nkind = "drive"\nplace = "head"\n'
@@ -263,10 +306,7 @@ class NoResponseTest(FolderTest):
         self.assertIn("not assessed, because the orders of [speeds] excite none of its outputs", out)
         self.assertNotIn("no critical speed", out)
         self.assertFalse(summary["speeds_assessed"])
-        from drillmbd.operating import operating
-        from drillmbd.report_linear import speeds, speeds_tile
-        scene = scenes.load(self.scene)
-        self.assertEqual(speeds_tile(speeds(scene, print), operating(scene)).verdict, "NOT ASSESSED")
+        self.assert_no_verdict()
 
     def test_a_silent_output_beside_one_that_moves(self):
         """Torsion turns an upright string and does not move it across: the second output is named, and no speed is called free."""
@@ -281,10 +321,21 @@ class NoResponseTest(FolderTest):
         found = critical_speeds.analyse(scene, lambda sim, state: sim.static(**state.static), print)
         self.assertEqual(found.unmoved, [0])
         self.assertEqual(speed_check._linear(found, 10.0), "not assessed")
-        from drillmbd import report_linear
-        from drillmbd.operating import operating
-        tile = report_linear.speeds_tile(report_linear.speeds(scene, print), operating(scene))
+        speeds = report_linear.speeds(scene, print)
+        tile = report_linear.speeds_tile(speeds, operating(scene))
         self.assertEqual(tile.verdict, "NOT ASSESSED")
+        demands = {key: Demand(key, "N", None) for key in ("push", "pull", "torque")}
+        tiles = [*(Tile(key, "", "", "NOT ASSESSED") for key in demands), tile]
+        rows = {str(row[0]): str(row[1]) for row in report_basis.limits_at_the_rig(demands, tiles, speeds, operating(scene), SI)}
+        self.assertEqual(rows["Rotary speed"], "not known: not all outputs and orders were assessed")
+
+    def test_a_silent_output_over_a_range(self):
+        """No case of the range is called free of critical speeds."""
+        turning = ('[[speeds.output]]\nname = "turning"\nplace = {part = "main", pipe = 6}\ncomponent = "rz"\nlimit = "1e6 deg"\n')
+        self.scene = self.write("beside.toml", self.SCENE + turning + RANGE)
+        out, summary = self.answer("speeds")
+        self.assertRegex(out, r"\(4 cases, all combinations\): not assessed; 4 of the 4 cases")
+        self.assertEqual(summary["speeds_range"]["not_assessed"], 4)
 
     def test_a_silent_order_is_no_all_clear(self):
         """One order that moves no output beside one that does: no speed is called free of critical ones, by the command and its check."""

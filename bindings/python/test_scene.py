@@ -772,10 +772,30 @@ name = "pdc"
             self.assertAlmostEqual(one.drive("head").speed, other.drive("head").speed, 12)
             self.assertAlmostEqual(one.drive("head").force, other.drive("head").force, 6)
 
+    def test_models_of_programs(self):
+        """Drives of a constant value and drives that hold, and a time function that is used per revolution alone, are read again as they are."""
+        model = mbd.Model()
+        speed = model.add_time_function(12.0)
+        worn = model.add_time_function(12.0, mbd.Segment(kind=mbd.SEGMENT_PER_REVOLUTION, of=speed, share=0.05, h1=0.5, order=2.0, phase=0.1))
+        body = model.add_body(mass=3.0)
+        model.add_pipes(3)
+        model.add_drive(component=mbd.RX, time_function=worn)
+        model.add_drive(component=mbd.X)
+        model.add_drive(part=body, component=mbd.Y, value=0.25)
+        model.add_drive(part=body, component=mbd.RZ, kind=mbd.DRIVE_LOAD, value=-4.0)
+        model.compile()
+        again = scene.loads(scene.saves(model))
+        self.assertEqual([one.get("h0", 0.0) for name, (one, *_) in again.model.calls if name == "add_time_function"], [12.0, 12.0, 0.0, 0.25, -4.0])
+        with model.sim() as first, again.new_sim() as second:
+            for sim in (first, second):
+                sim.run(0.05, step=1e-3)
+            self.assertEqual(first.hash(), second.hash())
+
     def test_faults_of_segments_per_revolution(self):
         for old, new, wanted in (
                 ('of = "turning"', 'of = "later"', "must name a time function that stands before this one"),
                 ('of = "turning"', 'of = "worn"', "must name a time function that stands before this one"),
+                ("order = 3}", 'order = 3, table = [["0 s", 0], ["1 s", "2 rpm"]]}', 'must be "table" or "periodic" with a table'),
                 ("order = 3", "order = 0", "order"), ('share = "5 %"', 'share = "5 m"', "'m'"),
                 ('kind = "per-revolution"', 'kind = "harmonic"', 'belongs to segments with kind = "per-revolution"'),
                 ('component = "rx"\ntime_function = "turning"', 'component = "x"\ntime_function = "0 m/s"', "this time function is in m/s; use h1"),

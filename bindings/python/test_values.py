@@ -127,6 +127,8 @@ class FieldTest(Refusals):
         model = mbd.Model()
         self.tells(("segment 0 of a time function", "value", "'1'"), model.add_time_function, "1")
         self.assertEqual(self.refused(mbd.Segment, function=3).field, "function")
+        for kind in (mbd.SEGMENT_PER_REVOLUTION, mbd.SEGMENT_HARMONIC, mbd.SEGMENT_CONSTANT):
+            self.assertEqual(self.refused(mbd.Segment, kind=kind, table=[(0, 0), (1, 1)]).field, "kind")
         self.assertEqual(model.calls, [])
 
     def test_parts_in_fields(self):

@@ -264,6 +264,8 @@ class SegmentPart:
         self._function = function
         self._table: list[tuple[float, float]] = []
         if table is not None:
+            if fields.get("kind", 4) not in (4, 6):
+                refuse_value("Segment", "kind", fields["kind"], "be SEGMENT_TABLE or SEGMENT_PERIODIC with a table; leave out the one or the other")
             self._set_table(*points(table, "Segment"), 6 if fields.get("kind") == 6 else 4)
         if function is not None:
             if not callable(function):

@@ -28,6 +28,11 @@ class Found:
     unmoved: list[int] = field(default_factory=list)   #: numbers of outputs that nothing moves, where another moves
 
     @property
+    def whole(self) -> bool:
+        """True if all outputs and orders were assessed about the state of the scene: a speed that no band has is free of critical ones."""
+        return self.silent is None and not self.partial and not self.state.refused
+
+    @property
     def partial(self) -> bool:
         """True if an order or an output has no response: no speed is free of critical ones then."""
         return bool(self.unmoved or self.bands.report.silent_orders)
@@ -83,7 +88,7 @@ def speeds(scene: Scene, out: CommandOutput, options: Any) -> int:
     out.say(LINEAR)
     for note in left_out(found.bands.report) if excited else []:
         out.note_text(note)
-    out.summary["speeds_assessed"] = excited and not found.state.refused and not found.partial
+    out.summary["speeds_assessed"] = found.whole
     out.summary["linear_state"] = found.state.numbers()
     out.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
                                  "severity": band.severity, "output": names[band.output]} for band in found.bands]

@@ -53,7 +53,7 @@ def _same_interface(folder: pathlib.Path) -> None:
     found = re.search(r"^export const CONSTANTS = (\{.*\});$", (folder / "interface.mjs").read_text(encoding="utf-8"), re.M)
     known = json.loads(found[1]) if found else {}
     ours = {name: int(value) for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)}
-    other = sorted(name for name, value in ours.items() if known.get(name, value) != value) if known else ["all"]
+    other = sorted(name for name in ours.keys() | known.keys() if known.get(name) != ours.get(name))
     if other:
         raise Usage(f"live page refused: {folder} was built of another version of the library ({len(other)} constants differ, as {other[0]}); run bindings/web/build "
                     "of this version again")

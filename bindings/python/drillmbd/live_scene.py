@@ -17,6 +17,7 @@ from .language import phrase
 from .live_strings import strings_of
 from .model import _DEFINITIONS, Model, remake
 from .scene import Scene
+from .scene.largest import bounded
 from .scene.segments import by_numbers
 
 Call = tuple[str, tuple[Any, ...]]
@@ -47,7 +48,8 @@ class Described:
     def range_of(self, time_function: Id) -> tuple[float, float]:
         """Least and largest sum of the values that the segments of a time function name."""
         low = high = 0.0
-        for one in self.parts[time_function.index][1] if time_function else ():
+        known = [segments for call, segments in self.parts.values() if call == "add_time_function"]
+        for one in bounded(self.parts[time_function.index][1], known) if time_function else ():
             kind, h0, h1 = one.get("kind", 0), one.get("h0", 0.0), one.get("h1", 0.0)
             values = [value for _, value in one.get("table", ())] or (
                 [h0] if kind == enums.SEGMENT_CONSTANT else [h0 - abs(h1), h0 + abs(h1)] if kind == enums.SEGMENT_HARMONIC else [h0, h1])

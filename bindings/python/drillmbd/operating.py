@@ -45,7 +45,7 @@ def operating(scene: Scene) -> Operating:
 
 def _value(time_functions: list[Any], part: Any) -> float | None:
     """Of a time function by its id, whose low 24 bits are its number."""
-    return largest_of(time_functions[part.index & 0xFFFFFF]) if part else None
+    return largest_of(time_functions[part.index & 0xFFFFFF], time_functions) if part else None
 
 
 def operations_of(plan: Operating) -> list[_structs.Operation]:

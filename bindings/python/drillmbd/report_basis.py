@@ -46,6 +46,8 @@ def limits_at_the_rig(demands: dict[str, Demand], tiles: list[Tile], speeds: Spe
     speed = verdicts.get("Critical speeds", NOT_ASSESSED)
     if speeds is None or not speeds.assessed:
         rows.append((phrase("Rotary speed"), phrase("not known: no speeds were assessed"), rotation, speed))
+    elif speeds.partial:
+        rows.append((phrase("Rotary speed"), phrase("not known: not all outputs and orders were assessed"), rotation, speed))
     else:
         ranges = [phrase("{low} to {high} rpm", low=low, high=high) for low, high in speeds.allowed()]
         limit = phrase("only {ranges}", ranges=joined(" or ", ranges)) if ranges else phrase("no assessed speed is free of critical speeds")

@@ -36,6 +36,11 @@ class Speeds:
         """False where nothing excites the outputs."""
         return self.silent is None and max(self.severity) > 0.0
 
+    @property
+    def partial(self) -> bool:
+        """True if an order or an output has no response, or the sliding state no solution: a speed in no band is not free of critical ones."""
+        return bool(self.bands.report.silent_orders or self.unmoved or self.refused)
+
     def avoid(self) -> str:
         """The bands in words."""
         found = [self._band(band) for band in self.bands[:TO_TELL]]
@@ -100,7 +105,7 @@ def speeds_tile(found: Speeds, plan: Operating) -> Tile:
         remarks = phrase("the excitation does not move {outputs}; {text}", outputs=joined(", ", found.unmoved), text=remarks)
     if found.refused:
         remarks = phrase("the sliding state of the rotating string has no solution, the state at rest takes its place; {text}", text=remarks)
-    return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if silent or found.unmoved or found.refused else OK)
+    return Tile(title, value, remarks, OVER if inside else NEAR if near else NOT_ASSESSED if found.partial else OK)
 
 
 def speeds_figure(found: Speeds) -> Figure:

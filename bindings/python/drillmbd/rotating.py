@@ -13,7 +13,7 @@ from .operating import operating
 from .remade import number_of, time_functions_of, with_time_functions
 from .rig_torque import balanced
 from .scene import Scene
-from .scene.largest import largest_of
+from .scene.largest import bounded, largest_of
 from .unit_systems import Units
 
 if TYPE_CHECKING:
@@ -42,8 +42,9 @@ def loads_of_bits(scene: Scene) -> list[int]:
     return [number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")]
 
 
-def extreme(segments: Any) -> float:
-    """The value of largest magnitude of a time function, with its sign; 0 where a function of the caller gives it."""
+def extreme(time_functions: list[Any], number: int) -> float:
+    """The value of largest magnitude of the time function of a number, with its sign; 0 where a function of the caller gives it."""
+    segments = bounded(time_functions[number], time_functions)
     size = largest_of(segments)
     if not size:
         return 0.0
@@ -81,7 +82,7 @@ def options_of(scene: Scene, analysis: str) -> dict[str, Any]:
     or of the slip in [static]; speeds of a scene without any take the middle of their range."""
     given = scene.fields_of(analysis)
     number = drive_at_speed(scene, enums.RX)
-    described = extreme(time_functions_of(scene)[number]) if number is not None else 0.0
+    described = extreme(time_functions_of(scene), number) if number is not None else 0.0
     usual: Any = _structs.SpeedsOptions(**{key: given[key] for key in ("speed_low", "speed_high") if key in given})
     middle = 0.5 * (usual.speed_low + usual.speed_high) if analysis == "speeds" else 0.0
     rotation = float(given.get("spin", described or scene.fields_of("static").get("slip_rotation", 0.0) or middle))
@@ -99,7 +100,7 @@ def sliding(scene: Scene, analysis: str) -> Linear | None:
     if not rotation:
         return None
     time_functions = time_functions_of(scene)
-    loads = {one: [{"h0": extreme(time_functions[one])}] for one in loads_of_bits(scene) if extreme(time_functions[one])}
+    loads = {one: [{"h0": extreme(time_functions, one)}] for one in loads_of_bits(scene) if extreme(time_functions, one)}
     static = {**scene.fields_of("static"), "slip_rotation": rotation}
     turned, torque = balanced(with_time_functions(scene, loads) if loads else scene, static)
     return Linear(turned, static, options, rotation, operating(scene).weight_on_bit or 0.0 if loads else 0.0, torque)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .critical_speeds import Found
 
 MOST_SPEEDS, PROCESSES, PLACES = 100, 2, 20
+OSCILLATING = (enums.SEGMENT_HARMONIC, enums.SEGMENT_PERIODIC, enums.SEGMENT_PER_REVOLUTION)  #: kinds of segments
 RAMP = 2.0              #: [s] of rotation and feed, and then of the loads on bits
 WINDOW = 4.0            #: [s] that is judged, at least
 REVOLUTIONS = 3         #: in it, at least
@@ -65,15 +66,26 @@ def ramp(begin: float, value: float) -> list[dict[str, Any]]:
     return [{"kind": enums.SEGMENT_STEP5, "x0": begin, "x1": begin + RAMP, "h0": 0.0, "h1": value}]
 
 
+def _ramps(scene: Scene, speed: float, turning: int) -> dict[int, list[dict[str, Any]]]:
+    """Segments that replace those of the rotation, the feed and the loads of bits, by the number of the time function."""
+    time_functions = remade.time_functions_of(scene)
+    segments = {one: ramp(RAMP, rotating.extreme(time_functions, one)) for one in rotating.loads_of_bits(scene) if rotating.extreme(time_functions, one)}
+    feed = rotating.drive_at_speed(scene, enums.X)
+    if feed is not None and rotating.extreme(time_functions, feed):
+        segments[feed] = ramp(0.0, rotating.extreme(time_functions, feed))
+    segments[turning] = ramp(0.0, speed)
+    return segments
+
+
 def at_speed(scene: Scene, speed: float, turning: int) -> Scene:
     """The scene started within RAMP to the rotation and its feed, and then loaded; its other time functions are as described."""
+    return replace(remade.with_time_functions(scene, _ramps(scene, speed, turning)), progress=None, changed=None)  # which other processes do not need
+
+
+def oscillation_left_out(scene: Scene, turning: int) -> bool:
+    """Whether a time function that ramps replace oscillates."""
     time_functions = remade.time_functions_of(scene)
-    segments = {one: ramp(RAMP, rotating.extreme(time_functions[one])) for one in rotating.loads_of_bits(scene) if rotating.extreme(time_functions[one])}
-    feed = rotating.drive_at_speed(scene, enums.X)
-    if feed is not None and rotating.extreme(time_functions[feed]):
-        segments[feed] = ramp(0.0, rotating.extreme(time_functions[feed]))
-    segments[turning] = ramp(0.0, speed)
-    return replace(remade.with_time_functions(scene, segments), progress=None, changed=None)  # what another process does not need
+    return any(one.get("kind") in OSCILLATING for number in _ramps(scene, 0.0, turning) for one in time_functions[number])
 
 
 def places_of(scene: Scene) -> list[Any]:
@@ -120,6 +132,9 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
         out.say(NO_DRIVE)
         out.summary["speeds_check"] = None
         return
+    if oscillation_left_out(scene, turning):
+        out.note_text("check in time: the rotation, feed or load on the bit of the scene oscillates, and the runs leave that out; describe it by the key "
+                      "excitation of the drive to include it")
     courses = _courses(scene, found, count, turning)
     longest = max(one.end for one in courses)
     out.say(f"check in time: {len(courses)} speeds of {courses[-1].end:.3g} to {longest:.3g} s each, in {PROCESSES} processes; rotation and feed are "
@@ -141,7 +156,7 @@ def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Cours
     """Speeds spread evenly over the range; the rotation of the scene takes the place of the nearest one."""
     low, high = found.grid[0], found.grid[-1]
     speeds = [low + (high - low) * i / (count - 1) for i in range(count)]
-    own = abs(rotating.extreme(remade.time_functions_of(scene)[turning]))
+    own = abs(rotating.extreme(remade.time_functions_of(scene), turning))
     if low <= own <= high:
         speeds[min(range(count), key=lambda i: abs(speeds[i] - own))] = own
     slowest = slowest_period(scene)
@@ -187,7 +202,7 @@ def _linear(found: Found, speed: float) -> str:
         return "not assessed"
     if any(band.low <= speed <= band.high for band in found.bands):
         return "avoid"
-    return "not assessed" if found.state.refused or found.partial else "free"
+    return "free" if found.whole else "not assessed"
 
 
 def _line(one: Result, linear: str, out: CommandOutput) -> str:

@@ -69,16 +69,16 @@ def bands_over_range(scene: Scene, out: CommandOutput, found: Found) -> list[tup
         try:
             case = analyse(scene.changed(changes), lambda sim, state: sim.static(**state.static), failed.append)
             bands += [(band.low, band.high) for band in case.bands]
-            lost += case.state.refused
+            lost += not case.whole
         except (Error, SceneError) as error:
             failed.append(str(error))
             lost += 1
     parts: list[Any] = [*scene.variability.scatters, *scene.variability.fields]
     parts_text = ", ".join(_words(one, out.units) for one in parts)
     ranges = union(bands)
-    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else "no critical speed in any of them")
+    text = "; ".join(f"avoid {low / RPM:.0f} .. {high / RPM:.0f} rpm" for low, high in ranges) or ("not assessed" if lost == len(cases) else f"no critical speed in {len(cases) - lost} of them")
     if lost:
-        text += f"; {lost} of the {len(cases)} cases are not assessed"
+        text += f"; {lost} of the {len(cases)} cases are not assessed, or not for all outputs and orders"
     how = "all combinations" if len(parts) <= MOST_BREAKPOINTS else "one at its end, the others in the middle"
     out.say(f"over the range of {parts_text} ({len(cases)} cases, {how}): {text}")
     for one in dict.fromkeys(failed):

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..enums import RX
 from ..errors import Error
 from ..operating import has_rock_law, operating
 from ..scene import CannotSave, Scene, SceneError, loads
@@ -27,7 +28,9 @@ class Assessed:
 
     @property
     def still(self) -> bool:
-        """No drive of rotation ever turns."""
+        """No drive of rotation ever turns, or there is none."""
+        if not any(name == "add_drive" and arguments[0].get("component") == RX for name, arguments in self.scenes[0].model.calls):
+            return True
         return all(plan.rotation == 0.0 for plan in self.plans)
 
     @property
@@ -38,7 +41,7 @@ class Assessed:
     def reason(self, one: Failure) -> str:
         """Why a failure is not assessed; "" where it is."""
         if one.kind in TURNS and self.still:
-            return "the drive of rotation does not turn in this scene; give its time function a speed"
+            return "no drive of rotation turns in this scene; give one a time function with a speed"
         if one.kind in BEARS and self.unloaded:
             return "the scene gives the bit no load; set load in [[bit]], or a rock law"
         if one.kind == "leaves-seam" and not any(Course(self.scenes[0]).off(other) for other in self.scenes[1:]):
@@ -56,7 +59,7 @@ class Assessed:
         """Parts that the estimates leave out."""
         torques = [one.name for one in failures if one.kind in TORQUES]
         if self.question == "run" and self.still and torques:
-            return [f"{', '.join(torques)}: torque of rotation is not assessed, because the drive of rotation does not turn in this scene"]
+            return [f"{', '.join(torques)}: torque of rotation is not assessed, because no drive of rotation turns in this scene"]
         return []
 
 

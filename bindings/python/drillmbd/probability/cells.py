@@ -174,15 +174,17 @@ class Map:
                 *(end for one in known for end in ((one.percentiles[-1].low, one.percentiles[-1].high) if one else (math.nan, math.nan))),
                 *(one.percentiles[-1].share if one else math.nan for one in known)]
 
-    @staticmethod
-    def _against(first: Cell | None, cell: Cell) -> list[Any]:
+    def _against(self, first: Cell | None, cell: Cell) -> list[Any]:
         """Samples that fail here and not in the first cell, the other way round, and the chance of so unequal counts."""
-        found = paired(first, cell) if first is not None else None
+        found = paired(first, cell) if first is not None and self.question != "auto" else None
         return ["", "", ""] if found is None else [found.more, found.fewer, found.chance]
 
     # ---- Neighbours --------------------------------------------------------------------------------------------------
     def _pairs(self) -> None:
         """Pairs of cells that differ by one step of one key, as a table and, where they are few, as lines."""
+        if self.question == "auto":
+            self.output.note_text("pairs of cells are not compared, because the question auto runs other samples in each cell; ask --question run")
+            return
         found = [(key, a, b, one) for key, a, b in self._neighbours() if (one := paired(a, b)) is not None]
         rows = [[key, a.values[key], b.values[key], *(value for other, value in a.values.items() if other != key), one.samples, one.more, one.fewer,
                  one.chance, one.word] for key, a, b, one in found]
@@ -194,16 +196,14 @@ class Map:
         for key, a, b, one in found if len(found) <= MOST_LINES else []:
             others = ", ".join(f"{other} = {value}" for other, value in a.values.items() if other != key and len(dict(self.vary)[other]) > 1)
             self.output.say(f"{key} from {a.values[key]} to {b.values[key]}" + (f", at {others}" if others else "") + f": {one.more} more fail and {one.fewer} "
-                            f"fewer of the same {one.samples} samples, {(one.more - one.fewer) / one.samples:+.3g}: {one.word} (exact McNemar test, "
-                            f"p = {one.chance:.2g})")
+                            f"fewer of the same {one.samples} samples, {one.words}")
 
     def _flat(self) -> None:
         """A note of keys that change no demand: the question may leave out their effect."""
         most: dict[str, float] = {}
         for key, a, b in self._neighbours():
-            both = a.demands.keys() & b.demands.keys()
-            if both:
-                most[key] = max(most.get(key, 0.0), *(_change(a.demands[name], b.demands[name]) for name in both))
+            if not a.message and not b.message and (a.demands or b.demands):
+                most[key] = max(most.get(key, 0.0), *(_change(a.demands.get(name), b.demands.get(name)) for name in a.demands.keys() | b.demands.keys()))
         for key, change in most.items():
             if change < FLAT:
                 left_out = "; this question leaves out dynamics, on which speed and feed act: ask --question run or auto" if self.question in (
@@ -221,8 +221,10 @@ class Map:
         return found
 
 
-def _change(a: Demand, b: Demand) -> float:
-    """Largest relative difference of the percentiles of a demand, or of its limit."""
+def _change(a: Demand | None, b: Demand | None) -> float:
+    """Largest relative difference of the percentiles of a demand, or of its limit; 1 where a cell has none, or its samples have limits of their own."""
+    if a is None or b is None or a.limit_varies or b.limit_varies:
+        return 1.0
     values = [(one.value, other.value) for one, other in zip(a.percentiles, b.percentiles)] + [(a.failure.limit, b.failure.limit)]
     return max(0.0 if x == y else min(1.0, abs(x - y) / max(abs(x), abs(y))) if math.isfinite(x) and math.isfinite(y) else 1.0 for x, y in values)
 
@@ -234,6 +236,13 @@ class Pair:
     more: int       #: fail in the second only
     fewer: int      #: fail in the first only
     chance: float   #: of so unequal counts if both were as likely (McNemar 1947, exact)
+
+    @property
+    def words(self) -> str:
+        """The effect, the difference of the probabilities and the test."""
+        if not self.samples:
+            return self.word
+        return f"{(self.more - self.fewer) / self.samples:+.3g}: {self.word} (exact McNemar test, p = {self.chance:.2g})"
 
     @property
     def word(self) -> str:

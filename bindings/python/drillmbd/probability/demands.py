@@ -74,7 +74,8 @@ class Demand:
             return [f"{name}: not assessed, because the rig never {'pushes' if kind == 'rig-push' else 'pulls'} (largest demand "
                     f"{amount(self.most, KINDS[kind].unit)}){more}"]
         if self.samples > 1 and self.least == self.most and abs(self.most) > nothing and math.isfinite(self.most):
-            return [f"{name}: the demand is the same in all samples: nothing that varies acts on it, and its probability is that of the scene as it is written"]
+            follows = "is that of its limit" if self.limit_varies else "is that of the scene as it is written"
+            return [f"{name}: the demand is the same in all samples: nothing that varies acts on it, and its probability {follows}"]
         return []
 
     def record(self) -> dict[str, Any]:

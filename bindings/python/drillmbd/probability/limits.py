@@ -67,13 +67,19 @@ def _stick_slip(times: Any, s: dict[str, Any], values: dict[str, float]) -> floa
     return float(s["spin"].max() - s["spin"].min()) / (2.0 * mean) if mean > 0.0 else 0.0
 
 
+def _from_zero(values: Any) -> float:
+    """The largest value, 0 at least; NaN where one is."""
+    largest = float(values.max())
+    return largest if math.isnan(largest) else max(0.0, largest)
+
+
 def _tightening(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
     """Torque that tightens a right-hand thread (TORQUE_SIGN)."""
-    return max(0.0, float(s["most"].max()) if TORQUE_SIGN > 0.0 else float(-s["least"].min()))
+    return _from_zero(s["most"] if TORQUE_SIGN > 0.0 else -s["least"])
 
 
 def _loosening(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
-    return max(0.0, float(-s["least"].min()) if TORQUE_SIGN > 0.0 else float(s["most"].max()))
+    return _from_zero(-s["least"] if TORQUE_SIGN > 0.0 else s["most"])
 
 
 def _largest(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:

@@ -77,6 +77,11 @@ def source_of(own: Any) -> str:
     return own.source if isinstance(own, Own) else inspect.getsource(own)
 
 
+def worst(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """The pair with the least margin; one without a margin where there is any."""
+    return next((one for one in found if math.isnan(one[0])), min(found))
+
+
 @dataclass
 class SceneSample:
     """evaluate(number, z) -> Result, of a scene given as text."""
@@ -221,7 +226,7 @@ class SceneSample:
         for state in statics.states(scene):
             with statics.at_rest(state) as sim:
                 found.append(self._looked(state.scene, sim, values, 0.0, 1.0, state.torque))
-        return [min(one) for one in zip(*found)]
+        return [worst(one) for one in zip(*found)]
 
     def _looked(self, scene: Scene, sim: Any, values: dict[str, Any], end: float, look: float, more: Mapping[str, float]
                 ) -> list[tuple[float, float]]:

@@ -11,6 +11,7 @@ from .. import enums
 from ..errors import Error
 from ..model import remake
 from ..operating import operating, polar_moduli
+from ..remade import number_of, time_functions_of
 from ..scene import Scene
 from ..scene.largest import largest_of
 from ..sim import Sim
@@ -29,12 +30,12 @@ class State:
 
 def _loaded(scene: Scene) -> Scene:
     """The scene with the time functions of bit loads at their largest from the beginning."""
-    numbers = {arguments[0]["load"].index & 0xFFFFFF for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")}
-    calls, number, changed = [], -1, False
+    numbers = {number_of(arguments[0]["load"]) for name, arguments in scene.model.calls if name == "add_bit" and arguments[0].get("load")}
+    calls, number, changed, time_functions = [], -1, False, time_functions_of(scene)
     for name, arguments in scene.model.calls:
         number += name == "add_time_function"
         if name == "add_time_function" and number in numbers:
-            largest = largest_of(arguments)
+            largest = largest_of(arguments, time_functions)
             if largest is not None:
                 arguments, changed = ({"h0": largest},), True
         calls.append((name, arguments))

@@ -25,11 +25,13 @@ class Rule:
 
     def verdict(self, one: Estimate) -> str:
         """The state of the estimate in words."""
-        if self.bound:
+        if self.bound and one.lost < one.samples:
             word = "is below" if one.high < self.bound else "is above" if one.low > self.bound else "cannot be distinguished from"
             return f"the probability {word} {self.bound:g}"
+        if one.lost == one.samples:
+            return "not assessed, because no sample has a margin"
         if not one.probability > 0.0:
-            return "no sample failed, so that the interval has no relative width"
+            return "no sample with a margin failed, so that the interval has no relative width"
         return f"half of the interval is {50.0 * (one.high - one.low) / one.probability:.3g} % of the probability, requested {100 * self.share:g} %"
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bisect
+from collections.abc import Sequence
 from typing import Any
 
 from .. import enums
@@ -11,9 +12,24 @@ STEPS = (enums.SEGMENT_STEP, enums.SEGMENT_STEP5)
 BETWEEN, MOST_BREAKPOINTS = 16, 2000  #: times between breakpoints, breakpoints up to which there are such
 
 
-def largest_of(segments: Any) -> float | None:
-    """The largest magnitude of a sum of segments over all times; None if a function of the caller or a segment per revolution is among them. Steps and tables are added at
-    the same times, so that a step up and one down later do not add up; harmonics and tables that repeat count with their largest magnitude at any time."""
+def bounded(segments: Any, time_functions: Sequence[Any]) -> list[dict[str, Any]]:
+    """The segments, each one per revolution as a harmonic of its largest amplitude |h1| + |share| max |w|; w is the time function `of`.
+    time_functions: the segments of all time functions of the model, by number."""
+    found = []
+    for one in segments:
+        if one.get("kind") == enums.SEGMENT_PER_REVOLUTION:
+            speed = largest_of(time_functions[one["of"].index & 0xFFFFFF]) or 0.0
+            one = {"kind": int(enums.SEGMENT_HARMONIC), "h0": one.get("h0", 0.0), "h1": abs(one.get("h1", 0.0)) + abs(one.get("share", 0.0)) * speed}
+        found.append(one)
+    return found
+
+
+def largest_of(segments: Any, time_functions: Sequence[Any] = ()) -> float | None:
+    """The largest magnitude of a sum of segments over all times; None if a function of the caller is among them, or a segment per revolution whose
+    time function is not among `time_functions`. Steps and tables are added at the same times, so that a step up and one down later do not add up;
+    harmonics, segments per revolution and tables that repeat count with their largest magnitude at any time."""
+    if time_functions:
+        segments = bounded(segments, time_functions)
     segments = [{**segment, "kind": int(segment.get("kind", enums.SEGMENT_TABLE if "table" in segment else enums.SEGMENT_CONSTANT))} for segment in segments]
     if not all(by_numbers(segment) for segment in segments):
         return None

@@ -423,6 +423,8 @@ class Loader:
             self.problems.add(path + (key,), table[key], 'belongs to segments with kind = "per-revolution"')
         if "table" in table:
             values["table"] = self.pairs(path + ("table",), table["table"], "s", unit, "time and value")
+            if kind not in (None, enums.SEGMENT_TABLE, enums.SEGMENT_PERIODIC):
+                self.problems.add(path + ("kind",), table["kind"], 'must be "table" or "periodic" with a table; leave out the one or the other')
             if kind != enums.SEGMENT_PERIODIC:
                 values.pop("kind", None)
         elif kind in (enums.SEGMENT_TABLE, enums.SEGMENT_PERIODIC):

@@ -151,6 +151,7 @@ class Writer:
             found.update({drive[key].index: unit for key in ("time_function", "excitation") if key in drive})
         for kind, key, unit in (("bit", "load", "N"), ("load", "time_function", "-")):
             found.update({part[key].index: unit for _, part in self.parts.get(kind, []) if key in part})
+        found.update({segment["of"].index: "rad/s" for _, segments in self.parts.get("time_function", []) for segment in segments if segment.get("of")})
         return found
 
     def _constants(self) -> dict[int, tuple[float, str]]:
@@ -295,8 +296,8 @@ class Writer:
                 return fields.by_component(fields_of(DEFINITIONS[kind])[key].unit, component)
             return None
 
-        if kind == "drive" and description.get("value"):
-            self._key("time_function", units.text(description["value"], fields.drive_unit(description.get("kind", 0), component)))
+        if kind == "drive" and not description.get("time_function"):
+            self._key("time_function", units.text(description.get("value", 0.0), fields.drive_unit(description.get("kind", 0), component)))
         self._table(kind, description, unit_of)
         for key in fields.DRIVE_PAIRS if kind == "drive" else ():
             if description.get(key):

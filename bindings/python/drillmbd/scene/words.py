@@ -9,7 +9,7 @@ from .. import enums
 from ..language import Phrase, joined, phrase
 from .content import Scene
 from .fields import DEFINITIONS
-from .largest import largest_of
+from .largest import bounded, largest_of
 from .segments import by_numbers
 from .survey import dogleg
 
@@ -158,12 +158,16 @@ def _bit_load(calls: dict[str, list[tuple[Any, ...]]], bit: dict[str, Any]) -> f
 
 def _ever(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> bool:
     """Whether a time function has a value other than 0 at any time."""
-    segments = calls["add_time_function"][time_function.index & 0xFFFFFF] if time_function else ()
+    segments = _segments(calls, time_function) if time_function else []
     return any(not by_numbers(one) or one.get("h0") or (one.get("h1") and one.get("kind", enums.SEGMENT_CONSTANT) != enums.SEGMENT_CONSTANT)
                or any(value for _, value in one.get("table", ())) for one in segments)
 
 
 def _largest(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> float:
     """The largest magnitude of a time function; of one with a function of Python that of the others."""
-    segments = calls["add_time_function"][time_function.index & 0xFFFFFF]
-    return largest_of([one for one in segments if by_numbers(one)]) or 0.0
+    return largest_of([one for one in _segments(calls, time_function) if by_numbers(one)]) or 0.0
+
+
+def _segments(calls: dict[str, list[tuple[Any, ...]]], time_function: Any) -> list[dict[str, Any]]:
+    known = calls["add_time_function"]
+    return bounded(known[time_function.index & 0xFFFFFF], known)
