@@ -40,7 +40,8 @@ typedef struct dmb_sim_options {
     uint32_t max_cuts;         /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
     int32_t bounded_work;      /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
                                   with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
-                                  divided at breakpoints; for control loops; default 0 */
+                                  divided at breakpoints, and fails if a stop or one-sided spring turns a body by
+                                  more than a radian in it; for control loops; default 0 */
     int32_t energy_ledger;     /* 1 (default): keep the energy ledger; 0: it is not computed */
     uint32_t max_steps;        /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
                                   0 (default): no bound */

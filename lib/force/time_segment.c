@@ -202,17 +202,18 @@ static double passage_integral(const passage *p, double t0, double t1)
     return sum + 0.5 * (start_value + table_at(p, next, t1)) * (t1 - start);
 }
 
-/* The rest of the passage of t0, whole passages, the beginning of that of t1. */
+/* The rest of the passage of t0, whole passages, the beginning of that of t1. Whole passages count by their mean and
+ * the time between their rounded ends: their number times the period differs from that time by the rounding of t. */
 static double table_integral(const dmb_segment *segment, double t0, double t1)
 {
     const passage here = passage_at(segment, t0);
     if (segment->kind != DMB_SEGMENT_PERIODIC || t1 <= here.end) return passage_integral(&here, t0, t1);
 
-    const double first = number_at(segment, t0), last = number_at(segment, t1);
+    const double last = number_at(segment, t1), start = passage_start(segment, last), first = segment->table_time[0];
     const passage base = passage_number(segment, 0.0), there = passage_number(segment, last);
     double sum = passage_integral(&here, t0, here.end);
-    if (last - first > 1.0) sum += (last - first - 1.0) * passage_integral(&base, segment->table_time[0], base.end);
-    return sum + passage_integral(&there, passage_start(segment, last), t1);
+    if (start > here.end) sum += (start - here.end) * (passage_integral(&base, first, base.end) / (base.end - first));
+    return sum + passage_integral(&there, start, t1);
 }
 
 static double table_next_breakpoint(const dmb_segment *segment, double t)

@@ -219,6 +219,7 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
 {
     dmb_trial_step_set_up(sim, &trial_step->end, &trial_step->evaluation);
     trial_step->released = 0;
+    trial_step->over = DMB_NONE;
     dmb_bounces_begin(sim, dmb_step_end_asked(&trial_step->end));
     dmb_prediction_make(sim, c, trial_step);
     int32_t status = dmb_system_prescribe(&trial_step->evaluation);
@@ -228,7 +229,8 @@ static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_tria
     status = dmb_newton(sim, c, trial_step);
     if (status >= 0 && trial_step->linear && dmb_contact_changes(sim)) return DMB_CHANGES;
     if (status == DMB_OK) status = release(sim, c, trial_step);
-    return status == DMB_OK && dmb_bounces_overturn(sim, trial_step->end.step) ? DMB_ERR_NO_CONVERGENCE : status;
+    if (status == DMB_OK) trial_step->over = dmb_bounces_overturn(sim, trial_step->end.step);
+    return trial_step->over != DMB_NONE ? DMB_ERR_NO_CONVERGENCE : status;
 }
 
 static int32_t run_stage(dmb_sim *sim, const dmb_generalized_alpha *c, int32_t stage, dmb_trial_step *trial_step)
@@ -412,6 +414,16 @@ static void advise(const dmb_sim *sim, dmb_message *text)
                     bit, spin);
 }
 
+static void explain_turn(dmb_sim *sim, const dmb_trial_step *trial_step)
+{
+    const dmb_owner owner = dmb_owner_of_node(sim->scene, trial_step->over);
+    dmb_message_set(&sim->message,
+                    "%s: the step to time %g of length %g turns it by more than 1 rad beyond twice its rotation at the "
+                    "speed before, while stops or one-sided springs act: take shorter steps%s",
+                    owner.text.text, trial_step->end.time, trial_step->end.step,
+                    sim->options.bounded_work ? ", or bounded_work 0, which divides such steps" : "");
+}
+
 void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
 {
     dmb_owner owner;
@@ -456,6 +468,10 @@ void dmb_trial_step_explain(dmb_sim *sim, const dmb_trial_step *trial_step)
     default:
         if (sim->reduced_mode->row != DMB_NONE) {
             dmb_clusters_explain(sim, "its equations cannot be satisfied");
+            break;
+        }
+        if (trial_step->over != DMB_NONE) {
+            explain_turn(sim, trial_step);
             break;
         }
         advise(sim, &owner.text);

@@ -40,6 +40,7 @@ typedef struct dmb_trial_step {
     uint32_t iterations;
     int32_t status;   /* DMB_OK, DMB_NOTE_WORK_LIMITED, or the error of a failed step */
     uint32_t block;   /* block found singular, with DMB_ERR_SINGULAR */
+    uint32_t over;    /* node that a converged step turned too far (dmb_bounces_overturn), or DMB_NONE */
     int32_t stage;    /* DMB_STAGE_... */
     int32_t keep;     /* DMB_KEEP_...; NOTHING: reused factors are not used either */
     int32_t factored; /* DMB_FACTORS_...: factors of the last iteration */

@@ -269,18 +269,22 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     return status;
 }
 
+typedef uint32_t (*dmb_warning)(const dmb_scene *scene, uint32_t from, dmb_message *text);
+
 /* Writes each warning to the log, and the first also into the message. */
 static void warn(dmb_model *model, const dmb_scene *scene)
 {
+    static const dmb_warning warnings[] = {dmb_supported_site, dmb_followed_input};
     const dmb_log log = {model->log, model->log_context};
     const dmb_message counts = model->message;
     dmb_message text;
     int first = 1;
-    for (uint32_t i = dmb_supported_site(scene, 0, &text); i != DMB_NONE; i = dmb_supported_site(scene, i + 1, &text)) {
-        dmb_log_text(&log, DMB_LOG_WARNING, text.text);
-        if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
-        first = 0;
-    }
+    for (size_t k = 0; k < sizeof warnings / sizeof warnings[0]; ++k)
+        for (uint32_t i = warnings[k](scene, 0, &text); i != DMB_NONE; i = warnings[k](scene, i + 1, &text)) {
+            dmb_log_text(&log, DMB_LOG_WARNING, text.text);
+            if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
+            first = 0;
+        }
 }
 
 static void tell(dmb_model *model, const dmb_scene *scene)

@@ -242,6 +242,9 @@ int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 /* Bodies on joints that a step integrates in axes that do not spin with them. */
 int32_t dmb_mesh_rotors(dmb_mesh *mesh);
 int32_t dmb_mesh_inputs(dmb_mesh *mesh);
+/* First input from number `from` on that replaces a time function which a segment per revolution in use follows as
+ * described, with a warning; DMB_NONE: none. */
+uint32_t dmb_followed_input(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 /* DMB_FEATURE_... that are requested and present. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh);

@@ -126,3 +126,60 @@ int32_t dmb_mesh_inputs(dmb_mesh *mesh)
     for (uint32_t i = 0; i < mesh->model->events.count && status >= 0; ++i) status = add_event(mesh, i);
     return status;
 }
+
+/* ---- Inputs beside segments per revolution ----------------------------------------------------------------------- */
+
+/* Time function that an input replaces; DMB_NONE: none. */
+static uint32_t replaced(const dmb_scene *scene, const dmb_scene_input *input)
+{
+    switch (input->target) {
+    case DMB_TARGET_SET_POINT: return scene->drives[input->index].time_function;
+    case DMB_TARGET_LOAD_FACTOR: return scene->loads[input->index].time_function;
+    case DMB_TARGET_BIT_LOAD: return scene->bits[input->index].load;
+    default: return DMB_NONE;
+    }
+}
+
+/* 1: a segment of time function `by` follows time function `of`. */
+static int follows(const dmb_scene *scene, uint32_t by, uint32_t of)
+{
+    if (by == DMB_NONE) return 0;
+    const dmb_time_function *f = scene->time_functions + by;
+    for (uint32_t k = 0; k < f->count; ++k) {
+        if (f->segments[k].kind != DMB_SEGMENT_PER_REVOLUTION) continue;
+        const dmb_time_function *turning = f->segments[k].callback_context;
+        if (turning->segments == scene->time_functions[of].segments) return 1;
+    }
+    return 0;
+}
+
+/* First time function in use that follows `of`; DMB_NONE: none. */
+static uint32_t follower_of(const dmb_scene *scene, uint32_t of)
+{
+    for (uint32_t i = 0; i < scene->drive_count; ++i) {
+        if (follows(scene, scene->drives[i].time_function, of)) return scene->drives[i].time_function;
+        if (follows(scene, scene->drives[i].excitation, of)) return scene->drives[i].excitation;
+    }
+    for (uint32_t i = 0; i < scene->load_count; ++i)
+        if (follows(scene, scene->loads[i].time_function, of)) return scene->loads[i].time_function;
+    for (uint32_t i = 0; i < scene->bit_count; ++i)
+        if (follows(scene, scene->bits[i].load, of)) return scene->bits[i].load;
+    return DMB_NONE;
+}
+
+uint32_t dmb_followed_input(const dmb_scene *scene, uint32_t from, dmb_message *text)
+{
+    for (uint32_t i = from; i < scene->input_count; ++i) {
+        const dmb_scene_input *input = scene->inputs + i;
+        const uint32_t of = replaced(scene, input), by = of == DMB_NONE ? DMB_NONE : follower_of(scene, of);
+        dmb_message name;
+        if (by == DMB_NONE) continue;
+        dmb_message_set(text,
+                        "%s: it replaces time function %u, but a segment of time function %u follows that per "
+                        "revolution as described: once the input is set, angle and amplitude of the segment are no "
+                        "longer those of the driven part",
+                        dmb_part_text(&name, "input", i, input->name, sizeof input->name), of, by);
+        return i;
+    }
+    return DMB_NONE;
+}

@@ -82,9 +82,8 @@ static void add_ball(rig *s, double k, double c)
     (void)add_joint(s, &ball);
 }
 
-static void open_scene(rig *s, const spinning *of)
+static void open_with(rig *s, const spinning *of, const dmb_sim_options *options)
 {
-    const dmb_sim_options options = sharp_options(of->radius, 1e-10);
     const double w = of->hw * spin / of->per_step, k = mass * w * w, c = 2.0 * of->damping * mass * w;
     rig_open(s, 0.0, 0.0, 0.0);
     if (of->kind == ON_A_BALL) add_ball(s, k, c);
@@ -93,7 +92,13 @@ static void open_scene(rig *s, const spinning *of)
     if (of->kind == TWO_BODIES) add_cage(s, dmb_station(body, 0, 0.0), add_spinning(s, -0.5), 0.5 * k, 0.5 * c);
     if (of->kind == ON_SPRINGS || of->kind == ALONE) add_springs(s, body, k, c);
     if (of->kind == ON_SPRINGS) add_cage(s, dmb_station(ground_id, 0, 0.0), body, 1e-3 * k, 0.0);
-    assert_int_equal(mechanism_start(s, &options), DMB_OK);
+    assert_int_equal(mechanism_start(s, options), DMB_OK);
+}
+
+static void open_scene(rig *s, const spinning *of)
+{
+    const dmb_sim_options options = sharp_options(of->radius, 1e-10);
+    open_with(s, of, &options);
 }
 
 /* Largest energy over the initial one. */
@@ -170,13 +175,33 @@ static void controlled_steps_gain_nothing(void **state)
     }
 }
 
+/* A step that cannot be divided fails where it turns the body too far, says so, and changes nothing. */
+static void bounded_steps_fail_that_turn_too_far(void **state)
+{
+    const spinning of = {IN_A_CAGE, 0.3, 100.0, 0.8, 0.0};
+    dmb_sim_options options = sharp_options(of.radius, 1e-10);
+    int32_t status = DMB_OK;
+    rig s;
+    (void)state;
+    options.bounded_work = 1;
+    open_with(&s, &of, &options);
+    double energy = energy_now(&s);
+    for (int n = 0; n < 40 && status >= 0; n++) {
+        energy = energy_now(&s);
+        status = dmb_sim_step(s.sim, of.per_step / spin, NULL);
+    }
+    assert_int_equal(status, DMB_ERR_NO_CONVERGENCE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "body 0: the step to time 0.039 of length 0.003 turns it by more"));
+    assert_true(energy_now(&s) == energy);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tenth_of_a_radian_a_step_gains_nothing),
-        cmocka_unit_test(a_radian_a_step_gains_little),
-        cmocka_unit_test(without_joints_springs_give_a_bounded_gain),
-        cmocka_unit_test(controlled_steps_gain_nothing),
+        cmocka_unit_test(a_tenth_of_a_radian_a_step_gains_nothing),   cmocka_unit_test(a_radian_a_step_gains_little),
+        cmocka_unit_test(without_joints_springs_give_a_bounded_gain), cmocka_unit_test(controlled_steps_gain_nothing),
+        cmocka_unit_test(bounded_steps_fail_that_turn_too_far),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

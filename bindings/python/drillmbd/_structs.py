@@ -3487,7 +3487,7 @@ class SimOptions(Sized):
         "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),
         "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
         "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
-        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints; for control loops; default 0"),
+        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at breakpoints, and fails if a stop or one-sided spring turns a body by more than a radian in it; for control loops; default 0"),
         "energy_ledger": ("", "1 (default): keep the energy ledger; 0: it is not computed"),
         "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
         "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),

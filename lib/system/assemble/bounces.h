@@ -47,9 +47,9 @@ void dmb_bounce_close_gap(const dmb_sim *sim, uint32_t u, uint32_t a, double Ja[
 void dmb_bounces_add_gyroscopic(dmb_evaluation *evaluation, double factor);
 /* Adds it once if a mean force has acted in the step. */
 void dmb_bounces_turn(dmb_evaluation *evaluation);
-/* 1: a step with mean forces has turned a node much further than the speed at its start would: another solution of its
- * equations, about a turn away. */
-int dmb_bounces_overturn(const dmb_sim *sim, double h);
+/* Node that a step with mean forces has turned much further than the speed at its start would: another solution of its
+ * equations, about a turn away. DMB_NONE: none. */
+uint32_t dmb_bounces_overturn(const dmb_sim *sim, double h);
 uint32_t dmb_bounce_of_spring(const dmb_scene *scene, uint32_t spring);
 /* Coordinate of a law in the trial, its speed, and its force against growing coordinates. */
 typedef struct dmb_bounce {

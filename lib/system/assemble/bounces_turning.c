@@ -96,7 +96,7 @@ void dmb_bounces_turn(dmb_evaluation *evaluation)
 #define DMB_TURN_FREE 1.0
 #define DMB_TURN_SHARE 2.0
 
-int dmb_bounces_overturn(const dmb_sim *sim, double h)
+uint32_t dmb_bounces_overturn(const dmb_sim *sim, double h)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; *sim->laws_bounce && i < scene->rigid_mass_count; i++) {
@@ -104,7 +104,7 @@ int dmb_bounces_overturn(const dmb_sim *sim, double h)
         if (!dmb_bounce_turns(sim, node)) continue;
         const double turned = dmb_vec3_norm(sim->increment + row + 3);
         const double free = h * dmb_vec3_norm(sim->now.velocity + row + 3);
-        if (turned > DMB_TURN_FREE + DMB_TURN_SHARE * free) return 1;
+        if (turned > DMB_TURN_FREE + DMB_TURN_SHARE * free) return node;
     }
-    return 0;
+    return DMB_NONE;
 }

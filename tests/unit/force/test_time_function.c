@@ -287,6 +287,25 @@ static void repeated_table(void **state)
     CHECK_RELATIVE(integral_of(&p, -6.7, 7000.3), whole * 7007.0 / 0.7, 1e-13);
 }
 
+/* Far from 0 the knots of a short period are rounded to the spacing of times, but an integral over some periods keeps
+ * its digits: that of a constant is exact. */
+static void short_periods_far_out(void **state)
+{
+    const double time[2] = {-4.0973267750784519, -4.0967682663167119}, value[2] = {2.25, 2.25};
+    dmb_segment again = pulses();
+    const dmb_time_function p = {&again, 1};
+    uint64_t seed = 100;
+    (void)state;
+
+    again.table_time = time;
+    again.table_value = value;
+    again.table_count = 2;
+    for (int i = 0; i < 200; ++i) {
+        const double t0 = draw(&seed, -1e6, 1e6), t1 = t0 + draw(&seed, 0, 5e-3);
+        CHECK_RELATIVE(integral_of(&p, t0, t1), 2.25 * (t1 - t0), 1e-13);
+    }
+}
+
 static void breakpoints_of_a_repeated_table(void **state)
 {
     const dmb_segment again = pulses();
@@ -565,6 +584,7 @@ int main(void)
         cmocka_unit_test(table_values_and_breakpoints),
         cmocka_unit_test(breakpoints_of_a_sum),
         cmocka_unit_test(repeated_table),
+        cmocka_unit_test(short_periods_far_out),
         cmocka_unit_test(breakpoints_of_a_repeated_table),
         cmocka_unit_test(swings),
         cmocka_unit_test(swing_of_a_speed),
