@@ -317,6 +317,8 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
         status = make_scene(&mesh, &scene);
         dmb_mesh_release(&mesh);
         if (status < 0) dmb_model_drop_time_functions(model, described);
+        model->constants = model->time_functions.count - described;
+        model->time_functions.count = described; /* the scene alone has the constants */
     }
     if (status < 0) return dmb_describe_close(model, "compile", status);
     tell(model, scene);

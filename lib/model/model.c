@@ -50,9 +50,8 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
 static void release_parts(dmb_model *model)
 {
     const dmb_allocator *allocator = &model->allocator;
-    for (uint32_t i = 0; i < model->time_functions.count; ++i) {
-        dmb_time_function_release(DMB_LIST_AT(dmb_time_function, model->time_functions, i), allocator);
-    }
+    model->time_functions.count += model->constants;
+    dmb_model_drop_time_functions(model, 0);
     dmb_wall_release(&model->wall, allocator);
     dmb_list_release(&model->sections, allocator, sizeof(dmb_hole_section));
     dmb_list_release(&model->time_functions, allocator, sizeof(dmb_time_function));

@@ -110,8 +110,10 @@ struct dmb_model {
     dmb_environment_def environment;
     dmb_wall_def wall;       /* survey points to the model's own copy */
     uint32_t wall_count;     /* 0 or 1 */
+    uint32_t constants;      /* [-] time functions of a compiled model that are not described */
     dmb_list sections;       /* dmb_hole_section, in the order of their depths */
-    dmb_list time_functions; /* dmb_time_function, segments and tables are the model's own copies */
+    dmb_list time_functions; /* dmb_time_function, segments and tables are the model's own copies; of a compiled model
+                                `constants` more behind those of the description, of drives without one */
     dmb_list names;          /* dmb_time_function_name, of named time functions */
     dmb_list strings;        /* dmb_string_plan */
     dmb_list runs;           /* dmb_pipe_run, in the order they were added */

@@ -117,6 +117,36 @@ static void a_failed_compile_leaves_no_constants(void **state)
     rig_close(&s);
 }
 
+static size_t record_of(const dmb_model *model, unsigned char *bytes, size_t room)
+{
+    size_t size = 0;
+    assert_int_equal(dmb_model_write(model, bytes, room, &size), DMB_OK);
+    return size;
+}
+
+/* Constants of drives are no part of the description: a compiled model has the same record, and its time functions the
+ * same numbers. */
+static void constants_are_not_described(void **state)
+{
+    static unsigned char before[16384], after[16384];
+    dmb_id drives[2], ramp = {0, 0}, beyond;
+    char name[DMB_NAME_SIZE];
+    rig s;
+    (void)state;
+    open_driven(&s, DMB_DRIVE_MOTION, 1, 0.02, 3.0, drives);
+    must_model(&s, dmb_model_add_ramp(s.model, 0.0, 1.0, 0.0, 1.0, &ramp));
+    const size_t size = record_of(s.model, before, sizeof before);
+    rig_start(&s, NULL);
+    assert_int_equal(record_of(s.model, after, sizeof after), size);
+    assert_memory_equal(before, after, size);
+    beyond = ramp;
+    beyond.index++;
+    assert_int_equal(dmb_model_get_name(s.model, ramp, name, sizeof name), DMB_OK);
+    assert_int_equal(dmb_model_get_name(s.model, beyond, name, sizeof name), DMB_ERR_ID);
+    take_divided_steps(&s, 1e-3, 20);
+    rig_close(&s);
+}
+
 /* h0 before, h1 after, D^3 (10 - 15 D + 6 D^2) between. */
 static void a_ramp_is_one_segment(void **state)
 {
@@ -181,6 +211,7 @@ int main(void)
         cmocka_unit_test(a_drive_holds),
         cmocka_unit_test(values_are_checked),
         cmocka_unit_test(a_failed_compile_leaves_no_constants),
+        cmocka_unit_test(constants_are_not_described),
         cmocka_unit_test(a_ramp_is_one_segment),
         cmocka_unit_test(one_number),
         cmocka_unit_test(ids_are_equal),
