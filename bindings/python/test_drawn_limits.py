@@ -85,9 +85,9 @@ high = "6 kN"
         self.assertIn("of the limit of the scene file", out)
 
     def test_refused(self):
-        for key, told in (("failure[3].limit", "single number"), ("failure[0].pull", "single number"), ("limits.rig", "single number"),
+        for key, wanted in (("failure[3].limit", "single number"), ("failure[0].pull", "single number"), ("limits.rig", "single number"),
                           ("failure[0].from", "single number"), ("limits.torque.x", "single number")):
-            with self.assertRaisesRegex(scene.SceneError, told, msg=key):
+            with self.assertRaisesRegex(scene.SceneError, wanted, msg=key):
                 scene.loads(LEVEL + RIG.replace("failure[0].limit", key) + PUSH)
 
 
@@ -100,8 +100,8 @@ class DefaultTest(FolderTest):
         notes = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))["notes"]
         self.assertTrue(any("is assumed" in one and "10.3390/pr13072195" in one for one in notes), (out, notes))
         self.assertEqual(scene.loads(LEVEL + failure("wall-pressure", width="20 mm")).failures[0].limit, KINDS["wall-pressure"].default)
-        for kind, told in (("jamming", "no public measurement"), ("leaves-seam", "thickness of the seam"), ("connection-torque", "make_up_torque")):
-            with self.assertRaisesRegex(scene.SceneError, f"(?s)must have a limit.*{told}"):
+        for kind, wanted in (("jamming", "no public measurement"), ("leaves-seam", "thickness of the seam"), ("connection-torque", "make_up_torque")):
+            with self.assertRaisesRegex(scene.SceneError, f"(?s)must have a limit.*{wanted}"):
                 scene.loads(LEVEL + failure(kind))
 
     def test_make_up_torque(self):
@@ -118,8 +118,8 @@ class TogetherTest(FolderTest):
         self.assertEqual(settings_of({"a.b & c": "1 & 2 m", "d": "x & y"}), {"a.b": 1, "c": "2 m", "d": "x & y"})
         self.assertEqual(settings_of({"a & b": 3.5}), {"a": 3.5, "b": 3.5})
         self.assertEqual(varied("a & b=1 m:3 m:2"), ("a & b", ["1.0 m", "3.0 m"]))
-        for wrong, told in (("a & b=1 & 2 & 3", "3 values for 2 keys"), ("a &=1", "is no key"), ("& a=1", "is no key")):
-            with self.assertRaisesRegex(ValueError, told):
+        for wrong, wanted in (("a & b=1 & 2 & 3", "3 values for 2 keys"), ("a &=1", "is no key"), ("& a=1", "is no key")):
+            with self.assertRaisesRegex(ValueError, wanted):
                 varied(wrong)
 
     def test_map(self):
@@ -132,8 +132,8 @@ class TogetherTest(FolderTest):
         saved = scene.load(self.folder / "probability" / "00002" / "scene.toml")
         wall = next(arguments[0] for name, arguments in saved.model.calls if name == "add_wall")
         self.assertEqual((wall["mu_static"], wall["mu_dynamic"]), (0.4, 0.25))
-        told = self.ask("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
-        self.assertIn("each key once", told)
+        said = self.ask("probability", self.scene, "--vary", f"{keys}=0.2", "--vary", "hole.mu_static=0.3", status=2)
+        self.assertIn("each key once", said)
 
     def test_a_map_of_the_question_auto(self):
         """The runs of a cell are those of samples near its limits, others in each cell: pairs of them would be no test."""

@@ -116,7 +116,7 @@ class IntervalTest(unittest.TestCase):
         self.assertEqual((found.low, found.high), (clopper_pearson(1, 10, 0.95)[0], clopper_pearson(2, 10, 0.95)[1]))
 
     def inside(self, name, known, estimates):
-        """At most ALLOWED outside of 99 % intervals; the share of 95 % ones is told."""
+        """At most ALLOWED outside of 99 % intervals; the share of 95 % ones is printed."""
         wide, narrow = 0, 0
         for at99, at95 in estimates:
             wide += at99.low <= known <= at99.high
@@ -263,7 +263,7 @@ class SurrogateTest(unittest.TestCase):
                 self.assertEqual(plan(dimension, 10, degree).terms, known, (dimension, degree))
 
     def test_error_is_told(self):
-        """A kink that polynomials do not follow: the told error is that of points it has not seen."""
+        """A kink that polynomials do not follow: the reported error is that of points it has not seen."""
         rng = np.random.default_rng(2)
         z = rng.standard_normal((500, 2))
         found = Surrogate(z, four_branches(None, z), 6)
@@ -281,8 +281,8 @@ class SurrogateTest(unittest.TestCase):
             Surrogate(z, locked)
         with self.assertRaisesRegex(ValueError, "all the same"):
             Surrogate(z, np.ones(100))
-        for margins, told in ((lambda n, z: np.where(z[:, 0] > 1.0, -math.inf, 1.0), "infinite"), (lambda n, z: np.ones(len(z)), "the same in all")):
-            with self.assertRaisesRegex(ArithmeticError, told):
+        for margins, wanted in ((lambda n, z: np.where(z[:, 0] > 1.0, -math.inf, 1.0), "infinite"), (lambda n, z: np.ones(len(z)), "the same in all")):
+            with self.assertRaisesRegex(ArithmeticError, wanted):
                 sobol_indices(margins, {"a": 1, "b": 1}, 16)
 
     def test_noise_is_no_model(self):

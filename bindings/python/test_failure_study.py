@@ -30,7 +30,7 @@ class StudyTest(FolderTest):
 
     def test_command(self):
         out, vary = self.folder / "out", [word for one in self.words() for word in ("--vary", one)]
-        told = self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
+        said = self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)
         summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
         self.assertEqual(len(summary["cells"]), 4)  # contact only, vibration, friction, both
         failing = []
@@ -43,7 +43,7 @@ class StudyTest(FolderTest):
         for pair, (a, b) in zip(pairs, ((0, 2), (1, 3), (0, 1), (2, 3)), strict=True):
             more = sum(failing[b][n] and not failing[a][n] for n in range(4))
             self.assertEqual((int(pair["samples"]), int(pair["fail only after"])), (4, more))
-        self.assertIn("exact McNemar test", told)
+        self.assertIn("exact McNemar test", said)
         self.assertTrue((out / "map.png").exists())  # keys with one value are no axes
         before = [read_rows(out / f"{number:05d}" / "study.h5")[0]["seconds"].tolist() for number in range(1, 5)]
         self.ask("probability", STUDY / "rig.toml", "-o", out, *vary, *SHORT)

@@ -354,20 +354,26 @@ class UntilTest(FolderTest):
 
     def test_verdicts_hold(self):
         """A study that stops as soon as its interval leaves the bound, at a probability that is the bound: a verdict is wrong in 5 of 100 cases at
-        most, though there are eleven looks."""
-        rng, bound, repeats, wrong = np.random.default_rng(5), 0.02, 400, 0
-        confidence, most = until.spent(0.95, 20_000), 20_000
-        for _ in range(repeats):
-            failures = samples = 0
-            while samples < most:
-                more = until.following(samples, most)
-                failures += int(rng.binomial(more - samples, bound))
-                samples = more
-                low, high = clopper_pearson(failures, samples, confidence)
-                if high < bound or low > bound:
-                    wrong += 1
-                    break
-        self.assertLessEqual(wrong, 0.05 * repeats)
+        most, though there are nine looks; in more than 20 if each look had an interval of 95 %."""
+        bound, repeats, most = 0.02, 400, 20_000
+        self.assertEqual(until.looks(most), 9)
+
+        def wrong(confidence):
+            rng, count = np.random.default_rng(5), 0
+            for _ in range(repeats):
+                failures = samples = 0
+                while samples < most:
+                    more = until.following(samples, most)
+                    failures += int(rng.binomial(more - samples, bound))
+                    samples = more
+                    low, high = clopper_pearson(failures, samples, confidence)
+                    if high < bound or low > bound:
+                        count += 1
+                        break
+            return count / repeats
+
+        self.assertLessEqual(wrong(until.spent(0.95, most)), 0.05)
+        self.assertGreater(wrong(0.95), 0.2)
 
     def test_command(self):
         """Stops at the first look at which the rule is met, and at --samples where it never is."""
@@ -421,13 +427,13 @@ class MapTest(FolderTest):
         self.assertNotIn("Traceback", out)
 
     def test_refused(self):
-        for words, told in ((("--vary", "x"), "write KEY=V1,V2"), (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
+        for words, wanted in ((("--vary", "x"), "write KEY=V1,V2"), (("--vary", "hole.diameter=1:2:401"), "401 cells, must be <= 400"),
                             (("--vary", "hole.diameter=1", "--vary", "hole.diameter=2"), "each key once"),
                             (("--vary", "hole.diameter=94 mm", "--method", "subset"), "leave --indices and --method subset out")):
-            self.assertIn(told, self.ask("probability", self.scene, *words, status=2))
-        told = self.ask("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
-        self.assertIn("drillmbd probability", told)
-        self.assertIn("--vary 'hole.diameter=94 mm'", told)
+            self.assertIn(wanted, self.ask("probability", self.scene, *words, status=2))
+        said = self.ask("sweep", self.scene, "probability", "--vary", "hole.diameter=94 mm", status=2)
+        self.assertIn("drillmbd probability", said)
+        self.assertIn("--vary 'hole.diameter=94 mm'", said)
 
 
 class AutoTest(FolderTest):

@@ -300,13 +300,13 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(self.speeds(bands=[(200.0 * rpm, 25.0)])[0].avoid(), "200 rpm and more")
 
     def test_demand(self):
-        def told(limit, value, failed=()):
+        def verdict_of(limit, value, failed=()):
             demand = verdict.Demand("x", "N", limit, failed=list(failed))
             if value is not None:
                 demand.add(value, "s")
             return demand.tile().verdict
-        self.assertEqual([told(10.0, 5.0), told(10.0, 9.0), told(10.0, 11.0)], ["OK", "NEAR LIMIT", "OVER"])
-        self.assertEqual([told(None, 5.0), told(10.0, None), told(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
+        self.assertEqual([verdict_of(10.0, 5.0), verdict_of(10.0, 9.0), verdict_of(10.0, 11.0)], ["OK", "NEAR LIMIT", "OVER"])
+        self.assertEqual([verdict_of(None, 5.0), verdict_of(10.0, None), verdict_of(10.0, 5.0, ["a"])], ["NO LIMIT GIVEN", "NOT COMPUTED", "NOT ASSESSED"])
 
     def study(self, text, **more):
         made = report.Study(scene.loads(text), results.CommandOutput(None, "x.toml", scene.loads(text), "report", True))
@@ -362,11 +362,11 @@ class VerdictTest(unittest.TestCase):
             def __exit__(self, *_):
                 pass
 
-        def told(factors, confirmed=1):
+        def verdict_of(factors, confirmed=1):
             made = unittest.mock.MagicMock()
             made.new_sim().__enter__().buckling.return_value = Found(factors, confirmed)
             return report_linear.buckling_tile(made, lambda sim: None, unittest.mock.MagicMock()).verdict
-        self.assertEqual([told([2.0]), told([1.2]), told([0.9]), told([2.0], 0), told([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
+        self.assertEqual([verdict_of([2.0]), verdict_of([1.2]), verdict_of([0.9]), verdict_of([2.0], 0), verdict_of([])], ["OK", "NEAR LIMIT", "OVER", "NOT ASSESSED", "NOT ASSESSED"])
 
     def test_rows_for_the_crew(self):
         """Load on the bit and feed are cleared with what they cause only; the page says not to drill where a value is over."""
@@ -597,8 +597,8 @@ document.body.dataset.widest=Math.max(...[...inside.querySelectorAll(".js-plotly
         self.scene = self.write("rig.toml", SCENE + STUDY)
         self.ask("probability", self.scene, "-o", self.folder / "study", "--engine", "serial", "-q", "--samples", "2")
         other = self.write("other.toml", (SCENE + STUDY).replace('"2 kN"', '"3 kN"'))
-        told = self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
-        self.assertIn("is a study of another scene", told)
+        text = self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "study", status=2)
+        self.assertIn("is a study of another scene", text)
         self.assertIn("no complete study", self.ask("report", other, "-o", self.folder / "x", "--probability", self.folder / "none", status=2))
         before = (self.folder / "study" / "summary.json").read_bytes()
         self.assertIn("give another --output", self.ask("report", self.scene, "-o", self.folder / "study", "--probability", self.folder / "study", status=2))

@@ -472,7 +472,7 @@ class FrictionTableTest(FolderTest):
                 self.assertAlmostEqual(torque(speed, law, TABLE) / expected(mu), 1.0, 4, (law, speed))
 
     def test_refusals(self):
-        for old, new, told in (
+        for old, new, wanted in (
                 (TABLE, TABLE + "mu_static = 0.4\n", "must be left out where there is a friction_table"),
                 (TABLE, TABLE + 'friction_law = "coulomb"\n', "must be stribeck or bristle"),
                 ('["0 m/s", 0.5], ', "", "friction_table_speed[0] = 0.07"),
@@ -483,7 +483,7 @@ class FrictionTableTest(FolderTest):
                 ('[[time_function]]', '[[hole.section]]\ndepth = "2 m"\nmu_static = 0.4\n[[time_function]]', "mu_static")):
             text = self.SCENE.replace(old, new, 1)
             self.assertNotEqual(text, self.SCENE, new)
-            self.assertIn(told, self.ask("check", self.write("wrong.toml", text), status=2))
+            self.assertIn(wanted, self.ask("check", self.write("wrong.toml", text), status=2))
 
     def test_sections_scale_it(self):
         """A section with half the dynamic coefficient has half the static one too."""

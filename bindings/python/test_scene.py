@@ -1,5 +1,5 @@
 """Tests of scene files: units, shipped scenes against the C program and themselves, file to model to file, and bad files:
-each fault told with its line, key and bound, and nothing but SceneError whatever the bytes."""
+each fault reported with its line, key and bound, and nothing but SceneError whatever the bytes."""
 import json
 import math
 import os
@@ -711,10 +711,10 @@ motor = {flow = "1200 l/min", table_flow = "1800 l/min", table = [["0 rpm", "900
         again = scene.loads(scene.saves(found))
         self.assertTrue(again.same_as(found))
         self.assertEqual(after_run(again), after_run(found))
-        for wrong, told in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"), ("table_flow", "flux"),
+        for wrong, wanted in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"), ("table_flow", "flux"),
                             ('"bearing"\nmotor', '"bearing"\ngain = 1\nmotor'), ('["90 rpm", "700 N m"]', '["200 rpm", "700 N m"]')):
             with self.assertRaisesRegex(scene.SceneError, "motor|gain"):
-                scene.loads(text.replace(wrong, told))
+                scene.loads(text.replace(wrong, wanted))
 
     def test_names_go_to_the_library(self):
         text = """[[string]]
@@ -875,13 +875,13 @@ class BadFilesTest(unittest.TestCase):
         text = ('[[time_function]]\nname = "load"\nsegment = {h0 = "2 kN"}\n[hole]\ndiameter = "94 mm"\n[[string]]\n[[string.pipes]]\ncount = 2\n'
                 '[[bit]]\nload = "load"\n')
         mbd.scene.loads(text)
-        for old, new, told in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]), ('load = "load"', 'load = "lead"', ["bit[0].load"]),
+        for old, new, wanted in (("[[bit]]", "[[bitt]]", ["bitt: unknown key"]), ('load = "load"', 'load = "lead"', ["bit[0].load"]),
                                ('[[bit]]\nload = "load"\n', "", ["is used by no drive, load or bit"]),
                                ('diameter = "94 mm"', 'diameter = "20 mm"', ["string[0]: pipes of string 0: outer_diameter"])):
             with self.assertRaises(mbd.scene.SceneError) as caught:
                 mbd.scene.loads(text.replace(old, new))
-            self.assertEqual(len(caught.exception.problems), len(told), str(caught.exception))
-            for part in told:
+            self.assertEqual(len(caught.exception.problems), len(wanted), str(caught.exception))
+            for part in wanted:
                 self.assertIn(part, str(caught.exception))
 
     def test_name_that_is_none(self):
@@ -922,7 +922,7 @@ class BadFilesTest(unittest.TestCase):
                 scene.load(pathlib.Path(folder, "none.toml"))
 
     def test_surveys(self):
-        def told(name_or_rows, csv=None):
+        def reported(name_or_rows, csv=None):
             with tempfile.TemporaryDirectory() as folder:
                 if csv is not None:
                     pathlib.Path(folder, "s.csv").write_text(csv, encoding="utf-8")
@@ -931,17 +931,17 @@ class BadFilesTest(unittest.TestCase):
 
         heads = "depth [m], inclination [deg], azimuth [deg]\n"
         good = heads + "0, 90, 0\n30, 95, 1\n"
-        self.assertEqual(told('survey_file = "s.csv"', good), "")
+        self.assertEqual(reported('survey_file = "s.csv"', good), "")
         feet = "Measured depth [ft],Inclination [rad],Azimuth [deg]\n0,1.5,0\n99,1.6,0\n"
-        self.assertEqual(told('survey_file = "s.csv"', feet), "")
+        self.assertEqual(reported('survey_file = "s.csv"', feet), "")
         for csv, part in ((None, "could not be read"), ("", "is empty"), (heads, "at least two stations"),
                           (heads + "0, ninety, 0\n30, 95, 1\n", 'line 2, column 2 (inclination [deg]) = "ninety"'),
                           (heads + "0, 90\n30, 95, 1\n", "azimuth is empty"), ("depth [kg], i [deg], a [deg]\n", "heads"),
                           (heads + "30, 90, 0\n0, 95, 1\n", "must"), (heads + "0, 900, 0\n30, 95, 1\n", "must")):
-            self.assertIn(part, told('survey_file = "s.csv"', csv), csv)
-        self.assertIn("at least two rows", told("survey = []"))
-        self.assertIn("must be a row", told('survey = [["0 m"], ["1 m", "1 rad", "0 rad"]]'))
-        self.assertIn("must be a length", told('survey = [["x", "1 rad", "0 rad"], ["1 m", "1 rad", "0 rad"]]'))
+            self.assertIn(part, reported('survey_file = "s.csv"', csv), csv)
+        self.assertIn("at least two rows", reported("survey = []"))
+        self.assertIn("must be a row", reported('survey = [["0 m"], ["1 m", "1 rad", "0 rad"]]'))
+        self.assertIn("must be a length", reported('survey = [["x", "1 rad", "0 rad"], ["1 m", "1 rad", "0 rad"]]'))
 
     def test_files_cut_at_every_line(self):
         for text in [path.read_text(encoding="utf-8") for path in SCENES] + [EVERYTHING]:
@@ -956,9 +956,9 @@ class BadFilesTest(unittest.TestCase):
             key = row.split("=")[0].strip()
             if "=" in row and key not in ("title", "segment"):
                 wrong = "\n".join(rows[:number] + [row.replace(key, key + "x", 1)] + rows[number + 1:])
-                told = [one for one in problems(wrong) if "unknown key" in one.text]
-                self.assertEqual([one.line for one in told], [number + 1], row)
-                self.assertIn(f"did you mean {key}?", str(told[0]))
+                said = [one for one in problems(wrong) if "unknown key" in one.text]
+                self.assertEqual([one.line for one in said], [number + 1], row)
+                self.assertIn(f"did you mean {key}?", str(said[0]))
 
     def test_values_of_other_types(self):
         """Every value replaced by every kind of value: SceneError or a scene, nothing else."""

@@ -109,9 +109,9 @@ class DamageTest(FolderTest):
         data = file.read_bytes()
         at = data.rindex(b"drillmbd study", 0, 100) if data.rfind(b"drillmbd study", 0, 100) >= 0 else 0
         file.write_bytes(data[:at] + b"X" + data[at + 1:])
-        told = self.ask("probability", *words, status=2)
-        self.assertIn("is damaged", told)
-        self.assertIn("4 sound rows can be recovered", told)
+        out = self.ask("probability", *words, status=2)
+        self.assertIn("is damaged", out)
+        self.assertIn("4 sound rows can be recovered", out)
         self.assertIn("4 samples are in", self.ask("probability", *words, "--salvage"))
 
 

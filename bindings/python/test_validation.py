@@ -91,8 +91,8 @@ class StudyTest(unittest.TestCase):
         self.assertEqual([row.number for row in table], list(range(1, len(table) + 1)))
         names = {"CONFIRMED": "confirmed", "CONFIRMED IF": "confirmed if", "NOT CONFIRMED": "not confirmed",
                  "CANNOT BE DECIDED": "cannot be decided"}
-        told = ", ".join(f"{sum(row.verdict == verdict for row in table)} {name}" for verdict, name in names.items())
-        self.assertEqual(counts, told)
+        said = ", ".join(f"{sum(row.verdict == verdict for row in table)} {name}" for verdict, name in names.items())
+        self.assertEqual(counts, said)
         self.assertGreater(len(assumptions), 5)
         for row in table:
             self.assertTrue(row.where and row.words and row.here and row.reason, row)

@@ -298,7 +298,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
     options = asked.parse_args(words[:cut])
     if "" in (getattr(options, "output", None), getattr(options, "scene", None)):
-        return _tell(2, "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave --output out")
+        return _fail(2, "drillmbd: the name of a file or folder is empty; give --output or the scene file, or leave --output out")
     options.more = words[cut + 1:]  # options of the question that a sweep asks
     try:
         from ._progress import INTERRUPTS
@@ -329,10 +329,10 @@ def _guarded(ask: Callable[[], int]) -> int:
         found = exit_status.status_and_message(error)
         if found is None:
             raise
-        return _tell(*found)
+        return _fail(*found)
 
 
-def _tell(status: int, text: str) -> int:
+def _fail(status: int, text: str) -> int:
     print(text, file=sys.stderr)
     return status
 

@@ -8,7 +8,7 @@ from typing import Any
 from . import rotating, station
 from ._optional import need
 from ._progress import INTERRUPTS
-from .results import CommandOutput, count_fatigue, file_name, note_bounces, note_steps, record, tell_fatigue
+from .results import CommandOutput, count_fatigue, file_name, note_bounces, note_steps, record, report_fatigue
 from .enums import Status
 from .errors import Usage
 from .language import Phrase
@@ -148,7 +148,7 @@ def run(scene: Scene, out: CommandOutput, options: Any) -> int:
         course = Course(scene, sim, out, state, end, step)
         course.take_up(parts)
         stopped = course.go(recorder, [*counters.values(), *quality.values()])
-        tell_fatigue(counters, out)
+        report_fatigue(counters, out)
         if first is not None and sim.statistics().steps:
             energy_error(sim, out, first, not stopped)
         if turning is not None:

@@ -383,9 +383,9 @@ def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
         return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true",
                 "canSerializeFMUstate": "true", "providesDirectionalDerivative": "true",
                 "canNotUseMemoryManagementFunctions": "true"}
-    told = "true" if scene.model.events() else "false"
+    has_events = "true" if scene.model.events() else "false"
     return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true",
-            "providesDirectionalDerivatives": "true", "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
+            "providesDirectionalDerivatives": "true", "hasEventMode": has_events, "mightReturnEarlyFromDoStep": has_events}
 
 
 def description(scene: Scene, version: int, identifier: str, token: str, found: list[Variable],

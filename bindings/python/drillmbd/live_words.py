@@ -6,7 +6,7 @@ import re
 
 from .language import Language, phrase
 
-#: Of bindings/web/live/page.html, in [[ ]]. A field stands for a value that the script fills in.
+#: Of bindings/web/live/page.html, in [[ ]]. The script replaces each field by a value.
 PAGE = (
     phrase("the string in its hole"), phrase("the string in its hole: arrow keys turn, + and - zoom"), phrase("rig"), phrase("bit"),
     phrase("contact with the wall, 0 to"), phrase("look at"), phrase("Whole"), phrase("Rig"), phrase("Bit"), phrase("To scale"),

@@ -10,7 +10,7 @@ from typing import Any
 from . import __version__, enums, commands
 from ._optional import need
 from ._progress import INTERRUPTS
-from .results import CommandOutput, count_fatigue, finite, note_bounces, note_steps, tell_fatigue
+from .results import CommandOutput, count_fatigue, finite, note_bounces, note_steps, report_fatigue
 from .enums import Status
 from .errors import Error, Usage
 from .fatigue import StringFatigue
@@ -324,7 +324,7 @@ class Study:
         if not counters:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("the scene has no [fatigue] table"), NOT_ASSESSED))
             return
-        found, counter = tell_fatigue(counters, self.out)[self.string], counters[self.string]
+        found, counter = report_fatigue(counters, self.out)[self.string], counters[self.string]
         pipe = counter.pipes[counter.worst]
         if found.largest_range <= 0.0:
             self.tiles.append(Tile(title, phrase("not assessed"), phrase("no stress cycle in this run"), NOT_ASSESSED))

@@ -18,7 +18,7 @@ from .verdict import NEAR, NEAR_SHARE, NOT_ASSESSED, OK, OVER, Tile
 
 NEAR_BAND = 0.1  #: of the rotation: a critical band so near is "near"
 SAME = 1e-3      #: of a speed: closer ones are equal
-TO_TELL = 4      #: bands in a tile
+MOST_BANDS = 4      #: bands in a tile
 
 
 @dataclass
@@ -43,9 +43,9 @@ class Speeds:
 
     def avoid(self) -> str:
         """The bands in words."""
-        found = [self._band(band) for band in self.bands[:TO_TELL]]
-        if len(self.bands) > TO_TELL:
-            found.append(phrase("{count} more bands", count=len(self.bands) - TO_TELL))
+        found = [self._band(band) for band in self.bands[:MOST_BANDS]]
+        if len(self.bands) > MOST_BANDS:
+            found.append(phrase("{count} more bands", count=len(self.bands) - MOST_BANDS))
         return joined(", ", found)
 
     def notes(self) -> list[str]:

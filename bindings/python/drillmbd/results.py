@@ -207,7 +207,7 @@ def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
     return {name: sim.string_fatigue(scene.names[name], pipes, **scene.effective("fatigue")) for name, pipes in scene.pipes.items()}
 
 
-def tell_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> dict[str, FatigueResult]:
+def report_fatigue(counters: dict[str, StringFatigue], out: CommandOutput) -> dict[str, FatigueResult]:
     """The worst pipe of each string."""
     worst = {}
     for name, one in counters.items():

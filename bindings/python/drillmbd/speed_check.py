@@ -149,7 +149,7 @@ def check(scene: Scene, out: CommandOutput, found: Found, count: int) -> None:
     out.say(f"limits: torque swings where half its range exceeds {SWING:g} of its mean; lateral acceleration where its root mean square, the largest "
                f"of {len(places_of(scene))} places, exceeds {out.units.text(GRAVITY, 'm/s2', '.3g')}, with which weight no longer holds the string on the "
                f"wall. {elapsed:.0f} s by the clock")
-    _tell(results, found, out, elapsed)
+    _report(results, found, out, elapsed)
 
 
 def _courses(scene: Scene, found: Found, count: int, turning: int) -> list[Course]:
@@ -214,7 +214,7 @@ def _line(one: Result, linear: str, out: CommandOutput) -> str:
             f"{units.text(one.acceleration, 'm/s2', '.3g')}")
 
 
-def _tell(results: list[Result], found: Found, out: CommandOutput, elapsed: float) -> None:
+def _report(results: list[Result], found: Found, out: CommandOutput, elapsed: float) -> None:
     rows = [(one.speed / RPM, _linear(found, one.speed), one.verdict, one.torque, one.swing, one.acceleration) for one in results]
     marked = [one for one in results if one.verdict not in (STEADY, FAILED)]
     failed = [one for one in results if one.error]

@@ -62,10 +62,10 @@ class Live {
             say(word("The computation stopped: {reason}. Reload the page.", { reason: event.message }));
         };
         byId("clock").textContent = this.record.static ? word("computing the static equilibrium ...") : word("starting ...");
-        this.tell("load", { sources: await sources(), record: this.record, memory: 2 ** 20 * Number(/memory=(\d+)/.exec(location.hash)?.[1] ?? 1024) });
+        this.post("load", { sources: await sources(), record: this.record, memory: 2 ** 20 * Number(/memory=(\d+)/.exec(location.hash)?.[1] ?? 1024) });
     }
 
-    tell(type, more = {}) {
+    post(type, more = {}) {
         this.worker?.postMessage({ type, ...more });
     }
 
@@ -153,7 +153,7 @@ class Live {
         this.view.draw();
         let at = 0;
         for (const trace of this.traces) {
-            trace.tell(this.last.values.slice(at));
+            trace.show(this.last.values.slice(at));
             at += trace.trace.lines.length;
             trace.draw();
         }
@@ -195,12 +195,12 @@ class Live {
 
     buttons() {
         byId("go").onclick = () => this.go();
-        byId("step").onclick = () => this.tell("step");
-        byId("reset").onclick = () => this.tell("reset");
-        byId("keep").onclick = () => this.tell("keep");
-        byId("restore").onclick = () => this.tell("restore");
-        byId("save").onclick = () => this.tell("log");
-        byId("speed").onchange = ({ target }) => this.tell("speed", { value: Number(target.value) });
+        byId("step").onclick = () => this.post("step");
+        byId("reset").onclick = () => this.post("reset");
+        byId("keep").onclick = () => this.post("keep");
+        byId("restore").onclick = () => this.post("restore");
+        byId("save").onclick = () => this.post("log");
+        byId("speed").onchange = ({ target }) => this.post("speed", { value: Number(target.value) });
         for (const button of document.querySelectorAll("[data-look]"))
             button.onclick = () => {
                 if (!this.view.line) return;
@@ -223,18 +223,18 @@ class Live {
     go(until) {
         if (!this.ready) return;
         if (this.running) {
-            this.tell("stop");
+            this.post("stop");
         } else {
             say("");
             this.setRunning(true);
-            this.tell("run", { until });
+            this.post("run", { until });
         }
     }
 
     /** A slider for each input, and one for the diameter of the hole, which needs the scene from its beginning. */
     sliders() {
         this.inputs = this.record.controls.map((control, number) => {
-            const made = this.slider(control, (value) => this.tell("set", { number, value: value / control.factor }));
+            const made = this.slider(control, (value) => this.post("set", { number, value: value / control.factor }));
             made.changed = false;
             return made;
         });
@@ -243,7 +243,7 @@ class Live {
         const control = { title: word("Hole diameter"), unit: "mm", low: 1000 * diameters[0], high: 1000 * diameters[1], note: word("restarts the run") };
         this.hole = this.slider(control, () => {}, (value) => {
             byId("clock").textContent = word("building the model again ...");
-            this.tell("rebuild", { diameter: value / 1000 });
+            this.post("rebuild", { diameter: value / 1000 });
         });
     }
 
@@ -279,7 +279,7 @@ class Live {
     }
 
     keys() {
-        const keys = { " ": () => this.go(), s: () => this.tell("step"), r: () => this.tell("reset"), k: () => this.tell("keep"), l: () => this.last?.kept !== null && this.tell("restore"),
+        const keys = { " ": () => this.go(), s: () => this.post("step"), r: () => this.post("reset"), k: () => this.post("keep"), l: () => this.last?.kept !== null && this.post("restore"),
                        "+": () => this.zoom(0.8), "=": () => this.zoom(0.8), "-": () => this.zoom(1.25) };
         const arrows = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
         addEventListener("keydown", (event) => {

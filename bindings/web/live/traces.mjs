@@ -40,7 +40,7 @@ export class Trace {
         return found.sort((a, b) => b.share - a.share)[0];
     }
 
-    tell(values) {
+    show(values) {
         const value = values[0] * this.trace.factor, near = this.nearest(value), over = near && near.share > 1;
         this.place.querySelector("b").textContent = `${shown(value)} ${this.trace.unit}`;
         this.place.querySelector("span").textContent = !near ? "" : over ? word("OVER {limit}", { limit: near.text }) : word("{share} % of {limit}", { share: (100 * near.share).toFixed(0), limit: near.text });

@@ -38,13 +38,13 @@ export class Camera {
 }
 
 export class View {
-    constructor(place, told) {
+    constructor(place, report) {
         Object.assign(this, { place, camera: new Camera(), exaggeration: 1, force: 1 });
         this.canvas = place.querySelector("canvas");
         this.gl = this.begin3();
         if (!this.gl) {
             this.pen = this.canvas.getContext("2d");
-            told(word("This browser has no WebGL: the string is drawn as lines."));
+            report(word("This browser has no WebGL: the string is drawn as lines."));
         }
         this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
         this.canvas.addEventListener("webglcontextrestored", () => this.setUp(this.gl));

@@ -9,7 +9,7 @@ const browser = await Browser.start();
 for (const [name, size, more] of [["desktop", [1400, 900, 1, false]], ["phone", [390, 844, 2, true]], ["bit", [1400, 900, 1, false], "bit"], ["flat", [1400, 900, 1, false]]]) {
     const page = await browser.open(pathToFileURL(resolve(file)) + (name === "flat" ? "#2d" : ""), { size });
     await page.until("window.live?.ready", 60);
-    await page.ask("live.tell('speed', {value: 1e9})");
+    await page.ask("live.post('speed', {value: 1e9})");
     await page.ask(`(async () => { const end = live.next(); live.go(${seconds}); await end; })()`);
     if (more) await page.ask(`document.querySelector('[data-look=${more}]').click()`);
     await page.ask("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))");

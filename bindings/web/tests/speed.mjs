@@ -9,15 +9,15 @@ const BEGIN = 1, LENGTH = 0.1, REPEATS = 40; // [s] of the part of the run that 
 
 /** Simulated over clock time, pictures included, of the fastest repetition: of so short a part one is not disturbed by what else runs here. */
 async function factor(page) {
-    await page.ask("live.tell('speed', {value: 1e9})");
+    await page.ask("live.post('speed', {value: 1e9})");
     return page.ask(`(async () => {
         const to = async (time) => { let end = live.next(); live.go(time); while ((await end).time < time - 1e-9) end = live.next(); };
         await to(${BEGIN});
-        live.tell("keep");
+        live.post("keep");
         let least = Infinity;
         for (let k = 0; k < ${REPEATS}; k++) {
             const restored = live.next();
-            live.tell("restore");
+            live.post("restore");
             await restored;
             const began = performance.now();
             await to(${BEGIN + LENGTH});

@@ -26,7 +26,7 @@ async function ready(options = {}, address = url) {
 
 /** Runs a ready page to a time, as fast as it goes; the last frame. */
 async function runTo(page, time) {
-    await page.ask("live.tell('speed', {value: 1e9})");
+    await page.ask("live.post('speed', {value: 1e9})");
     return page.ask(`(async () => { let end = live.next(), found; live.go(${time});
         while (!(found = await end).failed && found.time < ${time} - 1e-9) end = live.next(); // pictures of before the run may come first
         const {base, offset, turn, force, ...last} = found; return last; })()`);
@@ -99,7 +99,7 @@ test("keys run, stop, step, keep, restore and reset", async () => {
 
 test("the page never waits for the computation", async () => {
     const page = await ready();
-    await page.ask("live.tell('speed', {value: 1e9})");
+    await page.ask("live.post('speed', {value: 1e9})");
     await page.ask("live.go()");
     // Half of the frames come within 500 ms, on a machine of two busy cores without graphics too.
     const gaps = await page.ask(`new Promise((resolve) => { let before = performance.now(); const gaps = [];
@@ -132,9 +132,9 @@ test("another diameter of the hole begins the scene anew; one that the string do
     const page = await ready();
     await runTo(page, 0.1);
     const diameter = await page.ask("live.diameter");
-    await page.ask(`live.tell("rebuild", {diameter: ${1.2 * diameter}})`);
+    await page.ask(`live.post("rebuild", {diameter: ${1.2 * diameter}})`);
     await page.until(`live.diameter > ${1.1 * diameter} && live.last.time === 0`);
-    await page.ask("live.tell('rebuild', {diameter: 0.01})");
+    await page.ask("live.post('rebuild', {diameter: 0.01})");
     await page.until("document.getElementById('message').hidden === false");
     assert.match(await page.ask("document.getElementById('message').textContent"), /could not start.*\n.*continues/s);
     const last = await runTo(page, 0.1);
@@ -146,7 +146,7 @@ test("a step that fails is said in the page, and the state before it is kept", a
     const page = await ready();
     await runTo(page, 0.1);
     const hash = await page.ask("live.last.hash");
-    await page.ask("live.tell('set', {number: 0, value: 1e30})");
+    await page.ask("live.post('set', {number: 0, value: 1e30})");
     await page.until("/Failed at 0.100 s/.test(document.getElementById('message').textContent)");
     assert.match(await page.ask("document.getElementById('message').textContent"), /must be.*\n.*state is kept/s);
     assert.ok(hash);

@@ -22,7 +22,7 @@ for (const [name, size] of [["a desktop", [1280, 900, 1, false]], ["a phone", [3
         await page.ask("document.getElementById('start').click()");
         await page.until(`${INSIDE}?.ready && ${INSIDE}.frames > 0`, 60);
         assert.equal(await page.ask("document.getElementById('start').hidden"), true);
-        const last = await page.ask(`(async () => { const { live } = document.getElementById('live').contentWindow; live.tell("speed", { value: 1e9 });
+        const last = await page.ask(`(async () => { const { live } = document.getElementById('live').contentWindow; live.post("speed", { value: 1e9 });
             let end = live.next(), found; live.go(${expected.time}); while (!(found = await end).failed && found.time < ${expected.time} - 1e-9) end = live.next();
             return { time: found.time, hash: found.hash, failed: found.failed }; })()`);
         assert.deepEqual(last, { time: last.time, hash: expected.hash });

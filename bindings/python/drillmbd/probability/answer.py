@@ -106,7 +106,7 @@ class Answer:
         self.question = self.sample.question
         self.limit = self.sample.names.index(self.options.failure) if self.options.failure else 0
         self.scales = None if self.options.failure else asked.scales()
-        self.started = self.told = clock.monotonic()
+        self.started = self.shown = clock.monotonic()
         self.estimates: dict[str, Estimate] = {}
         self.demands: dict[str, Demand] = {}
         self.failing: dict[int, bool] = {}  # whether any failure occurs, or that of --failure, by the number of a sample with all of its margins
@@ -148,16 +148,17 @@ class Answer:
 
     def _progress(self, at: Progress) -> None:
         now = clock.monotonic()
-        if now - self.told < 1.0 and at.done < at.asked:
+        if now - self.shown < 1.0 and at.done < at.asked:
             return
-        self.told = now
+        self.shown = now
         if sys.stderr.isatty():
             print(f"\r{at.done}/{at.asked} samples, {at.lost} without a margin, {now - self.started:.0f} s", end="", file=sys.stderr)
 
-    def tell(self, name: str, one: Estimate) -> None:
+    def report(self, name: str, one: Estimate) -> None:
         """An estimate."""
         lost = f", {one.lost} samples without a margin" if one.lost else ""
-        self.output.say(f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
+        self.output.say(f"{name}: not assessed, because none of {one.samples} samples has a margin" if one.lost == one.samples else
+                        f"{name}: {one.probability:.4g}, {100 * one.confidence:g} % interval {one.low:.4g} .. {one.high:.4g} "
                         f"({one.failures} of {one.samples}{lost}; {one.about})")
         one.more.setdefault("effective_samples", float(one.samples - one.lost) if one.method == "monte-carlo" else
                             effective(one.probability, one.low, one.high, one.confidence))
@@ -173,9 +174,9 @@ class Answer:
         results = self._until(study, points) if asked.rule is not None else study.run(range(points.samples), points.z)
         margins = numpy.array([one.margins for one in results])
         for i, name in enumerate(self.sample.names):
-            self.tell(name, asked.counted(margins[:, i], points.replicates))
+            self.report(name, asked.counted(margins[:, i], points.replicates))
         least = (margins / numpy.array(asked.scales())).min(axis=1)
-        self.tell(ANY, asked.counted(least, points.replicates))
+        self.report(ANY, asked.counted(least, points.replicates))
         if asked.rule is not None:
             self.output.say(f"--until {self.options.until}: {self.asked.of}: {asked.rule.verdict(self.estimates[asked.of])}, after {len(results)} samples")
         self.say_demands(results)
@@ -220,8 +221,8 @@ class Answer:
             self.output.say(f"{found.failure.name}: rank correlations are not assessed, because the demand is the same in all samples or there are "
                             "fewer than 10")
             return
-        told = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of the uncertain parameters"
-        self.output.say(f"{found.failure.name}: goes with {told} (rank correlation; chance alone makes {found.matters[0].least:.2f})")
+        names = ", ".join(f"{one.name} {one.rank:+.2f}" for one in counting[:4]) or "none of the uncertain parameters"
+        self.output.say(f"{found.failure.name}: goes with {names} (rank correlation; chance alone makes {found.matters[0].least:.2f})")
 
     def _surrogate(self, z: Any, margins: Any) -> None:
         """The estimate by a polynomial; a reason where the samples allow none."""
@@ -234,14 +235,14 @@ class Answer:
         except ValueError as error:
             self.output.note_text(f"surrogate: not assessed, because of {error}" + ("; compute more samples" if "must be" in str(error) else ""))
             return
-        self.tell(f"{self.asked.of}, by a surrogate", found.estimate(self.asked.seed, confidence=self.asked.confidence))
+        self.report(f"{self.asked.of}, by a surrogate", found.estimate(self.asked.seed, confidence=self.asked.confidence))
         self.output.say(f"the surrogate: q2 = {found.q2:.4g}, root mean square error {found.error:.4g}, {found.wrong} of "
                         f"{found.tested} margins with the wrong sign")
 
     def _subset(self, study: Study) -> None:
         asked = self.asked
         made = Subset(asked.seed, self.sample.dimension, max(20, asked.samples // asked.replicates), asked.replicates)
-        self.tell(asked.of, made.run(study.evaluate(self.limit, self.scales), asked.confidence))
+        self.report(asked.of, made.run(study.evaluate(self.limit, self.scales), asked.confidence))
 
     def _indices(self, study: Study) -> None:
         draw = self.sample.draw

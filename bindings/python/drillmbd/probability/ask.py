@@ -55,7 +55,7 @@ def probability(options: argparse.Namespace) -> int:
     if options.seed is not None and not 0 <= options.seed < 2 ** 63:
         raise Usage(f"--seed {options.seed}: must be 0 .. 2^63 - 1")
     path = pathlib.Path(options.scene)
-    known = load(path)  # SceneError tells what is wrong
+    known = load(path)  # SceneError names each fault
     if known.variability is None or not known.failures:
         missing = " and ".join(name for name, there in (("[variability]", known.variability), ("[[failure]]", known.failures)) if not there)
         raise Usage(f"{path} has no {missing}. A scene of `drillmbd new` has them as commented lines at its end: take the # away there, or add lines, for example:\n\n" + LEAST)

@@ -129,16 +129,16 @@ class Auto(Answer):
             found[one.number] = one.margins
         for i, name in enumerate(self.sample.names):
             soft = margins[:, self.quick.names.index(name)] if name in self.quick.names else numpy.full(asked.samples, math.inf)
-            self._tell(name, soft, near, found[:, i], len(run))
-        self._tell(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
+            self._report_stages(name, soft, near, found[:, i], len(run))
+        self._report_stages(ANY, least, near, (found / numpy.array(asked.scales())).min(axis=1), len(run))
         self._compare(margins, found, scale)
         self.table(results)
 
-    def _tell(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
+    def _report_stages(self, name: str, soft: Any, near: Any, found: Any, run: int) -> None:
         numpy = need("numpy")
         ran = ~numpy.isnan(found)
         stage = Stage(soft <= 0.0, near, ran, ran & (numpy.nan_to_num(found, nan=1.0) <= 0.0), run - int(ran.sum()), part_of(self.asked.samples))
-        self.tell(name, stage.estimate(self.asked.confidence))
+        self.report(name, stage.estimate(self.asked.confidence))
 
     def _compare(self, margins: Any, found: Any, scale: dict[str, float]) -> None:
         """Differences between torque and drag and the runs, over the limit."""

@@ -131,10 +131,10 @@ class Map:
 
     def _say(self, number: int, cell: Cell) -> None:
         one = cell.estimates.get(self.options.failure or ANY)
-        told = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})" if one else "no estimate")
-        told += "".join(f", P{demand.worst.percent} of {name} {amount(demand.worst.value, KINDS[demand.failure.kind].unit)}"
+        text = cell.message or (f"{self.options.failure or ANY} {one.probability:.4g} ({one.low:.4g} .. {one.high:.4g})" if one else "no estimate")
+        text += "".join(f", P{demand.worst.percent} of {name} {amount(demand.worst.value, KINDS[demand.failure.kind].unit)}"
                         for name, demand in cell.demands.items())
-        self.output.say(f"cell {number}: {cell.words}: {told}")
+        self.output.say(f"cell {number}: {cell.words}: {text}")
 
     # ---- The map -----------------------------------------------------------------------------------------------------
     def _write(self) -> None:

@@ -70,7 +70,7 @@ def counted(margins: Any, method: str = "monte-carlo", replicates: int = 1, conf
     if replicates > 1 and samples % replicates == 0 and failures + lost < samples and failures > 0:
         each = numpy.where(known, margins <= 0.0, False).reshape(replicates, -1).mean(axis=1)
         most = numpy.where(known, margins <= 0.0, True).reshape(replicates, -1).mean(axis=1)
-        if numpy.count_nonzero(each) == replicates:  # each design saw failures; else its scatter tells too little
+        if numpy.count_nonzero(each) == replicates:  # each design saw failures; else its scatter is no estimate
             # Counts are whole: designs may agree and all miss a part f of a sample; each sees it with the probability f.
             whole = clopper_pearson(0, replicates, confidence)[1] / (samples // replicates)
             low, high = max(0.0, students(each, confidence)[1] - whole), min(1.0, students(most, confidence)[2] + whole)
@@ -114,7 +114,7 @@ class Subset:
         margins = numpy.asarray(evaluate(numbers, z), dtype=float)
         self.evaluated += len(numbers)
         self.lost += int(numpy.isnan(margins).sum())
-        return numpy.where(numpy.isnan(margins), numpy.inf, margins)  # counted as safe, and told
+        return numpy.where(numpy.isnan(margins), numpy.inf, margins)  # counted as safe; `lost` has their number
 
     def run(self, evaluate: Evaluate, confidence: float = 0.95) -> Estimate:
         """The estimate."""
@@ -304,7 +304,7 @@ def sobol_indices(evaluate: Evaluate, groups: dict[str, int], count: int, seed: 
 
 
 # ---- Surrogate ---------------------------------------------------------------------------------------------------------
-LEAST_Q2 = 0.6  #: of a surrogate that an interval is told of
+LEAST_Q2 = 0.6  #: of a surrogate whose interval is reported
 
 
 MOST_TERMS, ALL_TERMS = 300, 2000  #: polynomials above degree 1, and in all

@@ -19,7 +19,7 @@ from ..sim import Sim
 if TYPE_CHECKING:
     from ..scene import Scene
 
-#: Signals are named (part, quantity, what of it): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min" over it.
+#: Signals are named (part, quantity, extreme): of a part by OUTPUT_... "", of a string by PROFILE_... "max" or "min" over it.
 COURSE = 100  #: stretches between the depths at which courses are compared
 STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
 
@@ -148,7 +148,7 @@ class Course:
 class How:
     """The functions that find the demand of a kind from series in time or from torque and drag, and the outputs that the series are of."""
     demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
-    signals: dict[str, tuple[str, int, str]]  #: part, quantity, what of it
+    signals: dict[str, tuple[str, int, str]]  #: part, quantity, extreme: "", "max", "min" or "damage"
     soft: Callable[[Soft, dict[str, float]], float] | None = None
 
 

@@ -278,7 +278,7 @@ class SceneSample:
         outputs = {output: table[:, 1 + i] for i, (output, _, _) in enumerate(scene.outputs)} if recorder is not None else {}
         try:
             found = float(function(OwnLook(scene, sim, values, numpy.array(watch.times), outputs)))
-        except Exception as error:  # anything may be wrong with it; the sample is told as failed
+        except Exception as error:  # anything may be wrong with it; the sample is reported as failed
             raise ValueError(f"{name}: {type(error).__name__}: {error}") from error
         if math.isnan(found):
             raise ValueError(f"{name}: the margin is not a number")

@@ -81,20 +81,20 @@ def identity(sample: Sample, settings: dict[str, Any]) -> dict[str, str]:
 
 def differences(old: dict[str, str], new: dict[str, str]) -> list[str]:
     """The differences, a line each; of texts the first lines that differ."""
-    told = []
+    found = []
     for key in sorted(set(old) | set(new)):
         a, b = old.get(key), new.get(key)
         if a == b:
             continue
         if a is None or b is None:
-            told.append(f"{key}: only in {'this run' if a is None else 'the file'}")
+            found.append(f"{key}: only in {'this run' if a is None else 'the file'}")
             continue
         first, second = a.splitlines(), b.splitlines()
         blocks = difflib.SequenceMatcher(None, first, second, autojunk=False).get_opcodes()
         _, i1, i2, j1, j2 = next((one for one in blocks if one[0] != "equal"), ("", 0, 0, 0, 0))
         of = ["; ".join(lines) or "(nothing)" for lines in (first[i1:i2], second[j1:j2])]
-        told.append(f"{key}: {of[0]!r} in the file, {of[1]!r} now")
-    return told
+        found.append(f"{key}: {of[0]!r} in the file, {of[1]!r} now")
+    return found
 
 
 # ---- The file ----------------------------------------------------------------------------------------------------------

@@ -46,7 +46,7 @@ class Found:
     values: dict[str, Any]
     about: str
     source: str = ""
-    lacks: dict[str, str] = field(default_factory=dict)  #: keys that the name does not tell: what follows if the file does not give them
+    lacks: dict[str, str] = field(default_factory=dict)  #: keys that the name does not give: the consequence if the file does not give them either
 
     def text(self, given: Iterable[str] = ()) -> str:
         """The sentence for a scene file that gives these keys itself."""
@@ -67,7 +67,7 @@ def _known(kind: str) -> dict[str, str]:
 # ---- Names -----------------------------------------------------------------------------------------------------------
 _NUMBER = r"\d+(?:[.,]\d+)?"
 _WORDS = re.compile(rf"(\d+)[\s-]+(\d+)/(\d+)|(\d+)/(\d+)|({_NUMBER})|([^\W\d_]+)")
-_BESIDE = {"in", "inch", "inches", "lb", "lbs", "ft", "ppf", "drill", "pipe", "rod", "rods"}  # words that tell nothing in these names
+_BESIDE = {"in", "inch", "inches", "lb", "lbs", "ft", "ppf", "drill", "pipe", "rod", "rods"}  # words without a meaning in these names
 
 
 @functools.lru_cache(maxsize=2000)

@@ -128,8 +128,8 @@ def remark(field: Field, value: Any, unit: str | None = None) -> str:
     if field.kind != "quantity":
         return ""
     if field.count:
-        told = [units.remark(one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
-        return next((one for one in told if one), "")
+        remarks = [units.remark(one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
+        return next((one for one in remarks if one), "")
     return units.remark(value, (field.unit if unit is None else unit) or "-")
 
 
